@@ -1,0 +1,25 @@
+// Image -> PNG or EXR bytes, made in memory. image_file.cpp is the only user of OpenImageIO.
+#pragma once
+
+#include <string>
+
+#include "core/draw/image.h"
+#include "core/scene/scene.h"
+
+namespace awan {
+
+// 8-bit sRGB after exposure (stops, radiance * 2^stops) and the tone curve of
+// core/shaders/tone.glsl; RGB when image.opaque, else RGBA with straight (not premultiplied) alpha
+// as PNG wants it.
+Result<std::string> encode_png(const Image& image, double exposure_stops);
+
+// Linear radiance, premultiplied alpha, channels R G B A, no tone curve, ZIP compression.
+Result<std::string> encode_exr(const Image& image, Precision precision);
+
+// Exposure in stops for "auto": that of an incident light meter. A white diffuse surface facing the
+// sun under this sky has radiance (sun irradiance + pi * mean sky radiance) / pi; it is brought to
+// kMeteredLevel before the tone curve. Depends on the lights only, so it does not flicker as a
+// camera moves.
+double auto_exposure(const Sun& sun, const Sky& sky);
+
+}  // namespace awan

@@ -1,0 +1,14 @@
+// Scene -> ParticleSet. Pure and seeded: the same scene gives the same bytes on every x86-64
+// machine and for every number of threads; a particle depends on its own cloud and cube only.
+#pragma once
+
+#include "core/deadline.h"
+#include "core/generate/particle_set.h"
+#include "core/scene/scene.h"
+
+namespace awan {
+
+// threads >= 1. Fails only when the deadline is over.
+Result<ParticleSet> generate(const Scene& scene, int threads, const Deadline& deadline);
+
+}  // namespace awan

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace awan {
+
+// Gaussian blobs of extinction: density * exp(-d^2 / (2 s^2)) per unit, s = radius / 2.
+// Structure of arrays, all of one length; clouds and cubes in the document's order.
+struct ParticleSet {
+    std::vector<glm::dvec3> center;  // scene units, double: a cloud may stand 1e9 from the origin
+    std::vector<float> radius;       // scene units, > 0
+    std::vector<float> density;      // peak extinction, 1/unit, >= 0
+    std::vector<glm::vec3>
+        color;  // 0..1, multiplies the albedo; EMPTY when every particle is white
+
+    std::size_t size() const { return center.size(); }
+};
+
+struct Bounds {
+    glm::dvec3 min{0}, max{0};  // both 0 for an empty set
+};
+
+// The box around all centres, each widened by its radius (= 2 s, 95% of a particle's mass lies
+// within).
+Bounds bounds_of(const ParticleSet& particles);
+
+}  // namespace awan

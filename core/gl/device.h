@@ -1,0 +1,40 @@
+// A place to draw: a headless OpenGL 4.5 core context and the programs of both passes, made once.
+// Belongs to the thread that opened it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/result.h"
+
+namespace awan {
+
+struct DeviceInfo {
+    std::string renderer;  // GL_RENDERER, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string version;   // GL_VERSION
+    std::string platform;  // "device" (a GPU) or "surfaceless" (Mesa, software)
+    bool software = true;
+};
+
+enum class DeviceChoice { kAuto, kSoftware };  // kAuto: a GPU if there is one, else Mesa's llvmpipe
+
+class Device {
+  public:
+    // Fails with kNoRenderer and the EGL step and code that failed.
+    static Result<Device> open(DeviceChoice choice);
+    Device(Device&&) noexcept;
+    Device& operator=(Device&&) noexcept;
+    ~Device();
+
+    const DeviceInfo& info() const;
+
+    struct Programs;  // core/gl/programs.h
+    Programs& programs();
+
+  private:
+    struct State;
+    explicit Device(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace awan

@@ -1,0 +1,56 @@
+// Every limit of a scene, in one place: value, unit, reason. Validation quotes these in its
+// messages; server/limits.h has those of the transport (bytes, seconds, connections).
+#pragma once
+
+#include <cstdint>
+
+namespace awan::limits {
+
+// --- how much
+// -------------------------------------------------------------------------------------
+inline constexpr std::uint64_t kMaxParticles =
+    1u << 22;  // in all clouds together: 64 B each in the light pass, 256 MiB
+inline constexpr std::uint64_t kMaxCubes =
+    10'000;  // in all clouds together: a layout is shaped by hand
+inline constexpr std::uint64_t kMaxClouds = 1'000;  // a full sky is a few hundred
+
+// --- lengths, in scene units
+// ------------------------------------------------------------------------ Positions are kept in
+// double and rebased to the cloud before anything becomes float32. 1e9 leaves 1e-7 units of a
+// double, a hundredth of the smallest radius apart from the rounding of the input.
+inline constexpr double kMaxCoordinate = 1e9;
+inline constexpr double kMinLength = 1e-9, kMaxLength = 1e9;  // sides of a cube
+inline constexpr double kMinRadius = 1e-6,
+                        kMaxRadius = 1e6;  // squares and their inverses stay far inside float32
+inline constexpr double kMinScale = 1e-6, kMaxScale = 1e6;  // of a cloud
+
+// --- matter
+// -----------------------------------------------------------------------------------------
+inline constexpr double kMaxDensity =
+    1e6;  // extinction, 1/unit; with kMaxRadius an optical depth of 1e12
+inline constexpr double kMaxAnisotropy =
+    0.999;  // |g|: at 1 the phase function is a delta and has no values
+
+// --- light
+// ------------------------------------------------------------------------------------------
+inline constexpr double kMaxIntensity =
+    1e6;  // irradiance or radiance scale; keeps every pixel finite in half floats' maker, float32
+inline constexpr double kMaxColor = 1e3;      // one component of a colour of light
+inline constexpr double kMaxExposure = 64.0;  // |stops|: 2^64 is still a float32
+
+// --- picture
+// ----------------------------------------------------------------------------------------
+inline constexpr int kMaxImageSide = 8192;  // pixels
+inline constexpr std::uint64_t kMaxPixels =
+    1ull << 25;  // 8192 x 4096: 16 B a pixel while drawing, 512 MiB
+inline constexpr double kMinFov = 0.01,
+                        kMaxFov = 170.0;  // degrees, vertical; the image plane degenerates at 180
+
+// --- text
+// -------------------------------------------------------------------------------------------
+inline constexpr int kMaxJsonDepth = 32;          // the contract's deepest value is at 6
+inline constexpr std::uint64_t kMaxString = 256;  // bytes; names only
+inline constexpr std::uint64_t kMaxJsonObjects =
+    4 * kMaxCubes;  // objects of any kind in one document
+
+}  // namespace awan::limits

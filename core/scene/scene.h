@@ -1,0 +1,182 @@
+// What was asked for, as plain values. A SceneDraft is as read (types right, ranges unchecked);
+// a Scene is a draft that validate() (validate.h) has found possible. Nothing else can make a
+// Scene.
+//
+// Axes: right-handed, y up; the unit of length is the scene's own. Angles in degrees here, as in
+// the document; they become radians where they are used. Colours are linear, Rec. 709 primaries.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/result.h"
+
+namespace awan {
+
+// How a cube is filled (core/generate/cubes.h).
+enum class Fill { kUniform, kGardner, kPrinted };
+
+struct Cube {
+    std::uint64_t particles = 0;
+    glm::dvec3 size{0};
+    glm::dvec3 center{0};
+    double radius = 0;   // the largest particle radius in it; a particle's s is half its radius
+    double density = 1;  // multiplies the cloud's
+    std::optional<std::string> texture;  // of the texture system; not in this version
+};
+
+// Particles that come ready-made. All lists are as long as `positions`, or empty for the default.
+struct ReadyParticles {
+    std::vector<glm::dvec3> positions;
+    std::vector<float> radii;
+    std::vector<float> densities;   // each multiplies the cloud's density; default 1
+    std::vector<glm::vec3> colors;  // 0..1, multiply the albedo; default white
+};
+
+enum class CloudModel { kCubes, kParticles };
+
+// A point p of the model stands at translate + rotate_y(scale * p) in the scene; radii scale too,
+// extinction (1/unit) does not: a cloud made twice as large is twice as deep.
+struct Cloud {
+    CloudModel model = CloudModel::kCubes;
+    std::vector<Cube> cubes;  // model kCubes
+    ReadyParticles ready;     // model kParticles
+    glm::dvec3 translate{0};
+    double scale = 1;
+    double rotate_y = 0;                // degrees, from +z towards +x
+    std::optional<Fill> fill;           // else the scene's
+    std::optional<double> density;      // else the scene's
+    std::optional<std::uint64_t> seed;  // else the scene's
+};
+
+enum class PhaseFunction { kHenyeyGreenstein, kCornetteShanks };
+
+struct Medium {
+    double albedo = 0.9999;  // single scattering, 0..1
+    double g = 0.85;         // mean cosine of the phase function
+    PhaseFunction phase = PhaseFunction::kHenyeyGreenstein;
+};
+
+struct Sun {
+    double elevation = 40;  // degrees above the horizon, -90..90
+    double azimuth = 60;    // degrees; 0 = +z, 90 = +x
+    std::optional<glm::dvec3>
+        direction;  // towards the sun, any length > 0; instead of the two angles
+    glm::dvec3 color{1.0, 0.97, 0.92};
+    bool auto_color = false;  // "auto": from the elevation; not in this version
+    double intensity = 40;    // irradiance at normal incidence
+};
+
+// Radiance `intensity * mix(horizon, zenith, sqrt(max(0, sin elevation)))` (core/shaders/sky.glsl).
+struct Sky {
+    bool none = false;  // "none": black, no light
+    glm::dvec3 zenith{0.16, 0.32, 0.66};
+    glm::dvec3 horizon{0.62, 0.76, 0.92};
+    double intensity = 1;
+};
+
+struct Ground {
+    double height = 0;
+    glm::dvec3 albedo{0.2};
+};
+
+struct Camera {
+    bool automatic = true;  // "auto": the whole cloud, three-quarter view; then the rest is unused
+    glm::dvec3 eye{0};
+    glm::dvec3 target{0};
+    glm::dvec3 up{0, 1, 0};
+    double fov = 40;  // vertical, degrees
+};
+
+enum class ImageFormat { kPng, kExr };
+enum class Background { kSky, kTransparent };
+enum class Precision { kHalf, kFloat };  // of EXR's samples
+
+struct ImageSettings {
+    int width = 800;
+    int height = 600;
+    ImageFormat format = ImageFormat::kPng;
+    Background background = Background::kSky;
+    Precision precision = Precision::kHalf;
+    std::optional<double>
+        exposure;  // stops: radiance is multiplied by 2^exposure; none = auto (core/formats/tone.h)
+};
+
+// Every effect of the contract, in the order in which plans list them.
+enum class Effect {
+    kSelfShadow,
+    kMultipleScattering,
+    kViewExtinction,
+    kSkyLight,
+    kGroundLight,
+    kGroundShadow,
+    kSunColor,
+    kAerialPerspective,
+    kLightShafts,
+    kDetail,
+    kInterior,
+    kTexture,
+};
+inline constexpr int kEffectCount = 12;
+enum class Switch { kAuto, kOn, kOff };
+
+// The name of an effect in documents, e.g. "self_shadow".
+const char* effect_name(Effect effect);
+std::optional<Effect> effect_from_name(std::string_view name);
+
+// At most one is set; none = the default.
+struct Accuracy {
+    std::optional<double> error;      // relative, > 0
+    std::optional<double> time_ms;    // > 0
+    std::optional<std::string> rung;  // by name
+};
+
+struct SceneDraft {
+    // True when the document has `cubes` at its top instead of `clouds`: then there is exactly one
+    // cloud and pointers to its cubes read /cubes/i, else /clouds/k/cubes/i.
+    bool top_level_cubes = true;
+    std::vector<Cloud> clouds;
+    Fill fill = Fill::kUniform;
+    std::uint64_t seed = 1;
+    std::optional<double> density;  // peak extinction of a particle, 1/unit; else kDefaultDensity
+    Medium medium;
+    Sun sun;
+    Sky sky;
+    std::optional<Ground> ground;
+    Camera camera;
+    ImageSettings image;
+    Switch effects[kEffectCount] = {};
+    Accuracy accuracy;
+};
+
+// Makes table 4.4 a thick cumulus: optical depth about 30 through its middle (measured by
+// survey_test).
+inline constexpr double kDefaultDensity = 0.55;
+
+// A scene that can be made: every value in range, every request within what this version does.
+class Scene {
+  public:
+    const SceneDraft* operator->() const { return &draft_; }
+    const SceneDraft& operator*() const { return draft_; }
+
+  private:
+    explicit Scene(SceneDraft draft) : draft_(std::move(draft)) {}
+    friend Result<Scene> validate(SceneDraft draft);
+    SceneDraft draft_;
+};
+
+// Unit vector towards the sun. Elevation 90 is exactly (0, 1, 0).
+glm::dvec3 sun_direction(const Sun& sun);
+
+// Particles asked for in all clouds. No overflow for drafts within the limits on cubes.
+std::uint64_t particle_count(const SceneDraft& scene);
+
+// 128 bits over every value of the scene, as 32 hex digits. Equal scenes, however written, have
+// equal fingerprints; it is no protection against someone who wants a collision (XXH3).
+std::string fingerprint(const Scene& scene);
+
+}  // namespace awan

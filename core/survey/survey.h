@@ -1,0 +1,57 @@
+// What a cloud is, measured before anything is decided about it.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "core/deadline.h"
+#include "core/generate/particle_set.h"
+#include "core/scene/scene.h"
+
+namespace awan {
+
+// Mean extinction of each cell (1/unit), x fastest, then y, then z. The mass in it equals the
+// particles' mass (2 pi)^1.5 density s^3 to rounding: every Gaussian is integrated over each cell
+// as a product of erf differences, renormalised over the cells it is cut to.
+struct DensityVolume {
+    glm::dvec3 origin{0};  // corner of cell 0, scene units
+    double cell = 0;       // side of a (cubic) cell, scene units
+    glm::ivec3 cells{0};
+    std::vector<float> extinction;
+};
+
+// A resolved camera: orthonormal frame, in scene units.
+struct View {
+    glm::dvec3 eye{0};
+    glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
+    double tan_half_fov = 0.36;  // vertical
+    double aspect = 1;           // width / height
+};
+
+struct Survey {
+    std::size_t particles = 0;
+    Bounds bounds;
+    View view;
+    DensityVolume volume;
+    double total_mass = 0;            // integral of extinction over space, unit^2
+    double max_extinction = 0;        // largest cell mean, 1/unit
+    double optical_depth_sun = 0;     // largest over parallel lines towards the sun
+    double optical_depth_zenith = 0;  // largest over vertical lines
+    double optical_depth_eye = 0;     // largest over the picture's rays, from the eye outward
+    double max_sigma_s = 0;           // largest density * s of one particle (dimensionless)
+    double min_projected_px = 0;      // smallest and largest projected s in the picture, pixels;
+    double max_projected_px = 0;      //   infinite for a particle that holds the eye
+    bool eye_inside = false;          // the eye is within 4 s of a particle
+};
+
+// Optical depths are sampled on a raster of at most 64 x 64 lines; the largest is low by < 2% when
+// the smallest s spans a raster step, and never high. Time is bounded: the raster and the volume
+// are coarsened until the work fits (about 10 ms at 10,000 particles).
+Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int threads,
+                      const Deadline& deadline);
+
+// The camera of a scene; "auto" looks at the bounds from a three-quarter view and holds all of
+// them.
+View resolve_view(const Camera& camera, const ImageSettings& image, const Bounds& bounds);
+
+}  // namespace awan

@@ -1,0 +1,31 @@
+// Counters and histograms in Prometheus' text format. Thread-safe; bounded: label values come from
+// fixed sets.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace awan {
+
+class Metrics {
+  public:
+    Metrics();
+    ~Metrics();
+    Metrics(const Metrics&) = delete;
+    Metrics& operator=(const Metrics&) = delete;
+
+    // `route` is a route's pattern ("/v1/presets/{name}"), or "other"; never the client's text.
+    void request_done(std::string_view route, int status, double seconds);
+    void stage_done(std::string_view stage,
+                    double milliseconds);  // generate, survey, light, draw, encode, queue
+    void connection_refused(std::string_view reason);  // e.g. "queue", "head", "framing"
+
+    std::string text(std::size_t renders_waiting, bool ready) const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace awan
