@@ -1,0 +1,46 @@
+// Randomness by key, never by a shared stream: a number depends on the seed and on what it is for,
+// so editing one cube leaves the particles of all others as they were.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace awan {
+
+// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection with full avalanche.
+constexpr std::uint64_t mix_bits(std::uint64_t x) {
+    x ^= x >> 30;
+    x *= 0xbf58476d1ce4e5b9u;
+    x ^= x >> 27;
+    x *= 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+}
+
+// One key out of another and a number; chains: keyed(keyed(seed, cloud), cube).
+constexpr std::uint64_t keyed(std::uint64_t key, std::uint64_t number) {
+    return mix_bits(key + 0x9e3779b97f4a7c15u * (number + 1));
+}
+
+// Uniform in (0, 1), 32 bits: never 0 or 1.
+constexpr double unit_open(std::uint32_t bits) {
+    return (bits + 0.5) * 0x1p-32;
+}
+
+// Points of a low-discrepancy sequence in the open unit 4-cube: Sobol (direction numbers of Joe &
+// Kuo 2008, dimensions 1-4, in Gray-code order), Owen-scrambled by the hash of Laine & Karras 2011
+// with the constants of Vegdahl 2021 ("Building a better LK hash"). Any run of the sequence fills
+// the cube evenly, every key gives another realisation, each point is uniform over realisations.
+// Valid for 2^32 points.
+class ScrambledSobol {
+  public:
+    // Starts at point `first`; key: one realisation.
+    ScrambledSobol(std::uint64_t key, std::uint32_t first);
+    std::array<double, 4> next();
+
+  private:
+    std::uint32_t index_;
+    std::array<std::uint32_t, 4> state_;  // bit-reversed, as the scrambling wants it
+    std::array<std::uint32_t, 4> scramble_;
+};
+
+}  // namespace awan

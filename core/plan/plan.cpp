@@ -1,0 +1,146 @@
+#include "core/plan/plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <glm/common.hpp>
+
+namespace awan {
+namespace {
+
+// Below these the effect changes no pixel by more than 1% (measured against exact solutions at
+// optical depths .03 to 40; the larger of front- and back-lit).
+constexpr double kShadowDepth = 0.03;
+constexpr double kViewDepth = 0.03;
+constexpr double kScatterDepthIsotropic = 0.04;  // g = 0
+constexpr double kScatterDepthForward = 0.02;    // |g| >= .5; linear in between
+
+std::string sentence(const char* format, double a, double b) {
+    std::array<char, 200> text{};
+    const int length = std::snprintf(text.data(), text.size(), format, a, b);
+    return {text.data(), static_cast<std::size_t>(length)};
+}
+
+struct Criterion {
+    bool wanted;
+    std::string reason;
+};
+
+Criterion above(const char* what, double figure, double threshold) {
+    const bool wanted = figure > threshold;
+    return {
+        wanted,
+        sentence(
+            (std::string(what) + (wanted ? " %.3g is over %.3g" : " %.3g is within %.3g")).c_str(),
+            figure, threshold)};
+}
+
+double scatter_threshold(double g) {
+    const double t = std::min(1.0, std::abs(g) / 0.5);
+    return kScatterDepthIsotropic + t * (kScatterDepthForward - kScatterDepthIsotropic);
+}
+
+bool sky_shines(const Sky& sky) {
+    const glm::dvec3 most = glm::max(sky.zenith, sky.horizon);
+    return !sky.none && sky.intensity > 0 && most.x + most.y + most.z > 0;
+}
+
+// Whether the scene calls for an effect, by its own figures.
+Criterion criterion(Effect effect, const Scene& scene, const Survey& survey) {
+    if (survey.particles == 0 || !(survey.total_mass > 0))
+        return {false, "there is no matter in the scene"};
+    const bool sun = scene->sun.intensity > 0;
+    const bool sky = sky_shines(scene->sky);
+    const double towards_lights =
+        std::max(sun ? survey.optical_depth_sun : 0.0, sky ? survey.optical_depth_zenith : 0.0);
+    switch (effect) {
+        case Effect::kSelfShadow:
+            if (!sun && !sky) return {false, "no light reaches the cloud"};
+            return above("the largest optical depth towards the lights,", towards_lights,
+                         kShadowDepth);
+        case Effect::kMultipleScattering:
+            if (!sun && !sky) return {false, "no light reaches the cloud"};
+            if (scene->medium.albedo == 0) return {false, "the albedo is 0: nothing is scattered"};
+            return above("the largest optical depth towards the lights,", towards_lights,
+                         scatter_threshold(scene->medium.g));
+        case Effect::kViewExtinction:
+            return above("the largest optical depth towards the eye,", survey.optical_depth_eye,
+                         kViewDepth);
+        case Effect::kSkyLight:
+            if (scene->sky.none) return {false, "the scene has no sky"};
+            if (!sky) return {false, "the sky is black"};
+            return {true, "the sky shines on the cloud from all sides"};
+        case Effect::kInterior:
+            return survey.eye_inside
+                       ? Criterion{true, "the eye is within 4 s of a particle"}
+                       : Criterion{false, "the eye is more than 4 s away from every particle"};
+        default:
+            return {false, ""};
+    }
+}
+
+const char* missing_reason(Effect effect) {
+    switch (effect) {
+        case Effect::kGroundLight:
+        case Effect::kGroundShadow:
+            return "the scene has no ground; a ground is not in this version";
+        case Effect::kSunColor:
+            return "the sun's colour is given; colour from its elevation is not in this version";
+        case Effect::kAerialPerspective:
+        case Effect::kLightShafts:
+            return "haze is not in this version";
+        case Effect::kDetail:
+            return "procedural detail is not in this version";
+        default:
+            return "textures are not in this version";
+    }
+}
+
+bool in_this_version(Effect effect) {
+    switch (effect) {
+        case Effect::kSelfShadow:
+        case Effect::kMultipleScattering:
+        case Effect::kViewExtinction:
+        case Effect::kSkyLight:
+        case Effect::kInterior:
+            return true;
+        default:
+            return false;
+    }
+}
+
+}  // namespace
+
+Plan plan(const Scene& scene, const Survey& survey) {
+    Plan plan;
+    plan.rung = "harris";
+    for (int i = 0; i < kEffectCount; ++i) {
+        const auto effect = static_cast<Effect>(i);
+        EffectDecision& decision = plan.effects[static_cast<std::size_t>(i)];
+        decision.effect = effect;
+        decision.available = in_this_version(effect);
+        if (!decision.available) {
+            decision.reason = missing_reason(effect);
+            continue;
+        }
+        const Criterion own = criterion(effect, scene, survey);
+        switch (scene->effects[i]) {
+            case Switch::kAuto:
+                decision.on = own.wanted;
+                decision.reason = own.reason;
+                break;
+            case Switch::kOn:
+                decision.on = true;
+                decision.reason = "asked for (" + own.reason + ")";
+                break;
+            case Switch::kOff:
+                decision.on = false;
+                decision.reason = "switched off (" + own.reason + ")";
+                break;
+        }
+    }
+    return plan;
+}
+
+}  // namespace awan

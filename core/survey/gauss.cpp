@@ -1,0 +1,35 @@
+#include "core/survey/gauss.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace awan {
+namespace {
+
+constexpr int kIntervals = 8192;
+constexpr double kReach = 5.5;
+
+std::array<double, kIntervals + 1> make_table() {
+    std::array<double, kIntervals + 1> table{};
+    for (int i = 0; i <= kIntervals; ++i) {
+        const double x = -kReach + 2 * kReach * i / kIntervals;
+        table[static_cast<std::size_t>(i)] = 0.5 * std::erfc(-x / std::numbers::sqrt2);
+    }
+    table.front() = 0;
+    table.back() = 1;
+    return table;
+}
+
+}  // namespace
+
+double normal_cdf(double x) {
+    static const auto kTable = make_table();
+    if (!(x > -kReach)) return 0;
+    if (!(x < kReach)) return 1;
+    const double t = (x + kReach) * (kIntervals / (2 * kReach));
+    const auto i = static_cast<std::size_t>(t);
+    return kTable[i] + (t - static_cast<double>(i)) * (kTable[i + 1] - kTable[i]);
+}
+
+}  // namespace awan

@@ -1,0 +1,81 @@
+#include "core/survey/survey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "core/parallel.h"
+#include "core/survey/optical_depth.h"
+#include "core/survey/volume.h"
+
+namespace awan {
+namespace {
+
+constexpr int kVolumeCells = 48;  // along the longest side
+constexpr double kInsideReach = 4;
+
+void measure_projection(const ParticleSet& particles, int image_height, Survey& survey) {
+    const View& view = survey.view;
+    const double px_per_slope = image_height / (2 * view.tan_half_fov);
+    survey.min_projected_px = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        const double s = 0.5 * static_cast<double>(particles.radius[i]);
+        const double distance = glm::length(particles.center[i] - view.eye);
+        if (distance <= kInsideReach * s) survey.eye_inside = true;
+        const double px =
+            distance > s ? s / distance * px_per_slope : std::numeric_limits<double>::infinity();
+        survey.min_projected_px = std::min(survey.min_projected_px, px);
+        survey.max_projected_px = std::max(survey.max_projected_px, px);
+    }
+}
+
+void measure_matter(const ParticleSet& particles, Survey& survey) {
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        const double s = 0.5 * static_cast<double>(particles.radius[i]);
+        const auto density = static_cast<double>(particles.density[i]);
+        survey.max_sigma_s = std::max(survey.max_sigma_s, density * s);
+        survey.total_mass += density * std::pow(2 * std::numbers::pi, 1.5) * s * s * s;
+    }
+}
+
+}  // namespace
+
+Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int threads,
+                      const Deadline& deadline) {
+    Survey survey;
+    survey.particles = particles.size();
+    survey.bounds = bounds_of(particles);
+    survey.view = resolve_view(scene->camera, scene->image, survey.bounds);
+    if (particles.size() == 0) return survey;
+
+    // Each figure is one thread's work from start to end, so the result does not depend on their
+    // number.
+    parallel_for(threads, 5, [&](std::size_t task) {
+        switch (task) {
+            case 0:
+                survey.volume = density_volume(particles, kVolumeCells);
+                break;
+            case 1:
+                survey.optical_depth_eye = eye_optical_depth(particles, survey.view);
+                break;
+            case 2:
+                survey.optical_depth_sun =
+                    parallel_optical_depth(particles, sun_direction(scene->sun));
+                break;
+            case 3:
+                survey.optical_depth_zenith = parallel_optical_depth(particles, {0, 1, 0});
+                break;
+            default:
+                measure_matter(particles, survey);
+                measure_projection(particles, scene->image.height, survey);
+        }
+    });
+    for (const float cell : survey.volume.extinction)
+        survey.max_extinction = std::max(survey.max_extinction, static_cast<double>(cell));
+    if (auto error = deadline.over()) return *error;
+    return survey;
+}
+
+}  // namespace awan
