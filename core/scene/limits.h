@@ -23,6 +23,10 @@ inline constexpr double kMinLength = 1e-9, kMaxLength = 1e9;  // sides of a cube
 inline constexpr double kMinRadius = 1e-6,
                         kMaxRadius = 1e6;  // squares and their inverses stay far inside float32
 inline constexpr double kMinScale = 1e-6, kMaxScale = 1e6;  // of a cloud
+inline constexpr double kMaxAngle =
+    1e6;  // |degrees| of an azimuth or a turn; below, a degree keeps ten digits
+inline constexpr double kMinUpSine =
+    1e-6;  // sine of the angle between `up` and the view; less leaves no digits for the frame
 
 // --- matter
 // -----------------------------------------------------------------------------------------
