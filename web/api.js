@@ -1,0 +1,80 @@
+// The service's calls, as the page uses them.
+
+// An answer of application/problem+json (RFC 9457), or something as near to it as can be had.
+export class Problem extends Error {
+  constructor(status, body, retryAfterSeconds = null) {
+    super(body.detail || body.title || `The service answered ${status}.`);
+    this.status = status; // 0: no answer at all
+    this.title = body.title ?? "";
+    this.pointer = body.pointer ?? null;
+    this.retryAfterSeconds = retryAfterSeconds;
+  }
+}
+
+async function call(path, options) {
+  let response;
+  try {
+    response = await fetch(path, options);
+  } catch (error) {
+    if (error.name === "AbortError") throw error;
+    throw new Problem(0, { title: "No answer", detail: "The service cannot be reached." }, 2);
+  }
+  if (response.ok) return response;
+  const text = await response.text();
+  let body = {};
+  try {
+    body = JSON.parse(text);
+  } catch {
+    body = { detail: `The service answered ${response.status} ${response.statusText}.` };
+  }
+  const wait = Number(response.headers.get("Retry-After"));
+  const again = response.status === 429 || response.status === 503;
+  throw new Problem(response.status, body, again ? Math.max(1, wait || 1) : null);
+}
+
+const post = (path, text, { accept, type = "application/json", signal } = {}) =>
+  call(path, { method: "POST", body: text, signal, headers: { "Content-Type": type, Accept: accept } });
+
+export async function presets() {
+  return (await call("/v1/presets")).json();
+}
+
+export async function presetText(name) {
+  return (await call(`/v1/presets/${encodeURIComponent(name)}`)).text();
+}
+
+export async function plan(text, options = {}) {
+  return (await post("/v1/plan", text, { accept: "application/json", ...options })).json();
+}
+
+export async function particles(text, accept) {
+  return (await post("/v1/particles", text, { accept })).blob();
+}
+
+// { blob, figures }: the picture and what the answer's headers say about it.
+export async function render(text, { accept = "image/png", signal } = {}) {
+  const sent = performance.now();
+  const response = await post("/v1/render", text, { accept, signal });
+  const blob = await response.blob();
+  const header = (name) => response.headers.get(name);
+  const list = header("Awan-Effects");
+  return {
+    blob,
+    figures: {
+      roundTripMs: performance.now() - sent,
+      particles: header("Awan-Particles"),
+      rung: header("Awan-Rung"),
+      effects: list === null ? null : list.split(",").map((name) => name.trim()).filter(Boolean),
+      timing: serverTiming(header("Server-Timing") ?? ""),
+    },
+  };
+}
+
+// `queue;dur=0.1, draw;dur=12.5` -> [{ name, ms }]
+export function serverTiming(text) {
+  return text.split(",").map((entry) => {
+    const [name, ...parameters] = entry.split(";").map((part) => part.trim());
+    const duration = parameters.find((parameter) => parameter.startsWith("dur="));
+    return { name, ms: duration ? Number(duration.slice(4)) : 0 };
+  }).filter(({ name, ms }) => name && Number.isFinite(ms));
+}

@@ -1,0 +1,150 @@
+// The scene document and its edits. Documents are never changed in place: every edit makes a new
+// one that shares the untouched parts, so that undo keeps old ones for free.
+
+import { compactJson, parseJson, prettyJson } from "./json_text.js";
+
+// What the service assumes for fields that a document leaves out; the controls show these.
+const DEFAULTS = {
+  "/fill": "uniform",
+  "/seed": 1,
+  "/density": 0.55,
+  "/medium/albedo": 0.9999,
+  "/medium/g": 0.85,
+  "/medium/phase": "henyey-greenstein",
+  "/sun/elevation": 40,
+  "/sun/azimuth": 60,
+  "/sun/color": [1, 0.97, 0.92],
+  "/sun/intensity": 40,
+  "/sky/zenith": [0.16, 0.32, 0.66],
+  "/sky/horizon": [0.62, 0.76, 0.92],
+  "/sky/intensity": 1,
+  "/camera/fov": 40,
+  "/image/width": 800,
+  "/image/height": 600,
+  "/image/background": "sky",
+  "/image/exposure": "auto",
+};
+
+const steps = (pointer) =>
+  pointer.split("/").slice(1).map((step) => step.replaceAll("~1", "/").replaceAll("~0", "~"));
+
+// The value at a JSON pointer, or undefined.
+export function at(scene, pointer) {
+  return steps(pointer).reduce(
+    (value, step) => (value !== null && typeof value === "object" ? value[step] : undefined),
+    scene,
+  );
+}
+
+export function atOrDefault(scene, pointer) {
+  return at(scene, pointer) ?? DEFAULTS[pointer];
+}
+
+// `scene` with `value` at the pointer; undefined takes the member away. Words such as "auto" or
+// "none" on the way give place to an object.
+export function withAt(scene, pointer, value) {
+  const put = (node, [step, ...rest]) => {
+    const copy = Array.isArray(node) ? [...node] : node !== null && typeof node === "object" ? { ...node } : {};
+    const member = rest.length ? put(copy[step], rest) : value;
+    if (member === undefined) delete copy[step];
+    else copy[step] = member;
+    return copy;
+  };
+  return put(scene, steps(pointer));
+}
+
+// The clouds of a document with the pointer of each; a document with `cubes` at its top is one
+// cloud, whose pointer is "".
+export function cloudsOf(scene) {
+  if (Array.isArray(scene.clouds)) return scene.clouds.map((cloud, k) => ({ cloud, pointer: `/clouds/${k}` }));
+  return [{ cloud: scene, pointer: "" }];
+}
+
+// As cloudsOf, in a document that has `clouds`, so that another can be added.
+export function withCloudList(scene) {
+  if (Array.isArray(scene.clouds)) return scene;
+  const { cubes, ...rest } = scene;
+  return { clouds: [{ model: "cubes", cubes: cubes ?? [] }], ...rest };
+}
+
+// Why the document cannot be written as one .awn layout; "" when it can.
+export function whyNoLayout(scene) {
+  const clouds = cloudsOf(scene);
+  if (clouds.length !== 1) return "An .awn file holds one layout; this document has several clouds.";
+  const { cloud } = clouds[0];
+  if ((cloud.model ?? "cubes") !== "cubes") return `An .awn file holds cubes, not the model “${cloud.model}”.`;
+  const moved = (cloud.translate ?? []).some((t) => t !== 0) || (cloud.scale ?? 1) !== 1 || (cloud.rotate_y ?? 0) !== 0;
+  if (moved) return "An .awn file cannot say that its cloud is moved, scaled or turned.";
+  return "";
+}
+
+// The document of an .awn layout that the service has accepted.
+export function sceneFromAwn(text) {
+  const lines = text.replace(/^\uFEFF/, "").split(/\r?\n/).map((line) => line.split(/[\s,]+/).filter(Boolean).map(Number));
+  const numbers = lines.filter((line) => line.length > 0);
+  return {
+    cubes: numbers.slice(2).map(([particles, lx, ly, lz, cx, cy, cz, radius]) => ({
+      particles, size: [lx, ly, lz], center: [cx, cy, cz], radius,
+    })),
+  };
+}
+
+const HISTORY = 200; // steps of undo
+const ONE_STEP_MS = 1000; // edits of one field this close together are undone together
+
+// Holds the document. Listeners get { moving }: true while a slider or a drag is under way.
+export function createStore() {
+  let scene = { cubes: [] };
+  let written = null; // the text as someone wrote it, while it still says the same as `scene`
+  let past = [];
+  let future = [];
+  let lastKey = null;
+  let lastTime = 0;
+  const listeners = [];
+  const tell = (change) => listeners.forEach((listener) => listener(change));
+
+  function become(next, { key = null, moving = false, text = null, preset = null } = {}) {
+    const now = performance.now();
+    const together = key !== null && key === lastKey && now - lastTime < ONE_STEP_MS;
+    if (!together) past = [...past.slice(1 - HISTORY), { scene, written }];
+    future = [];
+    [lastKey, lastTime] = [key, now];
+    [scene, written] = [next, text];
+    tell({ moving, preset });
+  }
+  function travel(from, to) {
+    if (!from.length) return;
+    to.push({ scene, written });
+    ({ scene, written } = from.pop());
+    lastKey = null;
+    tell({ moving: false, preset: null });
+  }
+
+  return {
+    get scene() { return scene; },
+    // What is sent, saved and shown: the writer's own text if there is one, so that the service
+    // judges exactly what was written (duplicate keys, numbers of any size).
+    get text() { return written ?? prettyJson(scene) + "\n"; },
+    set(pointer, value, { moving = false } = {}) {
+      const before = at(scene, pointer);
+      const same = value === undefined ? before === undefined : before !== undefined && compactJson(before) === compactJson(value);
+      if (same) tell({ moving, preset: null, same }); // a slider let go where it was: no step of undo
+      else become(withAt(scene, pointer, value), { key: pointer, moving });
+    },
+    update(change, options = {}) { become(change(scene), options); },
+    // Throws SyntaxError when the text is not JSON, TypeError when it is not an object.
+    replaceText(text, { preset = null, key = null } = {}) {
+      const value = parseJson(text);
+      if (value === null || typeof value !== "object" || Array.isArray(value)) {
+        throw new TypeError("A scene document is a JSON object: { … }.");
+      }
+      become(value, { text, preset, key });
+    },
+    undo() { travel(past, future); },
+    redo() { travel(future, past); },
+    get canUndo() { return past.length > 0; },
+    get canRedo() { return future.length > 0; },
+    forgetHistory() { past = []; future = []; },
+    subscribe(listener) { listeners.push(listener); },
+  };
+}

@@ -1,0 +1,74 @@
+// What the service says about the picture: how many particles, what ran and why, where time went.
+
+import { at } from "./document.js";
+import { byId, el, plain } from "./dom.js";
+
+const milliseconds = (ms) => `${ms >= 100 ? Math.round(ms) : plain(Number(ms.toFixed(1)), 3)} ms`;
+const words = (name) => name.replaceAll("_", " ");
+
+export function createFigures(store) {
+  const body = byId("plan-body");
+  let choices = []; // [{ name, input }]
+
+  // After every picture, small ones too.
+  function picture({ particles, rung, effects, timing, roundTripMs }, width, height) {
+    if (particles !== null) byId("particles").textContent = Number(particles).toLocaleString("en");
+    if (rung !== null) byId("rung").textContent = rung;
+    if (effects !== null) byId("effects").textContent = effects.map(words).join(", ") || "none";
+    byId("pixels").textContent = `${width} × ${height}`;
+    byId("total").textContent = milliseconds(roundTripMs);
+
+    const inside = timing.reduce((sum, { ms }) => sum + ms, 0);
+    // What the service did not account for: the way there and back.
+    const parts = [...timing, { name: "network", ms: Math.max(0, roundTripMs - inside) }].filter(({ ms }) => ms > 0);
+    byId("timing-bar").replaceChildren(...parts.map(({ name, ms }) => {
+      const piece = el("span", { class: `part ${name}` });
+      piece.style.flexGrow = String(ms);
+      return piece;
+    }));
+    byId("timing").replaceChildren(...parts.map(({ name, ms }) =>
+      el("li", {}, el("span", { class: `key ${name}` }), `${name} ${milliseconds(ms)}`)));
+  }
+
+  // One row an effect: whether it runs, why, and a choice that overrides the plan.
+  function plan({ survey, effects, rung, predicted }) {
+    if (survey?.particles !== undefined) byId("particles").textContent = Number(survey.particles).toLocaleString("en");
+    if (rung) byId("rung").textContent = rung;
+    const focused = document.activeElement?.dataset?.effect;
+    choices = [];
+    const rows = (effects ?? []).map(({ name, on, available = true, reason }) => {
+      const input = el("select", {
+        "aria-label": `${words(name)}: automatic, on or off`, "data-effect": name,
+        onchange: () => store.set(`/effects/${name}`, { auto: undefined, on: true, off: false }[input.value]),
+      }, ...["auto", "on", "off"].map((value) => el("option", { value }, value)));
+      choices.push({ name, input });
+      return el("tr", { class: on ? "on" : "off", "data-pointer": `/effects/${name}` },
+        el("th", { scope: "row" }, words(name)),
+        el("td", {}, on ? "on" : "off"),
+        el("td", {}, available ? input : "–"),
+        el("td", { class: "reason" }, reason ?? ""));
+    });
+    const facts = Object.entries(survey ?? {}).filter(([, value]) => typeof value === "number" || typeof value === "boolean");
+    const expected = [];
+    if (typeof predicted?.error === "number") expected.push(`expected error ${plain(100 * predicted.error, 2)} %`);
+    if (typeof predicted?.time_ms === "number") expected.push(`expected time ${milliseconds(predicted.time_ms)}`);
+    body.replaceChildren(
+      el("div", { class: "table-scroll" }, el("table", { class: "effects" },
+        el("thead", {}, el("tr", {}, ...["effect", "runs", "choice", "because"].map((h) => el("th", { scope: "col" }, h)))),
+        el("tbody", {}, ...rows))),
+      ...(expected.length ? [el("p", {}, expected.join(", "))] : []),
+      el("h3", {}, "Measured"),
+      el("dl", { class: "facts" }, ...facts.map(([name, value]) =>
+        el("div", {}, el("dt", {}, words(name)), el("dd", {}, typeof value === "number" ? plain(value, 4) : value ? "yes" : "no")))));
+    refresh();
+    if (focused) body.querySelector(`[data-effect="${CSS.escape(focused)}"]`)?.focus();
+  }
+
+  function refresh() {
+    for (const { name, input } of choices) {
+      const wanted = at(store.scene, `/effects/${name}`);
+      input.value = wanted === true ? "on" : wanted === false ? "off" : "auto";
+    }
+  }
+  return { picture, plan, refresh };
+}

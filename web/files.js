@@ -1,0 +1,116 @@
+// Saving, sharing and opening.
+
+import * as api from "./api.js";
+import { sceneFromAwn, whyNoLayout } from "./document.js";
+import { byId, el } from "./dom.js";
+import { prettyJson } from "./json_text.js";
+
+function save(blob, name) {
+  const url = URL.createObjectURL(blob);
+  const link = el("a", { href: url, download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(url), 60_000); // large files are still being written
+}
+
+// The shell command that makes the picture. A quoted here-document keeps the scene as it is.
+export function curlCommand(text, origin) {
+  return [
+    `curl -sS --fail-with-body '${origin}/v1/render' \\`,
+    "  -H 'Content-Type: application/json' -H 'Accept: image/png' \\",
+    "  -o cloud.png --data-binary @- <<'END_OF_SCENE'",
+    text.trimEnd(),
+    "END_OF_SCENE",
+    "",
+  ].join("\n");
+}
+
+// name() -> stem of file names; failed(problem), note(text) -> the status line.
+export function createFiles(store, { name, failed, note }) {
+  const why = byId("awn-why");
+
+  const button = (title, action, attributes = {}) => el("button", {
+    type: "button", ...attributes,
+    onclick: async () => {
+      try {
+        await action();
+      } catch (error) {
+        failed(error);
+      }
+    },
+  }, title);
+  const rendered = (accept, suffix) => async () => save((await api.render(store.text, { accept })).blob, name() + suffix);
+  const listed = (accept, suffix) => async () => save(await api.particles(store.text, accept), name() + suffix);
+
+  const awn = button(".awn", async () => {
+    if (!whyNoLayout(store.scene)) await listed("text/x-awn", ".awn")();
+    else note(whyNoLayout(store.scene));
+  }, { "aria-describedby": "awn-why", title: "The layout as Rekawan wrote it" });
+
+  byId("save-buttons").append(
+    button("PNG", rendered("image/png", ".png")),
+    button("EXR", rendered("image/x-exr", ".exr"), { title: "Linear light, premultiplied" }),
+    button("JSON", () => save(new Blob([store.text], { type: "application/json" }), name() + ".json"), { title: "This scene document" }),
+    awn,
+    el("span", { class: "together" },
+      el("span", { class: "label" }, "Particles"),
+      button("JSON", listed("application/json", ".particles.json"), { "aria-label": "Particles as JSON" }),
+      button("CSV", listed("text/csv", ".csv"), { "aria-label": "Particles as CSV" }),
+      button("PLY", listed("application/x-ply", ".ply"), { "aria-label": "Particles as PLY" })),
+    button("Copy curl", async () => {
+      await navigator.clipboard.writeText(curlCommand(store.text, location.origin));
+      note("The command is on the clipboard.");
+    }, { title: "The command that makes this picture" }),
+  );
+
+  function refresh() {
+    const reason = whyNoLayout(store.scene);
+    // Not `disabled`: it stays reachable, so that its explanation can be read.
+    awn.setAttribute("aria-disabled", String(reason !== ""));
+    why.hidden = reason === "";
+    why.textContent = reason;
+  }
+
+  // An .awn is judged by the service before it is read here; so is nothing else: a wrong JSON
+  // document is opened, and its faults are then shown at their fields.
+  async function open(file) {
+    try {
+      const text = await file.text();
+      if (/\.awn$/i.test(file.name) || file.type === "text/x-awn") {
+        await api.plan(text, { type: "text/x-awn" });
+        store.replaceText(prettyJson(sceneFromAwn(text)) + "\n");
+      } else {
+        store.replaceText(text);
+      }
+      note(`${file.name} is open.`);
+    } catch (error) {
+      failed(error instanceof api.Problem ? error : new Error(`${file.name}: ${error.message}`));
+    }
+  }
+
+  const chooser = byId("file");
+  byId("open").addEventListener("click", () => chooser.click());
+  chooser.addEventListener("change", () => {
+    if (chooser.files.length) open(chooser.files[0]);
+    chooser.value = ""; // so that the same file can be opened again
+  });
+
+  const curtain = byId("drop-here");
+  const carriesFile = (event) => [...(event.dataTransfer?.types ?? [])].includes("Files");
+  addEventListener("dragover", (event) => {
+    if (!carriesFile(event)) return;
+    event.preventDefault();
+    curtain.hidden = false;
+  });
+  addEventListener("dragleave", (event) => {
+    if (event.relatedTarget === null) curtain.hidden = true;
+  });
+  addEventListener("drop", (event) => {
+    if (!carriesFile(event)) return;
+    event.preventDefault();
+    curtain.hidden = true;
+    open(event.dataTransfer.files[0]);
+  });
+  return { refresh };
+}

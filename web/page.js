@@ -1,0 +1,224 @@
+// The page: puts the parts together. Everything follows from the document (document.js): an edit
+// refreshes the controls and asks for a picture; nothing else holds state that matters.
+
+import * as api from "./api.js";
+import { boundsOfCubes } from "./camera.js";
+import { group } from "./controls.js";
+import { atOrDefault, createStore, withAt } from "./document.js";
+import { byId, el } from "./dom.js";
+import { createFigures } from "./figures.js";
+import { createFiles } from "./files.js";
+import { compactJson } from "./json_text.js";
+import { createLayoutTable } from "./layout_table.js";
+import { cameraPanel, createPanels } from "./panels.js";
+import { createRenderLoop } from "./picture.js";
+import { clearMarks, focusProblem, markProblem, placeName } from "./problems.js";
+import { createStage } from "./stage.js";
+
+const DRAFT = "awan.draft";
+
+const store = createStore();
+let measured = null; // { scene's clouds, bounds } of the last plan
+let problem = null; // what is wrong with the document as it stands
+let presetName = "";
+
+// The service's bounds while they are of the layout at hand, else an estimate.
+const layoutOf = (scene) => compactJson([scene.cubes ?? null, scene.clouds ?? null]);
+function bounds() {
+  return measured && measured.layout === layoutOf(store.scene) ? measured.bounds : boundsOfCubes(store.scene);
+}
+
+// --- the status line ---
+
+let fade = 0;
+function say(text) {
+  byId("note").textContent = text;
+  clearTimeout(fade);
+  if (text) fade = setTimeout(() => say(""), 6000);
+}
+function showProblem() {
+  const alert = byId("alert");
+  const button = byId("go-to-field");
+  clearMarks();
+  button.hidden = true;
+  if (!problem) {
+    alert.textContent = "";
+    return;
+  }
+  markProblem(problem);
+  const place = problem.pointer ? `${placeName(problem.pointer)}: ` : "";
+  const text = place + problem.message;
+  if (alert.textContent !== text) alert.textContent = text;
+  button.hidden = !problem.pointer;
+}
+function fail(error) {
+  if (error.name === "AbortError") return;
+  problem = { message: error.message, pointer: error.pointer ?? null };
+  say("");
+  showProblem();
+}
+byId("go-to-field").addEventListener("click", () => {
+  layout.reveal(problem.pointer);
+  showProblem();
+  focusProblem(problem.pointer);
+});
+
+// --- the parts ---
+
+const camera = cameraPanel(store, bounds);
+const panels = createPanels(store, camera);
+const layout = createLayoutTable(store);
+const figures = createFigures(store);
+const stage = createStage(camera.nudge);
+const files = createFiles(store, { name: () => presetName || "cloud", failed: fail, note: say });
+
+const text = el("textarea", { id: "json", rows: 24, spellcheck: "false", autocomplete: "off", "aria-label": "Scene document as JSON" });
+const jsonGroup = group("JSON", "", false, el("p", { class: "why" }, "The whole document. What is written here is what is sent."), text);
+jsonGroup.addEventListener("toggle", () => refreshText());
+byId("groups").append(...panels.map((panel) => panel.element), layout.element, jsonGroup);
+
+text.addEventListener("input", () => {
+  try {
+    store.replaceText(text.value, { key: "text" });
+    text.removeAttribute("aria-invalid");
+  } catch (error) {
+    text.setAttribute("aria-invalid", "true");
+    problem = { message: `Not a document yet: ${error.message}`, pointer: null };
+    showProblem();
+  }
+});
+text.addEventListener("blur", () => {
+  if (text.getAttribute("aria-invalid") !== "true") refreshText();
+});
+// Long documents make a slow text area: it is filled only while it can be seen.
+function refreshText() {
+  if (!jsonGroup.open || document.activeElement === text) return;
+  text.removeAttribute("aria-invalid");
+  if (text.value !== store.text) text.value = store.text;
+}
+
+// --- the picture ---
+
+let planFlight = null;
+async function askPlan() {
+  planFlight = new AbortController();
+  const scene = store.scene;
+  try {
+    const answer = await api.plan(store.text, { signal: planFlight.signal });
+    if (answer.survey?.bounds) measured = { layout: layoutOf(scene), bounds: answer.survey.bounds };
+    figures.plan(answer);
+    panels.forEach((panel) => panel.refresh());
+  } catch (error) {
+    if (error.name !== "AbortError") say(`No plan: ${error.message}`);
+  }
+}
+
+function textFor(reduction) {
+  if (reduction === 1) return store.text;
+  const side = (member) => Math.max(1, Math.round(atOrDefault(store.scene, `/image/${member}`) / reduction));
+  return compactJson(withAt(withAt(store.scene, "/image/width", side("width")), "/image/height", side("height")));
+}
+
+const loop = createRenderLoop({
+  async render(reduction, signal) {
+    const width = atOrDefault(store.scene, "/image/width");
+    const height = atOrDefault(store.scene, "/image/height");
+    const transparent = atOrDefault(store.scene, "/image/background") === "transparent";
+    const picture = await api.render(textFor(reduction), { signal });
+    return { ...picture, width, height, reduction, transparent };
+  },
+  shown({ blob, figures: said, width, height, reduction, transparent }, { full }) {
+    stage.shape(width, height, transparent);
+    const count = said.particles === null ? "" : ` of ${said.particles} particles`;
+    stage.show(blob, `Cloud${count}, ${width} by ${height} pixels`);
+    figures.picture(said, Math.round(width / reduction), Math.round(height / reduction));
+    problem = null;
+    showProblem();
+    if (full) askPlan();
+  },
+  failed: fail,
+  busy(yes) {
+    byId("stage").setAttribute("aria-busy", String(yes));
+    byId("busy").hidden = !yes;
+  },
+});
+
+// --- following the document ---
+
+function refreshControls() {
+  panels.forEach((panel) => panel.refresh());
+  layout.refresh();
+  figures.refresh();
+  files.refresh();
+  refreshText();
+  byId("undo").disabled = !store.canUndo;
+  byId("redo").disabled = !store.canRedo;
+}
+store.subscribe(({ moving, preset, same }) => {
+  planFlight?.abort();
+  if (!same && !moving) follow(preset ?? "");
+  refreshControls();
+  if (problem) showProblem(); // rows may have been rebuilt
+  loop.changed({ moving });
+});
+
+byId("undo").addEventListener("click", () => store.undo());
+byId("redo").addEventListener("click", () => store.redo());
+
+// --- presets, the address and the draft ---
+
+const presetSelect = byId("preset");
+// The address names the preset while the document is one; else the document is kept as a draft.
+function follow(preset) {
+  presetName = preset;
+  presetSelect.value = preset;
+  history.replaceState(null, "", preset ? `#${preset}` : location.pathname);
+  try {
+    if (preset) localStorage.removeItem(DRAFT);
+    else localStorage.setItem(DRAFT, store.text);
+  } catch {
+    // No room or no permission: then there is no draft.
+  }
+}
+async function choosePreset(name) {
+  try {
+    store.replaceText(await api.presetText(name), { preset: name });
+  } catch (error) {
+    fail(error);
+    presetSelect.value = presetName;
+  }
+}
+presetSelect.addEventListener("change", () => {
+  if (presetSelect.value) choosePreset(presetSelect.value);
+});
+addEventListener("hashchange", () => {
+  const name = decodeURIComponent(location.hash.slice(1));
+  if (name && name !== presetName && name !== "groups") choosePreset(name);
+});
+
+async function begin() {
+  let draft = null;
+  try {
+    draft = localStorage.getItem(DRAFT);
+  } catch {
+    // As above.
+  }
+  try {
+    const list = await api.presets();
+    presetSelect.replaceChildren(el("option", { value: "" }, "Your own"),
+      ...list.map(({ name, title }) => el("option", { value: name }, title)));
+    const asked = decodeURIComponent(location.hash.slice(1));
+    const known = list.some(({ name }) => name === asked);
+    if (draft !== null && !known) {
+      store.replaceText(draft);
+      say("Your last document is open again.");
+    } else {
+      await choosePreset(known ? asked : list[0].name);
+    }
+    store.forgetHistory();
+    refreshControls();
+  } catch (error) {
+    fail(error);
+  }
+}
+begin();

@@ -1,0 +1,184 @@
+// The groups of controls beside the picture: what can be set, and over what useful range.
+
+import { cameraOf, isAutomatic, kSteepest, orbitOf, sizeOf } from "./camera.js";
+import { checkbox, colour, group, numberField, select, slider } from "./controls.js";
+import { at, atOrDefault, withAt } from "./document.js";
+import { el, freshId } from "./dom.js";
+
+const turn = (degrees) => ((degrees % 360) + 360) % 360;
+const SIZES = ["640 × 360", "960 × 600", "1280 × 720", "1920 × 1080", "3840 × 2160", "1024 × 1024"];
+
+function sunPanel(store) {
+  // A document may give the sun as a direction; the angles then are read from it, and replace it
+  // when one of them is moved.
+  const angles = () => {
+    const direction = at(store.scene, "/sun/direction");
+    if (!Array.isArray(direction)) return null;
+    const [x, y, z] = direction;
+    const degrees = 180 / Math.PI;
+    return { elevation: Math.atan2(y, Math.hypot(x, z)) * degrees, azimuth: turn(Math.atan2(x, z) * degrees) };
+  };
+  const angle = (name) => ({
+    get: () => angles()?.[name] ?? atOrDefault(store.scene, `/sun/${name}`),
+    set: (value, options) => {
+      const before = angles();
+      if (!before) return store.set(`/sun/${name}`, value, options);
+      store.update((scene) => {
+        const { direction: _replaced, ...sun } = scene.sun;
+        return { ...scene, sun: { ...sun, ...before, [name]: value } };
+      }, { key: "/sun/direction", ...options });
+    },
+  });
+  const fields = [
+    slider(store, { label: "Elevation", pointer: "/sun/elevation", min: -10, max: 90, step: 0.5, unit: "°", ...angle("elevation") }),
+    slider(store, { label: "Azimuth", pointer: "/sun/azimuth", min: 0, max: 360, step: 1, unit: "°", ...angle("azimuth") }),
+    slider(store, { label: "Intensity", pointer: "/sun/intensity", min: 0.5, max: 400, log: true }),
+    colour(store, { label: "Colour", pointer: "/sun/color" }),
+  ];
+  return { title: "Sun", pointer: "/sun", fields };
+}
+
+export function cameraPanel(store, bounds) {
+  const orbit = () => orbitOf(store.scene, bounds());
+  const write = (part, options) =>
+    store.update((scene) => ({ ...scene, camera: cameraOf(scene, { ...orbitOf(scene, bounds()), ...part }) }),
+      { key: "/camera", ...options });
+  const part = (name) => ({ get: () => Number(orbit()[name].toFixed(name === "distance" ? 3 : 1)), set: (value, options) => write({ [name]: value }, options) });
+  const radius = () => sizeOf(bounds()).radius;
+  const fields = [
+    checkbox({
+      label: "Automatic: the whole cloud", pointer: "/camera", get: () => isAutomatic(store.scene),
+      set: (on) => (on ? store.set("/camera", undefined) : write({})),
+    }),
+    slider(store, {
+      label: "Azimuth", pointer: "/camera/eye", min: 0, max: 360, step: 1, unit: "°",
+      get: () => Math.round(turn(orbit().azimuth) * 10) / 10, set: (azimuth, options) => write({ azimuth }, options),
+    }),
+    slider(store, { label: "Elevation", pointer: "/camera/elevation", min: -kSteepest, max: kSteepest, step: 0.5, unit: "°", ...part("elevation") }),
+    slider(store, { label: "Distance", pointer: "/camera/distance", min: 0.5, max: 20000, log: true, ...part("distance") }),
+    slider(store, { label: "Field of view", pointer: "/camera/fov", min: 5, max: 120, step: 1, unit: "°", ...part("fov") }),
+  ];
+  const aim = el("button", {
+    type: "button",
+    onclick: () => {
+      const { fov } = orbit();
+      write({ target: sizeOf(bounds()).center, distance: radius() / Math.sin((fov * Math.PI) / 360) });
+    },
+  }, "Aim at the cloud");
+  return {
+    title: "Camera", pointer: "/camera", fields, tail: [aim],
+    // For dragging and for keys on the picture.
+    nudge({ azimuth = 0, elevation = 0, nearer = 1 }, options) {
+      const now = orbit();
+      write({
+        azimuth: now.azimuth + azimuth,
+        elevation: Math.max(-kSteepest, Math.min(kSteepest, now.elevation + elevation)),
+        distance: now.distance * nearer,
+      }, options);
+    },
+  };
+}
+
+function skyPanel(store) {
+  let kept = {}; // what the sky was before it was put out
+  const fields = [
+    checkbox({
+      label: "Sky light", pointer: "/sky", get: () => at(store.scene, "/sky") !== "none",
+      set: (on) => {
+        const sky = at(store.scene, "/sky");
+        if (!on) kept = sky;
+        store.set("/sky", on ? kept : "none");
+      },
+    }),
+    colour(store, { label: "Zenith", pointer: "/sky/zenith" }),
+    colour(store, { label: "Horizon", pointer: "/sky/horizon" }),
+    slider(store, { label: "Intensity", pointer: "/sky/intensity", min: 0.02, max: 50, log: true }),
+  ];
+  return { title: "Sky", pointer: "/sky", fields };
+}
+
+// A seed has 64 bits, more than a number field can hold exactly.
+function seedField(store) {
+  const id = freshId("seed");
+  const input = el("input", { id, type: "text", inputmode: "numeric", autocomplete: "off" });
+  const write = () => {
+    const whole = /^-?\d+$/.test(input.value.trim());
+    input.classList.toggle("incomplete", !whole);
+    if (!whole) return;
+    const seed = BigInt(input.value);
+    store.set("/seed", Number.isSafeInteger(Number(seed)) ? Number(seed) : seed);
+  };
+  const refresh = () => {
+    if (document.activeElement !== input) input.value = String(atOrDefault(store.scene, "/seed"));
+  };
+  input.addEventListener("input", write);
+  input.addEventListener("blur", () => {
+    input.classList.remove("incomplete");
+    refresh();
+  });
+  const another = el("button", {
+    type: "button",
+    onclick: () => store.set("/seed", crypto.getRandomValues(new Uint32Array(1))[0]),
+  }, "Another");
+  return { element: el("div", { class: "field seed", "data-pointer": "/seed" }, el("label", { for: id }, "Seed"), input, another), refresh };
+}
+
+function matterPanel(store) {
+  const fields = [
+    slider(store, { label: "Density", pointer: "/density", min: 0.001, max: 100, log: true }),
+    slider(store, { label: "Albedo", pointer: "/medium/albedo", min: 0.5, max: 1, step: 0.001 }),
+    slider(store, { label: "Forward g", pointer: "/medium/g", min: -0.9, max: 0.98, step: 0.01 }),
+    select(store, {
+      label: "Phase function", pointer: () => "/medium/phase",
+      choices: [["henyey-greenstein", "Henyey–Greenstein"], ["cornette-shanks", "Cornette–Shanks"]],
+    }),
+    select(store, {
+      label: "Filling", pointer: () => "/fill",
+      choices: [["uniform", "uniform"], ["gardner", "gardner: with phase shift"], ["printed", "printed: as in the source"]],
+    }),
+    seedField(store),
+  ];
+  return { title: "Matter", pointer: "/medium", fields };
+}
+
+function imagePanel(store) {
+  const side = (label, member) => numberField(store, { label, pointer: () => `/image/${member}` });
+  const sizeNow = () => `${atOrDefault(store.scene, "/image/width")} × ${atOrDefault(store.scene, "/image/height")}`;
+  const exposure = () => at(store.scene, "/image/exposure") ?? "auto";
+  const fields = [
+    select(store, {
+      label: "Size", pointer: () => "/image", choices: [["", "other"], ...SIZES.map((size) => [size, size])],
+      get: () => (SIZES.includes(sizeNow()) ? sizeNow() : ""),
+      set: (size) => {
+        const [width, height] = size.split(" × ").map(Number);
+        if (height) store.update((scene) => withAt(withAt(scene, "/image/width", width), "/image/height", height));
+      },
+    }),
+    side("Width", "width"), side("Height", "height"),
+    select(store, {
+      label: "Background", pointer: () => "/image/background", choices: [["sky", "sky"], ["transparent", "transparent"]],
+    }),
+    checkbox({
+      label: "Automatic exposure", pointer: "/image/automatic-exposure", get: () => exposure() === "auto",
+      set: (on) => store.set("/image/exposure", on ? undefined : -3),
+    }),
+    slider(store, {
+      label: "Exposure", pointer: "/image/exposure", min: -8, max: 4, step: 0.1, unit: "EV",
+      get: () => (exposure() === "auto" ? -3 : exposure()),
+    }),
+  ];
+  return { title: "Picture", pointer: "/image", fields };
+}
+
+// All groups: [{ element, refresh }].
+export function createPanels(store, camera) {
+  const open = window.matchMedia("(min-width: 60rem)").matches; // on a phone, a list of titles
+  const build = ({ title, pointer, fields, tail = [] }, unfolded) => ({
+    element: group(title, pointer, unfolded, ...fields.map((field) => field.element), ...tail),
+    refresh() { fields.forEach((field) => field.refresh()); },
+  });
+  return [
+    build(sunPanel(store), true), build(camera, open), build(skyPanel(store), open),
+    build(matterPanel(store), open), build(imagePanel(store), false),
+  ];
+}

@@ -1,0 +1,83 @@
+// Where errors are shown: at the field that the service's JSON pointer names, or at the nearest
+// enclosing group that the page has; and always in the status line.
+
+import { el, freshId } from "./dom.js";
+
+// Elements that stand for a place in the document carry its pointer in data-pointer.
+function elementAt(pointer) {
+  for (let p = pointer; p; p = p.slice(0, p.lastIndexOf("/"))) {
+    const found = document.querySelector(`[data-pointer="${CSS.escape(p)}"]`);
+    if (found) return found;
+  }
+  return document.querySelector('[data-pointer=""]'); // the document as text
+}
+
+const inputsOf = (element) =>
+  element.matches("input, select, textarea") ? [element] : [...element.querySelectorAll("input, select, textarea")];
+
+let marked = []; // undo functions of what mark() did
+
+function mark(element, text) {
+  const id = freshId("problem");
+  const message = el("p", { id, class: "problem" }, text);
+  const row = element.closest("tr");
+  let placed = message;
+  if (row) { // a cell is too narrow for a sentence
+    placed = el("tr", { class: "problem-row" }, el("td", { colspan: row.cells.length }, message));
+    row.after(placed);
+  } else if (element.matches("details")) {
+    element.querySelector("summary").after(message);
+  } else {
+    element.append(message);
+  }
+  const inputs = element.matches("details") ? [] : inputsOf(element);
+  for (const input of inputs) {
+    input.setAttribute("aria-invalid", "true");
+    input.setAttribute("aria-describedby", id);
+  }
+  marked.push(() => {
+    placed.remove();
+    for (const input of inputs) {
+      input.removeAttribute("aria-invalid");
+      input.removeAttribute("aria-describedby");
+    }
+  });
+}
+
+export function clearMarks() {
+  marked.forEach((undo) => undo());
+  marked = [];
+}
+
+// Marks the field of the problem. True when one was found.
+export function markProblem({ pointer, message }) {
+  clearMarks();
+  const element = pointer ? elementAt(pointer) : null;
+  if (element) mark(element, message);
+  return element !== null;
+}
+
+// Puts the focus where the problem is, opening what hides it.
+export function focusProblem(pointer) {
+  const element = elementAt(pointer);
+  if (!element) return;
+  for (let box = element.closest("details"); box; box = box.parentElement.closest("details")) box.open = true;
+  const [input] = inputsOf(element);
+  (input ?? element).focus();
+  (input ?? element).scrollIntoView({ block: "center" });
+}
+
+// "/cubes/3/size/1" -> "cube 4, size y": people count from one.
+export function placeName(pointer) {
+  const words = [];
+  const parts = pointer.split("/").slice(1);
+  const axes = ["x", "y", "z"];
+  parts.forEach((part, i) => {
+    const list = parts[i - 1];
+    if (!/^\d+$/.test(part)) words.push({ cubes: "cube", clouds: "cloud" }[part] ?? part.replaceAll("_", " "));
+    else if (list === "cubes" || list === "clouds") words.push(`${Number(part) + 1},`);
+    else if (["size", "center", "eye", "target", "up", "translate", "direction"].includes(list)) words.push(axes[part] ?? part);
+    else words.push(String(Number(part) + 1));
+  });
+  return words.join(" ").replace(/,$/, "");
+}

@@ -1,0 +1,77 @@
+// The picture itself: showing it without flicker, and moving around the cloud with pointer, wheel
+// and keys.
+
+import { byId } from "./dom.js";
+
+const DEGREES_PER_PIXEL = 0.35;
+const KEY_DEGREES = 5;
+const KEY_RATIO = 0.9;
+
+export function createStage(nudge) {
+  const stage = byId("stage");
+  const image = byId("picture");
+  let url = null;
+  let order = 0; // of calls to show(): decoding may end out of order
+
+  async function show(blob, description) {
+    const mine = ++order;
+    const next = URL.createObjectURL(blob);
+    const loaded = new Image();
+    loaded.src = next;
+    await loaded.decode().catch(() => {});
+    if (mine !== order) {
+      URL.revokeObjectURL(next);
+      return;
+    }
+    image.src = next;
+    image.alt = description;
+    if (url) URL.revokeObjectURL(url);
+    url = next;
+  }
+
+  // The box keeps the shape of the full picture, so that nothing moves when a small one is shown.
+  function shape(width, height, transparent) {
+    if (width > 0 && height > 0) stage.style.setProperty("--ratio", String(width / height));
+    stage.classList.toggle("transparent", transparent);
+  }
+
+  let from = null;
+  stage.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0 || event.target.closest("#status")) return;
+    from = { x: event.clientX, y: event.clientY };
+    stage.setPointerCapture(event.pointerId);
+    stage.classList.add("dragging");
+  });
+  stage.addEventListener("pointermove", (event) => {
+    if (!from) return;
+    const [dx, dy] = [event.clientX - from.x, event.clientY - from.y];
+    if (!dx && !dy) return;
+    from = { x: event.clientX, y: event.clientY };
+    nudge({ azimuth: -dx * DEGREES_PER_PIXEL, elevation: dy * DEGREES_PER_PIXEL }, { moving: true });
+  });
+  const release = () => {
+    from = null;
+    stage.classList.remove("dragging");
+  };
+  stage.addEventListener("pointerup", release);
+  stage.addEventListener("pointercancel", release);
+  stage.addEventListener("wheel", (event) => {
+    if (event.ctrlKey) return; // the browser's own zoom
+    event.preventDefault();
+    const pixels = event.deltaY * (event.deltaMode === 1 ? 30 : 1);
+    nudge({ nearer: Math.exp(Math.max(-200, Math.min(200, pixels)) * 0.0012) }, { moving: true });
+  }, { passive: false });
+
+  const KEYS = {
+    ArrowLeft: { azimuth: -KEY_DEGREES }, ArrowRight: { azimuth: KEY_DEGREES },
+    ArrowUp: { elevation: KEY_DEGREES }, ArrowDown: { elevation: -KEY_DEGREES },
+    "+": { nearer: KEY_RATIO }, "=": { nearer: KEY_RATIO }, "-": { nearer: 1 / KEY_RATIO },
+  };
+  stage.addEventListener("keydown", (event) => {
+    const step = KEYS[event.key];
+    if (!step || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    nudge(step, { moving: true });
+  });
+  return { show, shape };
+}
