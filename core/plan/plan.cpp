@@ -110,6 +110,22 @@ bool in_this_version(Effect effect) {
     }
 }
 
+// Forward-scattered light travels with the light pass of self_shadow: one does not run without the
+// other.
+void join_scattering_to_shadow(Plan& plan, const Scene& scene) {
+    EffectDecision& shadow = plan.effects[static_cast<std::size_t>(Effect::kSelfShadow)];
+    EffectDecision& scattering =
+        plan.effects[static_cast<std::size_t>(Effect::kMultipleScattering)];
+    if (!scattering.on || shadow.on) return;
+    if (scene->effects[static_cast<int>(Effect::kSelfShadow)] == Switch::kOff) {
+        scattering.on = false;
+        scattering.reason = "self_shadow is switched off, and scattered light travels with it";
+    } else {
+        shadow.on = true;
+        shadow.reason = "multiple_scattering travels with it (" + shadow.reason + ")";
+    }
+}
+
 }  // namespace
 
 Plan plan(const Scene& scene, const Survey& survey) {
@@ -140,6 +156,7 @@ Plan plan(const Scene& scene, const Survey& survey) {
                 break;
         }
     }
+    join_scattering_to_shadow(plan, scene);
     return plan;
 }
 

@@ -1,0 +1,95 @@
+#include "core/draw/draw.h"
+
+#include <algorithm>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "core/draw/splats.h"
+#include "core/gl/programs.h"
+
+namespace awan {
+namespace {
+
+constexpr std::uint64_t kMaxEntries =
+    1u << 20;  // list entries a dispatch: at most about half a second of llvmpipe
+constexpr std::uint64_t kMaxTiles = 1u << 14;  // 4 Mi pixels, 64 MiB of them in GL at a time
+
+void set_uniforms(const Scene& scene, const View& view, const Plan& plan) {
+    const auto set3 = [](GLint location, glm::dvec3 v) {
+        const glm::vec3 f(v);
+        glUniform3f(location, f.x, f.y, f.z);
+    };
+    const auto in_frame = [&](glm::dvec3 v) {
+        return glm::normalize(
+            glm::dvec3(glm::dot(v, view.right), glm::dot(v, view.up), glm::dot(v, view.forward)));
+    };
+    glUniform2i(1, scene->image.width, scene->image.height);
+    glUniform2f(2, static_cast<float>(view.tan_half_fov * view.aspect),
+                static_cast<float>(view.tan_half_fov));
+    set3(3, in_frame(sun_direction(scene->sun)));
+    set3(4, in_frame({0, 1, 0}));
+    const double sky = scene->sky.none ? 0.0 : scene->sky.intensity;
+    set3(5, scene->sky.zenith * sky);
+    set3(6, scene->sky.horizon * sky);
+    glUniform1f(7, static_cast<float>(scene->medium.g));
+    glUniform1i(8, scene->medium.phase == PhaseFunction::kCornetteShanks ? 1 : 0);
+    glUniform1i(9, plan.on(Effect::kViewExtinction) ? 1 : 0);
+    glUniform1i(10, scene->image.background == Background::kSky ? 1 : 0);
+}
+
+void copy_region(const std::vector<float>& from, const gl::TileRegion& region, Image& image) {
+    const int left = region.x * kTilePixels, top = region.y * kTilePixels;
+    const int width = std::min(region.width * kTilePixels, image.width - left);
+    const int height = std::min(region.height * kTilePixels, image.height - top);
+    for (int y = 0; y < height; ++y) {
+        const float* source = from.data() + static_cast<std::size_t>(y) *
+                                                static_cast<std::size_t>(region.width) *
+                                                kTilePixels * 4;
+        float* target = image.pixels.data() +
+                        (static_cast<std::size_t>(top + y) * static_cast<std::size_t>(image.width) +
+                         static_cast<std::size_t>(left)) *
+                            4;
+        std::memcpy(target, source, static_cast<std::size_t>(width) * 4 * sizeof(float));
+    }
+}
+
+}  // namespace
+
+Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View& view,
+                   const Plan& plan, const Lighting& lighting, Device& device,
+                   const Deadline& deadline) {
+    Image image{
+        scene->image.width, scene->image.height, scene->image.background == Background::kSky, {}};
+    image.pixels.resize(4 * image.pixel_count());
+    const SplatList list = make_splats(scene, particles, view, plan, lighting);
+    const gl::Buffer splats{std::span<const Splat>(list.splats)};
+    std::vector<float> pixels;
+
+    device.programs().splat.use();
+    set_uniforms(scene, view, plan);
+    const auto status = gl::for_each_region(
+        list.tiles, (image.width + kTilePixels - 1) / kTilePixels,
+        (image.height + kTilePixels - 1) / kTilePixels, kMaxEntries, kMaxTiles, deadline,
+        [&](const gl::TileRegion& region) -> Status {
+            const gl::Buffer begin{std::span<const std::uint32_t>(region.begin)};
+            const gl::Buffer items{std::span<const std::uint32_t>(region.items)};
+            pixels.resize(static_cast<std::size_t>(region.width) *
+                          static_cast<std::size_t>(region.height) * kTilePixels * kTilePixels * 4);
+            const gl::Buffer picture(pixels.size() * sizeof(float));
+            splats.bind(0);
+            begin.bind(1);
+            items.bind(2);
+            picture.bind(3);
+            glUniform4i(0, region.x, region.y, region.width, region.height);
+            glDispatchCompute(static_cast<GLuint>(region.width), static_cast<GLuint>(region.height),
+                              1);
+            picture.read(pixels.data(), pixels.size() * sizeof(float));
+            copy_region(pixels, region, image);
+            return gl::gl_status("the eye pass");
+        });
+    if (status) return *status;
+    return image;
+}
+
+}  // namespace awan

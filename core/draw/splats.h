@@ -1,0 +1,31 @@
+// Particles as seen by the eye: the records of splat.glsl, front to back. Geometry only, no GL.
+#pragma once
+
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "core/gl/tile_lists.h"
+#include "core/light/light.h"
+
+namespace awan {
+
+// As in splat.glsl (std430).
+struct Splat {
+    glm::vec4 place, matter, direct, red, green, blue, tint;
+};
+
+struct SplatList {
+    std::vector<Splat> splats;       // nearest first when sorted
+    std::vector<gl::TileBox> tiles;  // of kTilePixels x kTilePixels pixels, as long as splats
+};
+inline constexpr int kTilePixels = 16;
+
+// Everything in the picture. A Gaussian is cut where its optical depth falls below a thousandth,
+// but not within 4 s (0.03% of the mass); one narrower than half a pixel is widened to it, its
+// optical depth times area kept. sorted (effect view_extinction): by distance from the eye, ties by
+// index; particles of one centre and radius are merged (optical depths add, light and colour are
+// weighted by them), so that no order decides among them.
+SplatList make_splats(const Scene& scene, const ParticleSet& particles, const View& view,
+                      const Plan& plan, const Lighting& lighting);
+
+}  // namespace awan

@@ -1,0 +1,126 @@
+#include "core/gl/objects.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "core/embedded.h"
+
+namespace awan::gl {
+namespace {
+
+Result<std::string> shader_text(std::string_view name, int depth) {
+    const auto files = shader_files();
+    const auto file = std::find_if(files.begin(), files.end(),
+                                   [&](const EmbeddedFile& f) { return f.name == name; });
+    if (file == files.end() || depth > 4)
+        return Error{ErrorCode::kInternal, "", "no shader file " + std::string(name)};
+    std::string out;
+    std::string_view rest = file->text;
+    constexpr std::string_view kInclude = "#include \"";
+    while (!rest.empty()) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size() - 1);
+        const std::string_view line = rest.substr(0, end + 1);
+        rest.remove_prefix(end + 1);
+        if (!line.starts_with(kInclude)) {
+            out += line;
+            continue;
+        }
+        const std::string_view included =
+            line.substr(kInclude.size(), line.rfind('"') - kInclude.size());
+        auto text = shader_text(included, depth + 1);
+        if (!text.ok()) return text;
+        out += *text;
+    }
+    return out;
+}
+
+Error compile_error(std::string_view name, const char* log) {
+    return {ErrorCode::kInternal, "", "shader " + std::string(name) + ": " + log};
+}
+
+}  // namespace
+
+Buffer::Buffer(std::size_t bytes, const void* data) {
+    glCreateBuffers(1, &name_);
+    glNamedBufferStorage(name_, static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 1)),
+                         bytes > 0 ? data : nullptr, 0);
+}
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+}
+
+Buffer::~Buffer() {
+    if (name_ != 0) glDeleteBuffers(1, &name_);
+}
+
+void Buffer::bind(GLuint binding) const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_);
+}
+
+void Buffer::read(void* to, std::size_t bytes) const {
+    if (bytes == 0) return;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glGetNamedBufferSubData(name_, 0, static_cast<GLsizeiptr>(bytes), to);
+}
+
+Result<Program> Program::compute(std::string_view name) {
+    auto text = shader_text(name, 0);
+    if (!text.ok()) return text.error();
+    const std::string whole = "#version 450 core\n" + *text;
+    const char* source = whole.c_str();
+    const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
+    glShaderSource(shader, 1, &source, nullptr);
+    glCompileShader(shader);
+    std::array<char, 2048> log{};
+    GLint good = GL_FALSE;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+    if (good != GL_TRUE) {
+        glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
+        glDeleteShader(shader);
+        return compile_error(name, log.data());
+    }
+    Program program(glCreateProgram());
+    glAttachShader(program.name_, shader);
+    glLinkProgram(program.name_);
+    glDetachShader(program.name_, shader);
+    glDeleteShader(shader);
+    glGetProgramiv(program.name_, GL_LINK_STATUS, &good);
+    if (good != GL_TRUE) {
+        glGetProgramInfoLog(program.name_, static_cast<GLsizei>(log.size()), nullptr, log.data());
+        return compile_error(name, log.data());
+    }
+    return program;
+}
+
+Program& Program::operator=(Program&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+}
+
+Program::~Program() {
+    if (name_ != 0) glDeleteProgram(name_);
+}
+
+void Program::use() const {
+    glUseProgram(name_);
+}
+
+GLint Program::uniform(const char* name) const {
+    return glGetUniformLocation(name_, name);
+}
+
+Status gl_status(const char* step) {
+    const GLenum error = glGetError();
+    if (error == GL_NO_ERROR) return std::nullopt;
+    while (glGetError() != GL_NO_ERROR) {
+    }
+    std::array<char, 120> text{};
+    std::snprintf(text.data(), text.size(), "OpenGL error 0x%04x in %s", error, step);
+    return Error{error == GL_OUT_OF_MEMORY ? ErrorCode::kTooLarge : ErrorCode::kInternal, "",
+                 text.data()};
+}
+
+}  // namespace awan::gl

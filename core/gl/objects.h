@@ -1,0 +1,63 @@
+// OpenGL objects as move-only values. Private to core/gl, core/light and core/draw: they live and
+// die on the thread of the Device.
+#pragma once
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/result.h"
+
+namespace awan::gl {
+
+// A shader storage buffer. An empty one still has a byte, since GL refuses none.
+class Buffer {
+  public:
+    explicit Buffer(std::size_t bytes, const void* data = nullptr);
+    template <typename T>
+    explicit Buffer(std::span<const T> values) : Buffer(values.size_bytes(), values.data()) {}
+    Buffer(Buffer&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+    Buffer& operator=(Buffer&& other) noexcept;
+    Buffer(const Buffer&) = delete;
+    Buffer& operator=(const Buffer&) = delete;
+    ~Buffer();
+
+    void bind(GLuint binding) const;  // to layout(binding = ...) buffer
+    // Copies bytes from the start; waits for the shaders that write them.
+    void read(void* to, std::size_t bytes) const;
+
+  private:
+    GLuint name_ = 0;
+};
+
+// A compute program.
+class Program {
+  public:
+    // `name`: a file of core/shaders. Lines `#include "other.glsl"` are replaced by that file.
+    // Fails with kInternal and the compiler's log.
+    static Result<Program> compute(std::string_view name);
+    Program(Program&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+    Program& operator=(Program&& other) noexcept;
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+    ~Program();
+
+    void use() const;
+    // Location of a uniform; -1 when the compiler dropped it (setting -1 is allowed and does
+    // nothing).
+    GLint uniform(const char* name) const;
+
+  private:
+    explicit Program(GLuint name) : name_(name) {}
+    GLuint name_ = 0;
+};
+
+// The first error flag of the context since the last call, as an Error that names `step`.
+Status gl_status(const char* step);
+
+}  // namespace awan::gl

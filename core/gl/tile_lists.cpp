@@ -1,0 +1,96 @@
+#include "core/gl/tile_lists.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace awan::gl {
+namespace {
+
+struct Rectangle {
+    int x, y, width, height;
+};
+
+TileBox clip(const TileBox& box, const Rectangle& to) {
+    return {std::max(box.first_x, to.x), std::max(box.first_y, to.y),
+            std::min(box.last_x, to.x + to.width - 1), std::min(box.last_y, to.y + to.height - 1)};
+}
+
+std::uint64_t tiles_in(const TileBox& box) {
+    if (box.last_x < box.first_x || box.last_y < box.first_y) return 0;
+    return static_cast<std::uint64_t>(box.last_x - box.first_x + 1) *
+           static_cast<std::uint64_t>(box.last_y - box.first_y + 1);
+}
+
+TileRegion make_lists(std::span<const TileBox> boxes, const std::vector<std::uint32_t>& candidates,
+                      const Rectangle& area) {
+    TileRegion region{area.x, area.y, area.width, area.height, {}, {}};
+    const auto index = [&](int x, int y) {
+        return static_cast<std::size_t>(y - area.y) * static_cast<std::size_t>(area.width) +
+               static_cast<std::size_t>(x - area.x);
+    };
+    const std::size_t tiles =
+        static_cast<std::size_t>(area.width) * static_cast<std::size_t>(area.height);
+    region.begin.assign(tiles + 1, 0);
+    for (const std::uint32_t i : candidates) {
+        const TileBox box = clip(boxes[i], area);
+        for (int y = box.first_y; y <= box.last_y; ++y)
+            for (int x = box.first_x; x <= box.last_x; ++x) ++region.begin[index(x, y) + 1];
+    }
+    std::partial_sum(region.begin.begin(), region.begin.end(), region.begin.begin());
+    region.items.resize(region.begin.back());
+    std::vector<std::uint32_t> next(region.begin.begin(), region.begin.end() - 1);
+    for (const std::uint32_t i : candidates) {
+        const TileBox box = clip(boxes[i], area);
+        for (int y = box.first_y; y <= box.last_y; ++y)
+            for (int x = box.first_x; x <= box.last_x; ++x) region.items[next[index(x, y)]++] = i;
+    }
+    return region;
+}
+
+struct Cutter {
+    std::span<const TileBox> boxes;
+    std::uint64_t max_entries, max_tiles;
+    const Deadline& deadline;
+    const std::function<Status(const TileRegion&)>& visit;
+
+    // Depth is at most log2 of the number of tiles.
+    Status cut(const Rectangle& area, const std::vector<std::uint32_t>& candidates) const {
+        if (auto error = deadline.over()) return error;
+        std::vector<std::uint32_t> inside;
+        std::uint64_t entries = 0;
+        for (const std::uint32_t i : candidates) {
+            const std::uint64_t tiles = tiles_in(clip(boxes[i], area));
+            if (tiles > 0) inside.push_back(i);
+            entries += tiles;
+        }
+        const auto tiles =
+            static_cast<std::uint64_t>(area.width) * static_cast<std::uint64_t>(area.height);
+        if (tiles == 1 || (entries <= max_entries && tiles <= max_tiles))
+            return visit(make_lists(boxes, inside, area));
+        Rectangle first = area, second = area;
+        // Across first, so that regions stay whole rows of the raster as long as they can.
+        if (area.height > 1) {
+            first.height = area.height / 2;
+            second.y += first.height;
+            second.height -= first.height;
+        } else {
+            first.width = area.width / 2;
+            second.x += first.width;
+            second.width -= first.width;
+        }
+        if (auto error = cut(first, inside)) return error;
+        return cut(second, inside);
+    }
+};
+
+}  // namespace
+
+Status for_each_region(std::span<const TileBox> boxes, int width, int height,
+                       std::uint64_t max_entries, std::uint64_t max_tiles, const Deadline& deadline,
+                       const std::function<Status(const TileRegion&)>& visit) {
+    std::vector<std::uint32_t> all(boxes.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return Cutter{boxes, max_entries, max_tiles, deadline, visit}.cut({0, 0, width, height}, all);
+}
+
+}  // namespace awan::gl

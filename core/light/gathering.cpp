@@ -1,0 +1,28 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/light/light.h"
+
+namespace awan {
+
+// The integral of the phase function over x = 1 - cos, by the midpoint rule in t with x = x_max
+// t^4: the forward peak of g = .999 is 1e-6 wide in x, and t^4 puts 3% of the points there.
+double gathering_fraction(const Medium& medium, double half_angle) {
+    constexpr int kSteps = 4096;
+    const double x_max = 1 - std::cos(half_angle);
+    const double g = medium.g, rest = 1 - std::abs(g);
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double t = (i + 0.5) / kSteps;
+        const double x = x_max * t * t * t * t, cosine = 1 - x;
+        const double base = rest * rest + 2 * std::abs(g) * (g >= 0 ? x : 2 - x);
+        double p = rest * (1 + std::abs(g)) / (base * std::sqrt(base));
+        if (medium.phase == PhaseFunction::kCornetteShanks)
+            p *= 1.5 * (1 + cosine * cosine) / (2 + g * g);
+        sum += p * 4 * t * t * t;
+    }
+    return std::min(1.0, 0.5 * sum * x_max / kSteps);
+}
+
+}  // namespace awan

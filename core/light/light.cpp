@@ -1,0 +1,151 @@
+#include "core/light/light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "core/gl/programs.h"
+#include "core/gl/tile_lists.h"
+#include "core/light/light_grid.h"
+
+namespace awan {
+namespace {
+
+constexpr int kTile = 8;  // texels a side, as in light_columns.glsl
+constexpr std::uint64_t kMaxEntries =
+    1u << 21;  // about half a second of llvmpipe between looks at the deadline
+constexpr float kCornerDistance =
+    1.2F;  // of the sample points, in s: where most of a particle's mass is
+
+struct GpuParticle {
+    glm::vec4 place, matter;
+};
+
+// A particle narrower than the grid can see is widened, its optical depth times area kept.
+struct OnGrid {
+    GpuParticle gpu;
+    gl::TileBox tiles;
+};
+
+OnGrid put_on_grid(const ParticleSet& particles, std::size_t i, const LightGrid& grid) {
+    const double s = 0.5 * static_cast<double>(particles.radius[i]);
+    const double tau =
+        static_cast<double>(particles.density[i]) * s * std::sqrt(2 * std::numbers::pi);
+    const glm::dvec3 place = grid.place(particles.center[i]);
+    const double across = std::max(s / grid.texel, 0.6), along = std::max(s / grid.slab, 0.4);
+    const double thinned = tau * (s / grid.texel / across) * (s / grid.texel / across);
+    const double reach = 4 * across;
+    const auto tile = [](double texel, int count) {
+        return static_cast<std::int32_t>(
+            std::clamp(std::floor(texel / kTile), 0.0, static_cast<double>((count - 1) / kTile)));
+    };
+    return {{glm::vec4(place.x, place.y, place.z, 0.5 / (across * across)),
+             glm::vec4(thinned, 1 / along, 4 * along, 0)},
+            {tile(place.x - reach, grid.cells.x), tile(place.y - reach, grid.cells.y),
+             tile(place.x + reach, grid.cells.x), tile(place.y + reach, grid.cells.y)}};
+}
+
+struct OneLight {
+    glm::dvec3 to_light;
+    double gain;
+    bool sky;
+};
+
+// Both steps for one light: two vec4 a particle.
+Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const OneLight& light,
+                                         Device& device, const Deadline& deadline) {
+    const LightGrid grid = light_grid(particles, light.to_light);
+    std::vector<GpuParticle> placed(particles.size());
+    std::vector<gl::TileBox> tiles(particles.size());
+    std::vector<glm::vec4> points(particles.size());
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        const OnGrid on = put_on_grid(particles, i, grid);
+        placed[i] = on.gpu;
+        tiles[i] = on.tiles;
+        points[i] =
+            glm::vec4(glm::vec3(on.gpu.place), kCornerDistance * 0.5F * particles.radius[i]);
+    }
+
+    const Device::Programs& programs = device.programs();
+    const glm::ivec3 cells = grid.cells;
+    const gl::Buffer placed_buffer{std::span<const GpuParticle>(placed)};
+    const gl::Buffer volume(static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
+                            static_cast<std::size_t>(cells.z) * 2 * sizeof(float));
+    const auto status = gl::for_each_region(
+        tiles, (cells.x + kTile - 1) / kTile, (cells.y + kTile - 1) / kTile, kMaxEntries, 1u << 20,
+        deadline, [&](const gl::TileRegion& region) -> Status {
+            const gl::Buffer begin{std::span<const std::uint32_t>(region.begin)};
+            const gl::Buffer items{std::span<const std::uint32_t>(region.items)};
+            programs.light_columns.use();
+            placed_buffer.bind(0);
+            begin.bind(1);
+            items.bind(2);
+            volume.bind(3);
+            glUniform3i(0, cells.x, cells.y, cells.z);
+            glUniform4i(1, region.x, region.y, region.width, region.height);
+            glUniform1f(2, static_cast<float>(light.gain));
+            glDispatchCompute(static_cast<GLuint>(region.width), static_cast<GLuint>(region.height),
+                              static_cast<GLuint>(cells.z / 8));
+            glFinish();
+            return std::nullopt;
+        });
+    if (status) return *status;
+
+    const gl::Buffer point_buffer{std::span<const glm::vec4>(points)};
+    std::vector<glm::vec4> samples(2 * particles.size());
+    const gl::Buffer sample_buffer(samples.size() * sizeof(glm::vec4));
+    programs.light_samples.use();
+    point_buffer.bind(0);
+    volume.bind(1);
+    sample_buffer.bind(2);
+    glUniform3i(0, cells.x, cells.y, cells.z);
+    glUniform1i(1, static_cast<GLint>(particles.size()));
+    const auto set_axis = [](GLint location, glm::dvec3 axis, double step) {
+        const glm::vec3 a(axis / step);
+        glUniform3f(location, a.x, a.y, a.z);
+    };
+    set_axis(2, grid.u, grid.texel);
+    set_axis(3, grid.v, grid.texel);
+    set_axis(4, grid.w, grid.slab);
+    glUniform1i(5, light.sky ? 1 : 0);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glDispatchCompute(static_cast<GLuint>((particles.size() + 63) / 64), 1, 1);
+    sample_buffer.read(samples.data(), samples.size() * sizeof(glm::vec4));
+    if (auto error = gl::gl_status("the light pass")) return *error;
+    if (auto error = deadline.over()) return *error;
+    return samples;
+}
+
+}  // namespace
+
+Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const Plan& plan,
+                       Device& device, const Deadline& deadline) {
+    Lighting lighting;
+    if (!plan.on(Effect::kSelfShadow) || particles.size() == 0) return lighting;
+    const double gain =
+        plan.on(Effect::kMultipleScattering)
+            ? scene->medium.albedo * gathering_fraction(scene->medium, std::numbers::pi / 2)
+            : 0.0;
+    const glm::vec4 full(0, 0, 0, 1), none(0);
+    lighting.particles.assign(particles.size(), {full, none, full, full});
+    if (scene->sun.intensity > 0) {
+        auto sun = one_light(particles, {sun_direction(scene->sun), gain, false}, device, deadline);
+        if (!sun.ok()) return sun.error();
+        for (std::size_t i = 0; i < particles.size(); ++i) {
+            lighting.particles[i].direct = (*sun)[2 * i];
+            lighting.particles[i].scattered = (*sun)[2 * i + 1];
+        }
+    }
+    if (plan.on(Effect::kSkyLight)) {
+        auto sky = one_light(particles, {{0, 1, 0}, gain, true}, device, deadline);
+        if (!sky.ok()) return sky.error();
+        for (std::size_t i = 0; i < particles.size(); ++i) {
+            lighting.particles[i].from_above = (*sky)[2 * i];
+            lighting.particles[i].from_below = (*sky)[2 * i + 1];
+        }
+    }
+    return lighting;
+}
+
+}  // namespace awan

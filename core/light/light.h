@@ -1,0 +1,44 @@
+// Pass 1, from the lights: how much of the sun's and the sky's light reaches each particle.
+#pragma once
+
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "core/deadline.h"
+#include "core/gl/device.h"
+#include "core/plan/plan.h"
+
+namespace awan {
+
+// Fractions 0..1 of a light's full strength near one particle: value at its centre (w) and gradient
+// over scene units (xyz), so that a fragment can have its own light.
+struct ParticleLight {
+    glm::vec4 direct;      // sun, not scattered on the way
+    glm::vec4 scattered;   // sun, scattered forward on the way (arrives from about the sun, leaves
+                           // in all directions)
+    glm::vec4 from_above;  // upper half of the sky
+    glm::vec4 from_below;  // lower half
+};
+
+// View-independent: it may be kept while the camera moves.
+struct Lighting {
+    // One a particle; EMPTY when no light is shadowed: then direct, from_above and from_below are
+    // 1, scattered 0.
+    std::vector<ParticleLight> particles;
+};
+
+// The classic recurrence (document 000, eq. 3.12; Harris 2001) from the sun and from the zenith, by
+// the compute passes light_columns and light_samples. Skipped when the plan has no self_shadow.
+//
+// Forward gain: the part of a particle's scattered light that travels on with the beam, albedo
+// times the phase function's true fraction in the forward hemisphere (gathering_fraction). Light
+// gained so has been scattered; it is kept apart from the direct beam since it no longer has the
+// beam's direction. Errors: kOverDeadline, kCancelled, kInternal.
+Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const Plan& plan,
+                       Device& device, const Deadline& deadline);
+
+// Fraction of scattered light within `half_angle` (radians, 0..pi) of straight on. Error < 1e-4.
+// |g| <= .999.
+double gathering_fraction(const Medium& medium, double half_angle);
+
+}  // namespace awan

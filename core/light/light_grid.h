@@ -1,0 +1,30 @@
+// The volume of pass 1: columns along the light, slabs across it. Geometry only, no GL.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "core/generate/particle_set.h"
+
+namespace awan {
+
+struct LightGrid {
+    glm::dvec3 origin{0};         // scene point at texel (0, 0), slab 0
+    glm::dvec3 u{0}, v{0}, w{0};  // unit axes; w points away from the light
+    double texel = 1;             // scene units, along u and v
+    double slab = 1;              // scene units, along w
+    glm::ivec3 cells{0};          // texels u, texels v, slabs; slabs is a multiple of 8
+
+    // Texels and slabs of a scene point.
+    glm::dvec3 place(glm::dvec3 p) const;
+};
+
+inline constexpr int kMaxLightTexels = 256;  // a side: 256 x 256 x 64 x 8 bytes are 32 MiB
+inline constexpr int kMinLightTexels = 16;
+inline constexpr int kMaxLightSlabs = 64;
+inline constexpr double kTexelsPerS = 1.5;  // texels in the typical s
+
+// Holds every particle out to 4 s. Its resolution follows the root mean square s. particles is not
+// empty.
+LightGrid light_grid(const ParticleSet& particles, glm::dvec3 to_light);
+
+}  // namespace awan

@@ -1,0 +1,63 @@
+// Pass 1, step 2: the light on each particle, as a value at its centre and a gradient.
+//
+// Four points around the centre, the corners of a regular tetrahedron at distance r: the mean of their values is the
+// value, and 3 / (4 r^2) sum(value * corner) the gradient of the linear function through them.
+layout(local_size_x = 64) in;
+
+struct SamplePoint {
+    vec4 place;  // u, v (texels), depth (slabs) of the centre; distance r of the corners, scene units
+};
+layout(std430, binding = 0) readonly buffer Points { SamplePoint points[]; };
+layout(std430, binding = 1) readonly buffer Volume { vec2 volume[]; };
+layout(std430, binding = 2) writeonly buffer Samples { vec4 samples[]; };  // two a particle: gradient xyz, value w
+
+layout(location = 0) uniform ivec3 cells;
+layout(location = 1) uniform int count;
+layout(location = 2) uniform vec3 axis_u;  // a step of one scene unit: texels along each scene axis
+layout(location = 3) uniform vec3 axis_v;
+layout(location = 4) uniform vec3 axis_depth;  // slabs
+layout(location = 5) uniform bool from_sky;
+
+vec2 slab_at(ivec2 a, ivec2 b, vec2 f, int slab) {
+    int base = slab * cells.x * cells.y;
+    vec2 low = mix(volume[base + a.y * cells.x + a.x], volume[base + a.y * cells.x + b.x], f.x);
+    vec2 high = mix(volume[base + b.y * cells.x + a.x], volume[base + b.y * cells.x + b.x], f.x);
+    return mix(low, high, f.y);
+}
+
+// Sun: unscattered light, and light that was scattered forward on the way. Sky: from above, and from below.
+vec2 light_at(vec3 p) {
+    vec2 q = clamp(p.xy, vec2(0.0), vec2(cells.xy - 1));
+    ivec2 a = ivec2(q);
+    ivec2 b = min(a + 1, cells.xy - 1);
+    vec2 f = q - vec2(a);
+    float z = clamp(p.z, 0.0, float(cells.z - 1));
+    int k = min(int(z), cells.z - 2);
+    vec2 depth = mix(slab_at(a, b, f, k), slab_at(a, b, f, k + 1), z - float(k));
+    if (from_sky) {
+        float whole = slab_at(a, b, f, cells.z - 1).y;
+        return exp(-vec2(depth.y, max(whole - depth.y, 0.0)));
+    }
+    vec2 through = exp(-depth);
+    return vec2(through.x, max(through.y - through.x, 0.0));
+}
+
+void main() {
+    int i = int(gl_GlobalInvocationID.x);
+    if (i >= count) return;
+    vec4 point = points[i].place;
+    float corner = point.w * 0.57735027;
+    vec2 mean = vec2(0.0);
+    vec3 slope_a = vec3(0.0), slope_b = vec3(0.0);
+    for (int c = 0; c < 4; ++c) {
+        vec3 offset = corner * vec3(c == 0 || c == 1 ? 1.0 : -1.0, c == 0 || c == 2 ? 1.0 : -1.0,
+                                    c == 0 || c == 3 ? 1.0 : -1.0);
+        vec2 value = light_at(point.xyz + vec3(dot(axis_u, offset), dot(axis_v, offset), dot(axis_depth, offset)));
+        mean += 0.25 * value;
+        slope_a += value.x * offset;
+        slope_b += value.y * offset;
+    }
+    float scale = point.w > 0.0 ? 0.75 / (point.w * point.w) : 0.0;
+    samples[2 * i] = vec4(slope_a * scale, mean.x);
+    samples[2 * i + 1] = vec4(slope_b * scale, mean.y);
+}
