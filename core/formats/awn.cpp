@@ -43,8 +43,8 @@ Result<std::uint64_t> read_header(std::string_view line, std::size_t number, con
     const std::string_view token = tokens.next();
     const std::optional<std::uint64_t> value = read_number<std::uint64_t>(token);
     if (!value)
-        return at_line(
-            number, std::string("must be the ") + what + ", an integer >= 0, not " + quoted(token));
+        return at_line(number, std::string("must be the ") + what + ", an integer >= 0, not " +
+                                   short_quote(token));
     if (!tokens.done()) return at_line(number, std::string("must hold one number, the ") + what);
     return *value;
 }
@@ -66,13 +66,14 @@ Result<Cube> read_cube(std::string_view line, std::size_t number) {
         if (i == 0) {
             const std::optional<std::uint64_t> count = read_number<std::uint64_t>(token);
             if (!count)
-                return at_line(number, "particles must be an integer >= 0, not " + quoted(token));
+                return at_line(number,
+                               "particles must be an integer >= 0, not " + short_quote(token));
             cube.particles = *count;
         } else {
             const std::optional<double> value = read_number<double>(token);
             if (!value)
                 return at_line(number, std::string(kColumns[i]) + " must be a finite number, not " +
-                                           quoted(token));
+                                           short_quote(token));
             *values[i] = *value;
         }
     }

@@ -51,7 +51,7 @@ inline std::string_view without_byte_order_mark(std::string_view text) {
 }
 
 // Client text in a message: short, and printable ASCII only.
-inline std::string quoted(std::string_view text) {
+inline std::string short_quote(std::string_view text) {
     constexpr std::size_t kLongest = 40;
     std::string out = "\"";
     for (const char c : text.substr(0, kLongest)) out += c >= ' ' && c <= '~' ? c : '?';
