@@ -19,7 +19,9 @@ class Metrics {
     void request_done(std::string_view route, int status, double seconds);
     void stage_done(std::string_view stage,
                     double milliseconds);  // generate, survey, light, draw, encode, queue
-    void connection_refused(std::string_view reason);  // e.g. "queue", "head", "framing"
+    // A connection or request that never reached a route: "framing", "access", "timeout",
+    // "connections", "requests", "memory".
+    void connection_refused(std::string_view reason);
 
     std::string text(std::size_t renders_waiting, bool ready) const;
 
@@ -27,5 +29,8 @@ class Metrics {
     struct State;
     std::unique_ptr<State> state_;
 };
+
+// Resident memory of this process, bytes; 0 when the kernel does not say.
+std::size_t resident_bytes();
 
 }  // namespace awan

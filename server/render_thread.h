@@ -1,9 +1,8 @@
 // One thread owns the GL context; requests reach it through a bounded queue.
 #pragma once
 
-#include <chrono>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "core/pipeline.h"
@@ -15,10 +14,24 @@ struct RenderJobResult {
     double queue_ms = 0;
 };
 
+// What the render thread opens, uses and closes: a device and the two passes over it.
+struct Renderer {
+    DeviceInfo info;
+    std::function<Result<Rendered>(const Scene&, Planned, const Deadline&)> render;
+};
+using OpenRenderer = std::function<Result<Renderer>()>;
+
+// Opens the device and draws once, so that the first request finds it warm.
+OpenRenderer device_renderer(DeviceChoice choice);
+
 class RenderThread {
+    struct State;
+
   public:
-    // Starts the thread, which opens the device and draws once so that the first request finds it
-    // warm. Never blocks; info() says how it went.
+    // Starts the thread, which opens the renderer; everything in it happens on that thread. Never
+    // blocks; info() says how it went. `queue_length`: renders that may wait beside the one that
+    // runs.
+    RenderThread(OpenRenderer open, std::size_t queue_length);
     RenderThread(DeviceChoice choice, std::size_t queue_length);
     ~RenderThread();  // stops; what is queued fails with kCancelled
     RenderThread(const RenderThread&) = delete;
@@ -30,20 +43,41 @@ class RenderThread {
         std::string reason;  // when kNoRenderer
     };
     Info info() const;                // never waits for a render
-    std::size_t waiting() const;      // renders queued or running
+    std::size_t waiting() const;      // places taken: renders planned, queued or running
     void wait_until_started() const;  // for the command line and tests
+    // The same for a request: the error when `deadline` is over before.
+    Status wait_until_started(const Deadline& deadline) const;
 
-    // Runs the two passes on the render thread and waits for them. nullopt: the queue is full
-    // (nothing was queued). A job whose deadline passes while it waits is answered then and never
-    // started.
-    std::optional<RenderJobResult> render(const Scene& scene, Planned planned,
-                                          const Deadline& deadline);
+    // A place in the queue. It is taken before a scene is planned, so that a full queue refuses a
+    // request before it has cost anything. Must not outlive the RenderThread.
+    class Place {
+      public:
+        Place() = default;
+        Place(Place&& other) noexcept : state_(std::exchange(other.state_, nullptr)) {}
+        Place& operator=(Place&& other) noexcept {
+            std::swap(state_, other.state_);
+            return *this;
+        }
+        ~Place();
+        explicit operator bool() const { return state_ != nullptr; }
+
+      private:
+        friend class RenderThread;
+        explicit Place(State* state) : state_(state) {}
+        State* state_ = nullptr;
+    };
+    Place take_place();  // false when the queue is full
+
+    // Runs the two passes on the render thread and waits for them. A job whose deadline passes or
+    // whose client goes while it waits is answered then and never started.
+    // Precondition: `place` was taken here.
+    RenderJobResult render(const Place& place, const Scene& scene, Planned planned,
+                           const Deadline& deadline);
 
     // A fair guess of when the queue has room, seconds >= 1, for Retry-After.
     int retry_after_seconds() const;
 
   private:
-    struct State;
     std::unique_ptr<State> state_;
 };
 

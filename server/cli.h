@@ -1,0 +1,71 @@
+// The commands of `awan` as functions on plain values. Each returns the exit code: 0 fine, 2 bad
+// usage, 3 a scene that cannot be, 4 could not render, 5 could not read or write.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/gl/device.h"
+#include "core/result.h"
+#include "server/http.h"
+
+namespace awan {
+
+inline constexpr int kExitFine = 0;
+inline constexpr int kExitUsage = 2;
+
+struct RenderCommand {
+    std::string scene;
+    std::string output;
+    // Instead of what the document says.
+    std::optional<int> width, height;
+    std::string format;      // "", "png", "exr"
+    std::string background;  // "", "sky", "transparent"
+    int threads = 1;
+    DeviceChoice device = DeviceChoice::kAuto;
+};
+int run_render(const RenderCommand& command);
+
+struct ParticlesCommand {
+    std::string scene;
+    std::string output = "-";
+    std::string format;  // "", "json", "csv", "ply", "awn"
+    int threads = 1;
+};
+int run_particles(const ParticlesCommand& command);
+
+struct PlanCommand {
+    std::string scene;
+    std::string output = "-";
+    int threads = 1;
+};
+int run_plan(const PlanCommand& command);
+
+struct ConvertCommand {
+    std::string input;
+    std::string output;
+    std::string format;  // "", "json", "awn"
+};
+int run_convert(const ConvertCommand& command);
+
+struct ServeCommand {
+    HttpOptions http;
+    std::size_t working = 2;  // requests computed at once
+    std::size_t queue = limits::kRenderQueue;
+    int threads = 1;
+    DeviceChoice device = DeviceChoice::kAuto;
+};
+int run_serve(const ServeCommand& command);
+
+// The error as it is printed, "awan: SCENE: POINTER: message", and its exit code.
+int report_error(const std::string& subject, const Error& error);
+
+// "host:port", "[v6]:port", "host" or "port"; nothing when it is none of them.
+struct ListenAddress {
+    std::string host;
+    int port = 0;
+};
+std::optional<ListenAddress> parse_listen(const std::string& text);
+
+}  // namespace awan

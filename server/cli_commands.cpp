@@ -1,0 +1,203 @@
+#include <strings.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "core/formats/awn.h"
+#include "core/formats/image_file.h"
+#include "core/formats/particle_files.h"
+#include "core/generate/generate.h"
+#include "core/pipeline.h"
+#include "core/scene/validate.h"
+#include "server/cli.h"
+#include "server/cli_files.h"
+#include "server/json.h"
+#include "server/problem.h"
+
+namespace awan {
+namespace {
+
+constexpr std::size_t kPiece = limits::kParticlesPerPiece;
+
+// One line that is overwritten, on a terminal only.
+class Progress {
+  public:
+    Progress() : shown_(isatty(STDERR_FILENO) == 1) {}
+    ~Progress() {
+        if (shown_) std::fputs("\r\033[K", stderr);
+    }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    void say(const char* what) const {
+        if (!shown_) return;
+        std::fprintf(stderr, "\r\033[Kawan: %s ...", what);
+        std::fflush(stderr);
+    }
+
+  private:
+    bool shown_;
+};
+
+int bad_usage(const std::string& message) {
+    std::fprintf(stderr, "awan: %s\n", message.c_str());
+    return kExitUsage;
+}
+
+// The format an output is written in: its extension, or --format, which must agree with it.
+// For standard output: --format, or `otherwise`.
+Result<std::string> output_format(const std::string& output, const std::string& format,
+                                  const std::vector<std::string>& known,
+                                  const std::string& otherwise) {
+    std::string all;
+    for (const std::string& name : known) all += (all.empty() ? "." : ", .") + name;
+    const auto unknown = [&](const std::string& what) {
+        return Error{ErrorCode::kIo, "", what + "; this command writes " + all};
+    };
+    if (output == "-") return format.empty() ? otherwise : format;
+    for (const std::string& name : known) {
+        const std::string extension = "." + name;
+        if (output.size() <= extension.size() ||
+            strcasecmp(output.c_str() + output.size() - extension.size(), extension.c_str()) != 0)
+            continue;
+        if (!format.empty() && format != name)
+            return unknown("-o " + output + " and --format " + format + " contradict each other");
+        return name;
+    }
+    // Devices and pipes have no extension, but a format may be named.
+    if (!format.empty() && output.rfind('.') == std::string::npos) return format;
+    return unknown("-o " + output + ": unknown extension");
+}
+
+bool binary_to_terminal(const std::string& output) {
+    return output == "-" && isatty(STDOUT_FILENO) == 1;
+}
+
+Result<Scene> read_valid_scene(const std::string& path) {
+    auto draft = read_scene_file(path);
+    if (!draft) return draft.error();
+    return validate(std::move(draft).value());
+}
+
+Status write_particles(const std::string& path, const std::string& format,
+                       const ParticleSet& particles, std::uint64_t seed) {
+    auto file = OutputFile::open(path);
+    if (!file) return file.error();
+    std::string piece;
+    if (format == "json") piece = particles_json_head(particles, seed);
+    if (format == "csv") append_csv_header(piece);
+    if (format == "ply") append_ply_header(particles, piece);
+    for (std::size_t first = 0; first < particles.size(); first += kPiece) {
+        const std::size_t last = std::min(first + kPiece, particles.size());
+        if (format == "json") append_particles_json(particles, first, last, piece);
+        if (format == "csv") append_csv(particles, first, last, piece);
+        if (format == "ply") append_ply(particles, first, last, piece);
+        if (const Status failed = file->write(piece)) return failed;
+        piece.clear();
+    }
+    if (format == "json") piece += particles_json_tail() + "\n";
+    if (const Status failed = file->write(piece)) return failed;
+    return file->commit();
+}
+
+Result<std::string> render_bytes(const Scene& scene, const RenderCommand& command) {
+    const Progress progress;
+    progress.say("opening the renderer");
+    auto device = Device::open(command.device);
+    if (!device) return device.error();
+    progress.say("rendering");
+    auto rendered = render_scene(scene, *device, command.threads, Deadline{});
+    if (!rendered) return rendered.error();
+    progress.say("encoding");
+    const ImageSettings& image = scene->image;
+    if (image.format == ImageFormat::kExr) return encode_exr(rendered->image, image.precision);
+    return encode_png(rendered->image,
+                      image.exposure.value_or(auto_exposure(scene->sun, scene->sky)));
+}
+
+}  // namespace
+
+int report_error(const std::string& subject, const Error& error) {
+    std::string line = "awan: ";
+    if (error.code != ErrorCode::kIo && !subject.empty()) line += subject + ": ";
+    if (!error.pointer.empty()) line += error.pointer + ": ";
+    std::fprintf(stderr, "%s%s\n", line.c_str(), error.message.c_str());
+    return exit_code_of(error.code);
+}
+
+int run_render(const RenderCommand& command) {
+    auto draft = read_scene_file(command.scene);
+    if (!draft) return report_error(command.scene, draft.error());
+    ImageSettings& image = draft->image;
+    if (command.width) image.width = *command.width;
+    if (command.height) image.height = *command.height;
+    if (command.background == "sky") image.background = Background::kSky;
+    if (command.background == "transparent") image.background = Background::kTransparent;
+    const auto format = output_format(command.output, command.format, {"png", "exr"},
+                                      image.format == ImageFormat::kExr ? "exr" : "png");
+    if (!format) return bad_usage(format.error().message);
+    if (binary_to_terminal(command.output))
+        return bad_usage("-o -: an image is not written to a terminal");
+    image.format = *format == "exr" ? ImageFormat::kExr : ImageFormat::kPng;
+
+    auto scene = validate(std::move(draft).value());
+    if (!scene) return report_error(command.scene, scene.error());
+    auto bytes = render_bytes(*scene, command);
+    if (!bytes) return report_error(command.scene, bytes.error());
+    if (const Status failed = write_output(command.output, *bytes))
+        return report_error("", *failed);
+    return kExitFine;
+}
+
+int run_particles(const ParticlesCommand& command) {
+    const auto format =
+        output_format(command.output, command.format, {"json", "csv", "ply", "awn"}, "json");
+    if (!format) return bad_usage(format.error().message);
+    if (*format == "ply" && binary_to_terminal(command.output))
+        return bad_usage("-o -: binary PLY is not written to a terminal");
+    auto scene = read_valid_scene(command.scene);
+    if (!scene) return report_error(command.scene, scene.error());
+    if (*format == "awn") {
+        auto layout = write_awn(**scene);
+        if (!layout) return report_error(command.scene, layout.error());
+        if (const Status failed = write_output(command.output, *layout))
+            return report_error("", *failed);
+        return kExitFine;
+    }
+    auto particles = generate(*scene, command.threads, Deadline{});
+    if (!particles) return report_error(command.scene, particles.error());
+    if (const Status failed = write_particles(command.output, *format, *particles, (*scene)->seed))
+        return report_error("", *failed);
+    return kExitFine;
+}
+
+int run_plan(const PlanCommand& command) {
+    auto scene = read_valid_scene(command.scene);
+    if (!scene) return report_error(command.scene, scene.error());
+    auto planned = plan_scene(*scene, command.threads, Deadline{});
+    if (!planned) return report_error(command.scene, planned.error());
+    if (const Status failed =
+            write_output(command.output, plan_to_json(planned->survey, planned->plan) + "\n"))
+        return report_error("", *failed);
+    return kExitFine;
+}
+
+int run_convert(const ConvertCommand& command) {
+    const auto format = output_format(command.output, command.format, {"json", "awn"}, "json");
+    if (!format) return bad_usage(format.error().message);
+    auto scene = read_valid_scene(command.input);
+    if (!scene) return report_error(command.input, scene.error());
+    std::string text;
+    if (*format == "awn") {
+        auto layout = write_awn(**scene);
+        if (!layout) return report_error(command.input, layout.error());
+        text = std::move(layout).value();
+    } else {
+        text = scene_to_json(**scene);
+        if (!text.ends_with('\n')) text += '\n';
+    }
+    if (const Status failed = write_output(command.output, text)) return report_error("", *failed);
+    return kExitFine;
+}
+
+}  // namespace awan

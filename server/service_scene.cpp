@@ -1,0 +1,267 @@
+// POST /v1/particles, /v1/render, /v1/plan: from a body to an answer.
+#include <array>
+#include <cstdio>
+#include <span>
+
+#include "core/formats/awn.h"
+#include "core/formats/image_file.h"
+#include "core/formats/particle_files.h"
+#include "core/generate/generate.h"
+#include "core/scene/validate.h"
+#include "server/json.h"
+#include "server/negotiation.h"
+#include "server/problem.h"
+#include "server/scene_text.h"
+#include "server/service_state.h"
+
+namespace awan {
+namespace {
+
+using Clock = Deadline::Clock;
+
+constexpr std::string_view kJson = "application/json";
+constexpr std::string_view kCsv = "text/csv";
+constexpr std::string_view kPly = "application/x-ply";
+constexpr std::string_view kAwn = "text/x-awn";
+constexpr std::string_view kPng = "image/png";
+constexpr std::string_view kExr = "image/x-exr";
+constexpr std::array kParticleOffers = {kJson, kCsv, kPly, kAwn};
+constexpr std::array kPlanOffers = {kJson};
+constexpr std::array kImageOffers = {kPng, kExr};
+constexpr std::array kImageOffersExrFirst = {kExr, kPng};
+
+std::span<const std::string_view> offers_of(std::string_view path) {
+    if (path == "/v1/particles") return kParticleOffers;
+    if (path == "/v1/render") return kImageOffers;
+    return kPlanOffers;
+}
+
+double ms_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+Response fail(const Error& error, const Request& request) {
+    Response response = problem(error, request.id);
+    response.abandoned = error.code == ErrorCode::kCancelled;
+    return response;
+}
+
+Response busy(Service::State& state, const Request& request, std::string_view detail) {
+    return problem_retry(429, detail, state.renderer.retry_after_seconds(), request.id);
+}
+
+Result<Scene> read(const Request& request) {
+    const auto format = scene_format_of_type(media_type(request.header("Content-Type")));
+    auto draft = read_scene(*format, request.body);
+    if (!draft) return draft.error();
+    return validate(std::move(draft).value());
+}
+
+Response ok(std::string_view content_type, std::string_view etag) {
+    Response response;
+    response.headers = {{"Content-Type", std::string(content_type)},
+                        {"ETag", std::string(etag)},
+                        {"Cache-Control", "no-cache"},
+                        {"Vary", "Accept"}};
+    return response;
+}
+
+// --- /v1/particles
+
+// A particle answer in pieces: the memory of its text is one piece, however long it is.
+struct ParticleText {
+    std::string_view type;
+    ParticleSet particles;
+    std::uint64_t seed = 1;
+    WorkBudget::Lease lease;  // held until the last piece is written
+    std::size_t next = 0;
+
+    void append_head(std::string& out) const {
+        if (type == kJson) out += particles_json_head(particles, seed);
+        if (type == kCsv) append_csv_header(out);
+        if (type == kPly) append_ply_header(particles, out);
+    }
+    // False when that was the last piece.
+    bool append_piece(std::string& out) {
+        if (next == 0) append_head(out);
+        const std::size_t last = std::min(next + limits::kParticlesPerPiece, particles.size());
+        if (type == kJson) append_particles_json(particles, next, last, out);
+        if (type == kCsv) append_csv(particles, next, last, out);
+        if (type == kPly) append_ply(particles, next, last, out);
+        next = last;
+        if (next < particles.size()) return true;
+        if (type == kJson) out += particles_json_tail();
+        return false;
+    }
+};
+
+Response answer_particles(Service::State& state, const Request& request, const Scene& scene,
+                          std::string_view type, WorkGate::Pass& pass) {
+    const std::string etag = make_etag({"particles", fingerprint(scene), engine_version(), type});
+    if (none_match_names(joined_header(request, "If-None-Match"), etag))
+        return not_modified(etag, true);
+    Response response = ok(type, etag);
+    if (type == kAwn) {
+        auto layout = write_awn(*scene);
+        if (!layout) return fail(layout.error(), request);
+        response.body = std::move(layout).value();
+        return response;
+    }
+    auto text = std::make_shared<ParticleText>();
+    text->lease = state.budget.take(work_bytes(*scene, false));
+    if (!text->lease) return busy(state, request, "other requests use the memory this one needs");
+
+    const auto start = Clock::now();
+    auto particles = generate(scene, state.options.threads, request.deadline);
+    if (!particles) return fail(particles.error(), request);
+    state.metrics.stage_done("generate", ms_since(start));
+    pass.leave();
+
+    text->type = type;
+    text->particles = std::move(particles).value();
+    text->seed = scene->seed;
+    response.headers.emplace_back("Awan-Particles", std::to_string(text->particles.size()));
+    if (text->particles.size() <= limits::kParticlesPerPiece) {
+        text->append_piece(response.body);
+    } else {
+        response.stream = [text](std::string& piece) { return text->append_piece(piece); };
+    }
+    return response;
+}
+
+// --- /v1/plan
+
+Response answer_plan(Service::State& state, const Request& request, const Scene& scene) {
+    const std::string etag = make_etag({"plan", fingerprint(scene), engine_version()});
+    if (none_match_names(joined_header(request, "If-None-Match"), etag))
+        return not_modified(etag, true);
+    const WorkBudget::Lease lease = state.budget.take(work_bytes(*scene, false));
+    if (!lease) return busy(state, request, "other requests use the memory this one needs");
+    auto planned = plan_scene(scene, state.options.threads, request.deadline);
+    if (!planned) return fail(planned.error(), request);
+    state.metrics.stage_done("generate", planned->times.generate_ms);
+    state.metrics.stage_done("survey", planned->times.survey_ms);
+    Response response = ok(kJson, etag);
+    response.body = plan_to_json(planned->survey, planned->plan);
+    return response;
+}
+
+// --- /v1/render
+
+struct Timing {
+    double queue_ms = 0;
+    StageTimes stages;
+    double encode_ms = 0;
+};
+
+std::string report(Metrics& metrics, const Timing& timing) {
+    const std::pair<const char*, double> stages[] = {
+        {"queue", timing.queue_ms},          {"generate", timing.stages.generate_ms},
+        {"survey", timing.stages.survey_ms}, {"light", timing.stages.light_ms},
+        {"draw", timing.stages.draw_ms},     {"encode", timing.encode_ms}};
+    std::string header;
+    for (const auto& [name, ms] : stages) {
+        metrics.stage_done(name, ms);
+        char text[64];
+        std::snprintf(text, sizeof text, "%s%s;dur=%.3f", header.empty() ? "" : ", ", name, ms);
+        header += text;
+    }
+    return header;
+}
+
+std::string effects_on(const Plan& plan) {
+    std::string names;
+    for (const EffectDecision& decision : plan.effects)
+        if (decision.on)
+            names += (names.empty() ? "" : ", ") + std::string(effect_name(decision.effect));
+    return names;
+}
+
+Result<std::string> encode(const Image& image, const Scene& scene, std::string_view type) {
+    if (type == kExr) return encode_exr(image, scene->image.precision);
+    return encode_png(image, scene->image.exposure.value_or(auto_exposure(scene->sun, scene->sky)));
+}
+
+Response answer_render(Service::State& state, const Request& request, const Scene& scene,
+                       double waited_ms, WorkGate::Pass& pass) {
+    // What the client prefers; where it has no preference, what the document says.
+    const bool exr = scene->image.format == ImageFormat::kExr;
+    const std::string_view type =
+        *best_offer(joined_header(request, "Accept"), exr ? kImageOffersExrFirst : kImageOffers);
+
+    if (const Status over = state.renderer.wait_until_started(request.deadline))
+        return fail(*over, request);
+    const RenderThread::Info info = state.renderer.info();
+    if (info.state == RenderThread::Info::State::kNoRenderer)
+        return problem(503, "there is no renderer here: " + info.reason, "", request.id);
+    const std::string etag = make_etag({"render", fingerprint(scene), engine_version(),
+                                        info.device.renderer, info.device.version, type});
+    if (none_match_names(joined_header(request, "If-None-Match"), etag))
+        return not_modified(etag, true);
+
+    const RenderThread::Place place = state.renderer.take_place();
+    if (!place) return busy(state, request, "the render queue is full");
+    const WorkBudget::Lease lease = state.budget.take(work_bytes(*scene, true));
+    if (!lease) return busy(state, request, "other requests use the memory this one needs");
+
+    Timing timing;
+    auto planned = plan_scene(scene, state.options.threads, request.deadline);
+    if (!planned) return fail(planned.error(), request);
+    pass.leave();  // the passes run on the render thread; others may compute meanwhile
+    RenderJobResult job =
+        state.renderer.render(place, scene, std::move(planned).value(), request.deadline);
+    timing.queue_ms = waited_ms + job.queue_ms;
+    if (!job.rendered) return fail(job.rendered.error(), request);
+
+    const auto encode_queued = Clock::now();
+    if (const Status over = pass.enter(request.deadline)) return fail(*over, request);
+    timing.queue_ms += ms_since(encode_queued);
+    const auto start = Clock::now();
+    auto bytes = encode(job.rendered->image, scene, type);
+    timing.encode_ms = ms_since(start);
+    if (!bytes) return fail(bytes.error(), request);
+    timing.stages = job.rendered->times;
+
+    Response response = ok(type, etag);
+    response.headers.emplace_back("Server-Timing", report(state.metrics, timing));
+    response.headers.emplace_back("Awan-Effects", effects_on(job.rendered->plan));
+    response.headers.emplace_back("Awan-Rung", job.rendered->plan.rung);
+    response.headers.emplace_back("Awan-Particles", std::to_string(job.rendered->survey.particles));
+    response.body = std::move(bytes).value();
+    return response;
+}
+
+}  // namespace
+
+std::optional<Response> check_scene_request(const Request& request) {
+    if (!scene_format_of_type(media_type(request.header("Content-Type")))) {
+        Response response = problem(
+            415,
+            "a scene comes as " + std::string(kSceneTypes) + ", in UTF-8; name it in Content-Type",
+            "", request.id);
+        response.headers.emplace_back("Accept", kSceneTypes);
+        return response;
+    }
+    const auto offers = offers_of(request.path);
+    if (best_offer(joined_header(request, "Accept"), offers)) return std::nullopt;
+    std::string detail = "this can be answered as";
+    for (const std::string_view offer : offers)
+        detail.append(offer == offers.front() ? " " : ", ").append(offer);
+    return problem(406, detail, "", request.id);
+}
+
+Response answer_scene_request(Service::State& state, const Request& request) {
+    const auto start = Clock::now();
+    WorkGate::Pass pass(state.gate);
+    if (const Status over = pass.enter(request.deadline)) return fail(*over, request);
+    const double waited_ms = ms_since(start);
+    auto scene = read(request);
+    if (!scene) return fail(scene.error(), request);
+
+    if (request.path == "/v1/render") return answer_render(state, request, *scene, waited_ms, pass);
+    if (request.path == "/v1/plan") return answer_plan(state, request, *scene);
+    const auto type = best_offer(joined_header(request, "Accept"), kParticleOffers);
+    return answer_particles(state, request, *scene, *type, pass);
+}
+
+}  // namespace awan

@@ -1,0 +1,72 @@
+// How much memory all requests together may use for their scenes. A large scene is welcome alone;
+// many at once are told to come again.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "core/scene/scene.h"
+#include "server/limits.h"
+
+namespace awan {
+
+class WorkBudget {
+  public:
+    explicit WorkBudget(std::size_t bytes) : bytes_(bytes) {}
+
+    // Bytes that are given back when it is destroyed. Must not outlive the budget.
+    class Lease {
+      public:
+        Lease() = default;
+        Lease(Lease&& other) noexcept
+            : budget_(std::exchange(other.budget_, nullptr)), bytes_(other.bytes_) {}
+        Lease& operator=(Lease&& other) noexcept {
+            std::swap(budget_, other.budget_);
+            std::swap(bytes_, other.bytes_);
+            return *this;
+        }
+        ~Lease() {
+            if (budget_) budget_->give_back(bytes_);
+        }
+        explicit operator bool() const { return budget_ != nullptr; }
+
+      private:
+        friend class WorkBudget;
+        Lease(WorkBudget* budget, std::size_t bytes) : budget_(budget), bytes_(bytes) {}
+        WorkBudget* budget_ = nullptr;
+        std::size_t bytes_ = 0;
+    };
+
+    // False when so much is not left. What is more than the whole budget is taken as the whole
+    // budget: then it runs alone.
+    Lease take(std::size_t bytes) {
+        const std::lock_guard lock(mutex_);
+        bytes = std::min(bytes, bytes_);
+        if (taken_ + bytes > bytes_) return Lease{};
+        taken_ += bytes;
+        return Lease(this, bytes);
+    }
+
+  private:
+    void give_back(std::size_t bytes) {
+        const std::lock_guard lock(mutex_);
+        taken_ -= bytes;
+    }
+
+    std::mutex mutex_;
+    const std::size_t bytes_;
+    std::size_t taken_ = 0;
+};
+
+// An estimate of what a scene takes while it is worked on.
+inline std::size_t work_bytes(const SceneDraft& scene, bool with_image) {
+    const auto side = [](int pixels) { return static_cast<std::size_t>(std::max(pixels, 0)); };
+    const std::size_t pixels = with_image ? side(scene.image.width) * side(scene.image.height) : 0;
+    return static_cast<std::size_t>(particle_count(scene)) * limits::kBytesPerParticle +
+           pixels * limits::kBytesPerPixel;
+}
+
+}  // namespace awan
