@@ -63,14 +63,15 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
         scene->image.width, scene->image.height, scene->image.background == Background::kSky, {}};
     image.pixels.resize(4 * image.pixel_count());
     const SplatList list = make_splats(scene, particles, view, plan, lighting);
-    const gl::Buffer splats{std::span<const Splat>(list.splats)};
+    const gl::TexelBuffer splats{std::span<const Splat>(list.splats)};
     std::vector<float> pixels;
 
-    device.programs().splat.use();
+    const Device::Programs& programs = device.programs();
+    (plan.on(Effect::kInterior) ? programs.splat_interior : programs.splat).use();
     set_uniforms(scene, view, plan);
     const auto status = gl::for_each_region(
         list.tiles, (image.width + kTilePixels - 1) / kTilePixels,
-        (image.height + kTilePixels - 1) / kTilePixels, kMaxEntries, kMaxTiles, deadline,
+        (image.height + kTilePixels - 1) / kTilePixels, 1, kMaxEntries, kMaxTiles, deadline,
         [&](const gl::TileRegion& region) -> Status {
             const gl::Buffer begin{std::span<const std::uint32_t>(region.begin)};
             const gl::Buffer items{std::span<const std::uint32_t>(region.items)};

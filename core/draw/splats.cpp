@@ -98,13 +98,11 @@ glm::vec4 from_eye(glm::dvec4 f, const View& view, glm::dvec3 q) {
 }
 
 Splat make_splat(const Seen& seen, glm::dvec3 color, const ParticleLight* lit, const View& view,
-                 const Sources& sources, bool with_interior) {
+                 const Sources& sources) {
     Splat splat{};
-    const bool close = with_interior && seen.distance < kCloseReaches * seen.reach;
     const double c = seen.q.x * seen.q.x + seen.q.z * seen.q.z;
     splat.place = glm::vec4(glm::dvec4(seen.q, 0.5 / (seen.s * seen.s)));
-    splat.matter =
-        glm::vec4(glm::dvec4(seen.tau, close ? 1 / seen.s : 0, c, c > 0 ? seen.q.y / c : 0));
+    splat.matter = glm::vec4(glm::dvec4(seen.tau, 1 / seen.s, c, c > 0 ? seen.q.y / c : 0));
     const glm::dvec3 albedo = sources.albedo * color;
     const glm::dvec3 cap = albedo * (sources.sun + sources.above + sources.below);
     splat.tint = glm::vec4(glm::dvec4(albedo * sources.sun, std::max({cap.x, cap.y, cap.z})));
@@ -181,8 +179,7 @@ SplatList make_splats(const Scene& scene, const ParticleSet& particles, const Vi
         const glm::dvec3 color =
             particles.color.empty() ? glm::dvec3(1) : glm::dvec3(particles.color[i]);
         const ParticleLight* lit = lighting.particles.empty() ? nullptr : &lighting.particles[i];
-        const Splat splat =
-            make_splat(seen[i], color, lit, view, sources, plan.on(Effect::kInterior));
+        const Splat splat = make_splat(seen[i], color, lit, view, sources);
         if (sorted && previous < particles.size() &&
             particles.center[i] == particles.center[previous] &&
             particles.radius[i] == particles.radius[previous]) {

@@ -42,14 +42,19 @@ Result<Device> Device::open(DeviceChoice choice) {
                     info.renderer.find("softpipe") != std::string::npos;
     auto columns = gl::Program::compute("light_columns.glsl");
     if (!columns.ok()) return columns.error();
+    auto sums = gl::Program::compute("light_sums.glsl");
+    if (!sums.ok()) return sums.error();
     auto samples = gl::Program::compute("light_samples.glsl");
     if (!samples.ok()) return samples.error();
     auto splat = gl::Program::compute("splat.glsl");
     if (!splat.ok()) return splat.error();
+    auto interior = gl::Program::compute("splat.glsl", "#define INTERIOR\n");
+    if (!interior.ok()) return interior.error();
     return Device(std::unique_ptr<State>(
         new State{*std::move(context),
                   std::move(info),
-                  {*std::move(columns), *std::move(samples), *std::move(splat)}}));
+                  {*std::move(columns), *std::move(sums), *std::move(samples), *std::move(splat),
+                   *std::move(interior)}}));
 }
 
 }  // namespace awan

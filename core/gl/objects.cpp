@@ -66,10 +66,24 @@ void Buffer::read(void* to, std::size_t bytes) const {
     glGetNamedBufferSubData(name_, 0, static_cast<GLsizeiptr>(bytes), to);
 }
 
-Result<Program> Program::compute(std::string_view name) {
+TexelBuffer::TexelBuffer(std::size_t bytes, const void* data)
+    : buffer_(std::max<std::size_t>(bytes, 16), bytes > 0 ? data : nullptr) {
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);
+    glTextureBuffer(texture_, GL_RGBA32F, buffer_.name());
+}
+
+TexelBuffer::~TexelBuffer() {
+    if (texture_ != 0) glDeleteTextures(1, &texture_);
+}
+
+void TexelBuffer::bind(GLuint binding) const {
+    glBindTextureUnit(binding, texture_);
+}
+
+Result<Program> Program::compute(std::string_view name, std::string_view defines) {
     auto text = shader_text(name, 0);
     if (!text.ok()) return text.error();
-    const std::string whole = "#version 450 core\n" + *text;
+    const std::string whole = "#version 450 core\n" + std::string(defines) + *text;
     const char* source = whole.c_str();
     const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
     glShaderSource(shader, 1, &source, nullptr);

@@ -28,6 +28,7 @@ class Buffer {
     ~Buffer();
 
     void bind(GLuint binding) const;  // to layout(binding = ...) buffer
+    GLuint name() const { return name_; }
     // Copies bytes from the start; waits for the shaders that write them.
     void read(void* to, std::size_t bytes) const;
 
@@ -35,12 +36,33 @@ class Buffer {
     GLuint name_ = 0;
 };
 
+// Read-only vec4s that a shader fetches by index (samplerBuffer).
+class TexelBuffer {
+  public:
+    template <typename T>
+    explicit TexelBuffer(std::span<const T> values)
+        : TexelBuffer(values.size_bytes(), values.data()) {}
+    TexelBuffer(std::size_t bytes, const void* data);
+    TexelBuffer(TexelBuffer&& other) noexcept
+        : buffer_(std::move(other.buffer_)), texture_(std::exchange(other.texture_, 0)) {}
+    TexelBuffer& operator=(TexelBuffer&&) = delete;
+    TexelBuffer(const TexelBuffer&) = delete;
+    TexelBuffer& operator=(const TexelBuffer&) = delete;
+    ~TexelBuffer();
+
+    void bind(GLuint binding) const;  // to layout(binding = ...) uniform samplerBuffer
+
+  private:
+    Buffer buffer_;
+    GLuint texture_ = 0;
+};
+
 // A compute program.
 class Program {
   public:
-    // `name`: a file of core/shaders. Lines `#include "other.glsl"` are replaced by that file.
-    // Fails with kInternal and the compiler's log.
-    static Result<Program> compute(std::string_view name);
+    // `name`: a file of core/shaders; `defines`: text put before it. Lines `#include "other.glsl"`
+    // are replaced by that file. Fails with kInternal and the compiler's log.
+    static Result<Program> compute(std::string_view name, std::string_view defines = "");
     Program(Program&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
     Program& operator=(Program&& other) noexcept;
     Program(const Program&) = delete;

@@ -7,9 +7,11 @@
 namespace awan {
 
 struct Device::Programs {
-    gl::Program light_columns;  // light/: optical depth from a light, on a volume
+    gl::Program light_columns;  // light/: optical depth in each cell of a volume that faces a light
+    gl::Program light_sums;     // light/: summed up from the light on
     gl::Program light_samples;  // light/: what each particle sees of that volume
-    gl::Program splat;          // draw/: particles blended per pixel
+    gl::Program splat;          // draw/: particles blended per pixel, the eye outside all of them
+    gl::Program splat_interior;  // draw/: the eye may be inside
 };
 
 }  // namespace awan

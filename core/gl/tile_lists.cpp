@@ -11,44 +11,52 @@ struct Rectangle {
 };
 
 TileBox clip(const TileBox& box, const Rectangle& to) {
-    return {std::max(box.first_x, to.x), std::max(box.first_y, to.y),
-            std::min(box.last_x, to.x + to.width - 1), std::min(box.last_y, to.y + to.height - 1)};
+    return {std::max(box.first_x, to.x),
+            std::max(box.first_y, to.y),
+            std::min(box.last_x, to.x + to.width - 1),
+            std::min(box.last_y, to.y + to.height - 1),
+            box.first_z,
+            box.last_z};
 }
 
 std::uint64_t tiles_in(const TileBox& box) {
-    if (box.last_x < box.first_x || box.last_y < box.first_y) return 0;
+    if (box.last_x < box.first_x || box.last_y < box.first_y || box.last_z < box.first_z) return 0;
     return static_cast<std::uint64_t>(box.last_x - box.first_x + 1) *
-           static_cast<std::uint64_t>(box.last_y - box.first_y + 1);
+           static_cast<std::uint64_t>(box.last_y - box.first_y + 1) *
+           static_cast<std::uint64_t>(box.last_z - box.first_z + 1);
 }
 
 TileRegion make_lists(std::span<const TileBox> boxes, const std::vector<std::uint32_t>& candidates,
-                      const Rectangle& area) {
+                      const Rectangle& area, int layers) {
     TileRegion region{area.x, area.y, area.width, area.height, {}, {}};
-    const auto index = [&](int x, int y) {
-        return static_cast<std::size_t>(y - area.y) * static_cast<std::size_t>(area.width) +
-               static_cast<std::size_t>(x - area.x);
+    const auto width = static_cast<std::size_t>(area.width),
+               height = static_cast<std::size_t>(area.height);
+    // Calls visit(tile) for every tile of the area that an item touches.
+    const auto each_tile = [&](std::uint32_t item, const auto& visit) {
+        const TileBox box = clip(boxes[item], area);
+        for (int z = box.first_z; z <= box.last_z; ++z)
+            for (int y = box.first_y; y <= box.last_y; ++y) {
+                const std::size_t row =
+                    (static_cast<std::size_t>(z) * height + static_cast<std::size_t>(y - area.y)) *
+                    width;
+                for (int x = box.first_x; x <= box.last_x; ++x)
+                    visit(row + static_cast<std::size_t>(x - area.x));
+            }
     };
-    const std::size_t tiles =
-        static_cast<std::size_t>(area.width) * static_cast<std::size_t>(area.height);
-    region.begin.assign(tiles + 1, 0);
-    for (const std::uint32_t i : candidates) {
-        const TileBox box = clip(boxes[i], area);
-        for (int y = box.first_y; y <= box.last_y; ++y)
-            for (int x = box.first_x; x <= box.last_x; ++x) ++region.begin[index(x, y) + 1];
-    }
+    region.begin.assign(width * height * static_cast<std::size_t>(layers) + 1, 0);
+    for (const std::uint32_t i : candidates)
+        each_tile(i, [&](std::size_t tile) { ++region.begin[tile + 1]; });
     std::partial_sum(region.begin.begin(), region.begin.end(), region.begin.begin());
     region.items.resize(region.begin.back());
     std::vector<std::uint32_t> next(region.begin.begin(), region.begin.end() - 1);
-    for (const std::uint32_t i : candidates) {
-        const TileBox box = clip(boxes[i], area);
-        for (int y = box.first_y; y <= box.last_y; ++y)
-            for (int x = box.first_x; x <= box.last_x; ++x) region.items[next[index(x, y)]++] = i;
-    }
+    for (const std::uint32_t i : candidates)
+        each_tile(i, [&](std::size_t tile) { region.items[next[tile]++] = i; });
     return region;
 }
 
 struct Cutter {
     std::span<const TileBox> boxes;
+    int layers;
     std::uint64_t max_entries, max_tiles;
     const Deadline& deadline;
     const std::function<Status(const TileRegion&)>& visit;
@@ -66,7 +74,7 @@ struct Cutter {
         const auto tiles =
             static_cast<std::uint64_t>(area.width) * static_cast<std::uint64_t>(area.height);
         if (tiles == 1 || (entries <= max_entries && tiles <= max_tiles))
-            return visit(make_lists(boxes, inside, area));
+            return visit(make_lists(boxes, inside, area, layers));
         Rectangle first = area, second = area;
         // Across first, so that regions stay whole rows of the raster as long as they can.
         if (area.height > 1) {
@@ -85,12 +93,13 @@ struct Cutter {
 
 }  // namespace
 
-Status for_each_region(std::span<const TileBox> boxes, int width, int height,
+Status for_each_region(std::span<const TileBox> boxes, int width, int height, int layers,
                        std::uint64_t max_entries, std::uint64_t max_tiles, const Deadline& deadline,
                        const std::function<Status(const TileRegion&)>& visit) {
     std::vector<std::uint32_t> all(boxes.size());
     std::iota(all.begin(), all.end(), 0u);
-    return Cutter{boxes, max_entries, max_tiles, deadline, visit}.cut({0, 0, width, height}, all);
+    return Cutter{boxes, layers, max_entries, max_tiles, deadline, visit}.cut({0, 0, width, height},
+                                                                              all);
 }
 
 }  // namespace awan::gl

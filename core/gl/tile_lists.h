@@ -11,24 +11,25 @@
 
 namespace awan::gl {
 
-// Tiles an item touches, inclusive; nothing when last < first.
+// Tiles an item touches, inclusive; nothing when last < first. z: for rasters of several layers.
 struct TileBox {
     std::int32_t first_x = 0, first_y = 0, last_x = -1, last_y = -1;
+    std::int32_t first_z = 0, last_z = 0;
 };
 
-// A rectangle of tiles and, for each of them row by row, the items that touch it in ascending
-// order: items[begin[t]] .. items[begin[t + 1] - 1].
+// A rectangle of tiles in all layers and, for each of them, layer by layer and row by row, the
+// items that touch it in ascending order: items[begin[t]] .. items[begin[t + 1] - 1].
 struct TileRegion {
     int x = 0, y = 0, width = 0, height = 0;
     std::vector<std::uint32_t> begin;
     std::vector<std::uint32_t> items;
 };
 
-// Cuts a raster of width x height tiles into regions with at most max_entries list entries and
-// max_tiles tiles each (a single tile may have more entries) and calls visit for each of them.
+// Cuts a raster of width x height x layers tiles into regions with at most max_entries list entries
+// and max_tiles tiles each (a single tile may have more entries) and calls visit for each of them.
 // Neither the lists nor the work between two looks at the deadline can grow without bound, however
 // many items cover however many tiles.
-Status for_each_region(std::span<const TileBox> boxes, int width, int height,
+Status for_each_region(std::span<const TileBox> boxes, int width, int height, int layers,
                        std::uint64_t max_entries, std::uint64_t max_tiles, const Deadline& deadline,
                        const std::function<Status(const TileRegion&)>& visit);
 

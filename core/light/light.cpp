@@ -13,6 +13,8 @@ namespace awan {
 namespace {
 
 constexpr int kTile = 8;  // texels a side, as in light_columns.glsl
+// Half width, in s, of the smooth step that stands for a Gaussian's mass (light_columns.glsl).
+constexpr double kSpread = 1.88;
 constexpr std::uint64_t kMaxEntries =
     1u << 21;  // about half a second of llvmpipe between looks at the deadline
 constexpr float kCornerDistance =
@@ -35,15 +37,16 @@ OnGrid put_on_grid(const ParticleSet& particles, std::size_t i, const LightGrid&
     const glm::dvec3 place = grid.place(particles.center[i]);
     const double across = std::max(s / grid.texel, 0.6), along = std::max(s / grid.slab, 0.4);
     const double thinned = tau * (s / grid.texel / across) * (s / grid.texel / across);
-    const double reach = 4 * across;
-    const auto tile = [](double texel, int count) {
+    const double wide = 4 * across, deep = kSpread * along;
+    const auto tile = [](double cell, int count) {
         return static_cast<std::int32_t>(
-            std::clamp(std::floor(texel / kTile), 0.0, static_cast<double>((count - 1) / kTile)));
+            std::clamp(std::floor(cell / kTile), 0.0, static_cast<double>((count - 1) / kTile)));
     };
     return {{glm::vec4(place.x, place.y, place.z, 0.5 / (across * across)),
-             glm::vec4(thinned, 1 / along, 4 * along, 0)},
-            {tile(place.x - reach, grid.cells.x), tile(place.y - reach, grid.cells.y),
-             tile(place.x + reach, grid.cells.x), tile(place.y + reach, grid.cells.y)}};
+             glm::vec4(thinned, 0.5 / (kSpread * along), 0, 0)},
+            {tile(place.x - wide, grid.cells.x), tile(place.y - wide, grid.cells.y),
+             tile(place.x + wide, grid.cells.x), tile(place.y + wide, grid.cells.y),
+             tile(place.z - deep, grid.cells.z), tile(place.z + deep + 1, grid.cells.z)}};
 }
 
 struct OneLight {
@@ -52,7 +55,7 @@ struct OneLight {
     bool sky;
 };
 
-// Both steps for one light: two vec4 a particle.
+// All three steps for one light: two vec4 a particle.
 Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const OneLight& light,
                                          Device& device, const Deadline& deadline) {
     const LightGrid grid = light_grid(particles, light.to_light);
@@ -69,12 +72,12 @@ Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const One
 
     const Device::Programs& programs = device.programs();
     const glm::ivec3 cells = grid.cells;
-    const gl::Buffer placed_buffer{std::span<const GpuParticle>(placed)};
+    const gl::TexelBuffer placed_buffer{std::span<const GpuParticle>(placed)};
     const gl::Buffer volume(static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
                             static_cast<std::size_t>(cells.z) * 2 * sizeof(float));
     const auto status = gl::for_each_region(
-        tiles, (cells.x + kTile - 1) / kTile, (cells.y + kTile - 1) / kTile, kMaxEntries, 1u << 20,
-        deadline, [&](const gl::TileRegion& region) -> Status {
+        tiles, (cells.x + kTile - 1) / kTile, (cells.y + kTile - 1) / kTile, cells.z / kTile,
+        kMaxEntries, 1u << 20, deadline, [&](const gl::TileRegion& region) -> Status {
             const gl::Buffer begin{std::span<const std::uint32_t>(region.begin)};
             const gl::Buffer items{std::span<const std::uint32_t>(region.items)};
             programs.light_columns.use();
@@ -86,11 +89,17 @@ Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const One
             glUniform4i(1, region.x, region.y, region.width, region.height);
             glUniform1f(2, static_cast<float>(light.gain));
             glDispatchCompute(static_cast<GLuint>(region.width), static_cast<GLuint>(region.height),
-                              static_cast<GLuint>(cells.z / 8));
+                              static_cast<GLuint>(cells.z / kTile));
             glFinish();
             return std::nullopt;
         });
     if (status) return *status;
+
+    programs.light_sums.use();
+    volume.bind(0);
+    glUniform3i(0, cells.x, cells.y, cells.z);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glDispatchCompute(static_cast<GLuint>((cells.x * cells.y + 63) / 64), 1, 1);
 
     const gl::Buffer point_buffer{std::span<const glm::vec4>(points)};
     std::vector<glm::vec4> samples(2 * particles.size());

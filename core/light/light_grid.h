@@ -21,7 +21,7 @@ struct LightGrid {
 inline constexpr int kMaxLightTexels = 256;  // a side: 256 x 256 x 64 x 8 bytes are 32 MiB
 inline constexpr int kMinLightTexels = 16;
 inline constexpr int kMaxLightSlabs = 64;
-inline constexpr double kTexelsPerS = 1.5;  // texels in the typical s
+inline constexpr double kTexelsPerS = 1.0;  // texels in the typical s
 
 // Holds every particle out to 4 s. Its resolution follows the root mean square s. particles is not
 // empty.

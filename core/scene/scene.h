@@ -155,7 +155,7 @@ struct SceneDraft {
 
 // Makes table 4.4 a thick cumulus: optical depth about 30 through its middle (measured by
 // survey_test).
-inline constexpr double kDefaultDensity = 0.55;
+inline constexpr double kDefaultDensity = 0.2;
 
 // A scene that can be made: every value in range, every request within what this version does.
 class Scene {

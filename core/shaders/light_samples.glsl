@@ -1,4 +1,4 @@
-// Pass 1, step 2: the light on each particle, as a value at its centre and a gradient.
+// Pass 1, step 3: the light on each particle, as a value at its centre and a gradient.
 //
 // Four points around the centre, the corners of a regular tetrahedron at distance r: the mean of their values is the
 // value, and 3 / (4 r^2) sum(value * corner) the gradient of the linear function through them.

@@ -2,7 +2,9 @@
 //
 // A work group draws a tile of 16 x 16 pixels, a work item a column of 16 of them, four by four in vectors. A particle's
 // optical depth along a pixel's ray d is exact in perspective: tau exp(-|q x d|^2 / (2 s^2 |d|^2)), and in a column
-// |q x d|^2 = C (Y - Y0)^2 + m with no cancellation. Where the eye is close, only the half line before it counts.
+// |q x d|^2 = C (Y - Y0)^2 + m with no cancellation.
+// The program is compiled twice, since llvmpipe runs both sides of every branch: INTERIOR (effect `interior`) takes the half
+// line before the eye for all particles, the other the whole line.
 // Light and phase function are evaluated where the fragment is: at the ray's closest point to the centre.
 layout(local_size_x = 16) in;
 
@@ -10,14 +12,16 @@ layout(local_size_x = 16) in;
 #include "phase.glsl"
 #include "sky.glsl"
 
+// Seven texels a particle. A buffer texture, since llvmpipe fetches a vec4 of it in a tenth of the time that four
+// words of a storage buffer take.
 struct Splat {
     vec4 place;   // centre in the eye's frame (right, up, forward), 1 / (2 s^2)
-    vec4 matter;  // tau through the centre, 1 / s when the eye is close else 0, C = x^2 + z^2, y / C
+    vec4 matter;  // tau through the centre, 1 / s, C = x^2 + z^2, y / C
     vec4 direct;  // sun light that was not scattered: gradient (eye's frame), value at the eye (!)
     vec4 red, green, blue;  // radiance scattered from all other light, likewise
     vec4 tint;    // albedo * colour * sun irradiance / 4 pi; upper bound of red, green, blue
 };
-layout(std430, binding = 0) readonly buffer Splats { Splat splats[]; };
+layout(binding = 0) uniform samplerBuffer splats;
 layout(std430, binding = 1) readonly buffer TileBegin { uint tile_begin[]; };
 layout(std430, binding = 2) readonly buffer TileItems { uint tile_items[]; };
 layout(std430, binding = 3) writeonly buffer Picture { vec4 picture[]; };
@@ -37,62 +41,105 @@ layout(location = 10) uniform bool opaque;     // the sky behind
 // Below this transmittance nothing behind can change an 8-bit or half-float pixel; the rest of the list is skipped.
 const float kOpaque = 1e-6;
 
+// Four pixels of a column. Never in an array: an array that a loop indexes lives in memory on llvmpipe.
+struct Pixels {
+    vec4 Y, per_d2, phase;         // of the ray (X, Y, 1): Y, 1 / |d|^2, phase function
+    vec4 left, red, green, blue;   // transmittance and radiance so far
+};
+
+// What a particle is to a whole column: terms that do not depend on Y.
+struct Column {
+    float X, aside, y0, a, m, along, direct, red, green, blue;
+};
+
+Splat fetch(int at) {
+    return Splat(texelFetch(splats, at), texelFetch(splats, at + 1), texelFetch(splats, at + 2),
+                 texelFetch(splats, at + 3), texelFetch(splats, at + 4), texelFetch(splats, at + 5),
+                 texelFetch(splats, at + 6));
+}
+
+Pixels look(float X, float first_row) {
+    Pixels px;
+    vec4 row = vec4(first_row) + vec4(0.5, 1.5, 2.5, 3.5);
+    px.Y = (1.0 - row / float(size.y) * 2.0) * tangent.y;
+    px.per_d2 = 1.0 / (1.0 + X * X + px.Y * px.Y);
+    vec4 per_d = sqrt(px.per_d2);
+    vec3 a = vec3(X, px.Y.x, 1.0) * per_d.x, b = vec3(X, px.Y.y, 1.0) * per_d.y;
+    vec3 c = vec3(X, px.Y.z, 1.0) * per_d.z, d = vec3(X, px.Y.w, 1.0) * per_d.w;
+    px.phase = is_cornette_shanks ? vec4(cornette_shanks(to_sun, a, g), cornette_shanks(to_sun, b, g),
+                                         cornette_shanks(to_sun, c, g), cornette_shanks(to_sun, d, g))
+                                  : vec4(henyey_greenstein(to_sun, a, g), henyey_greenstein(to_sun, b, g),
+                                         henyey_greenstein(to_sun, c, g), henyey_greenstein(to_sun, d, g));
+    px.left = vec4(1.0);
+    px.red = px.green = px.blue = vec4(0.0);
+    return px;
+}
+
+void blend(Splat p, Column k, inout Pixels px) {
+    vec4 t = (k.along + p.place.y * px.Y) * px.per_d2;  // of the closest point, in units of d
+#ifdef INTERIOR
+    vec4 up = p.place.y - p.place.z * px.Y, over = p.place.x * px.Y - p.place.y * k.X;
+    vec4 miss = (up * up + k.aside * k.aside + over * over) * p.place.w;
+    vec4 tau = p.matter.x * exp(-miss * px.per_d2) * normal_cdf(t * inversesqrt(px.per_d2) * p.matter.y);
+    t = max(t, 0.0);
+#else
+    vec4 off = px.Y - k.y0;
+    vec4 tau = p.matter.x * exp(-(k.a * off * off + k.m) * px.per_d2);
+#endif
+    vec4 alpha = one_minus_exp(tau);
+    vec4 weight = extinguish ? px.left * alpha : alpha;
+    px.left -= px.left * alpha;
+    vec4 direct = clamp(p.direct.w + t * (k.direct + p.direct.y * px.Y), 0.0, 1.0) * px.phase;
+    px.red += weight * (clamp(p.red.w + t * (k.red + p.red.y * px.Y), 0.0, p.tint.w) + direct * p.tint.x);
+    px.green += weight * (clamp(p.green.w + t * (k.green + p.green.y * px.Y), 0.0, p.tint.w) + direct * p.tint.y);
+    px.blue += weight * (clamp(p.blue.w + t * (k.blue + p.blue.y * px.Y), 0.0, p.tint.w) + direct * p.tint.z);
+}
+
+void put(int at, float X, float Y, float per_d2, float left, vec3 color) {
+    float alpha = 1.0 - left;
+    if (opaque) {
+        float up = (vertical.x * X + vertical.y * Y + vertical.z) * sqrt(per_d2);
+        color += left * sky_radiance(up, zenith, horizon);
+        alpha = 1.0;
+    }
+    picture[at] = vec4(color, alpha);
+}
+
+void put(int at, int stride, float X, Pixels px) {
+    put(at, X, px.Y.x, px.per_d2.x, px.left.x, vec3(px.red.x, px.green.x, px.blue.x));
+    put(at + stride, X, px.Y.y, px.per_d2.y, px.left.y, vec3(px.red.y, px.green.y, px.blue.y));
+    put(at + 2 * stride, X, px.Y.z, px.per_d2.z, px.left.z, vec3(px.red.z, px.green.z, px.blue.z));
+    put(at + 3 * stride, X, px.Y.w, px.per_d2.w, px.left.w, vec3(px.red.w, px.green.w, px.blue.w));
+}
+
 void main() {
     ivec2 tile = ivec2(gl_WorkGroupID.xy);
     ivec2 pixel = (region.xy + tile) * 16 + ivec2(int(gl_LocalInvocationID.x), 0);
     float X = ((float(pixel.x) + 0.5) / float(size.x) * 2.0 - 1.0) * tangent.x;
-
-    vec4 Y[4], per_d2[4], phase[4], left[4], red[4], green[4], blue[4];
-    for (int r = 0; r < 4; ++r) {
-        vec4 row = vec4(float(pixel.y + 4 * r)) + vec4(0.5, 1.5, 2.5, 3.5);
-        Y[r] = (1.0 - row / float(size.y) * 2.0) * tangent.y;
-        per_d2[r] = 1.0 / (1.0 + X * X + Y[r] * Y[r]);
-        for (int c = 0; c < 4; ++c) {
-            vec3 ray = vec3(X, Y[r][c], 1.0) * sqrt(per_d2[r][c]);
-            phase[r][c] = is_cornette_shanks ? cornette_shanks(to_sun, ray, g) : henyey_greenstein(to_sun, ray, g);
-        }
-        left[r] = vec4(1.0);
-        red[r] = green[r] = blue[r] = vec4(0.0);
-    }
+    Pixels p0 = look(X, float(pixel.y)), p1 = look(X, float(pixel.y + 4));
+    Pixels p2 = look(X, float(pixel.y + 8)), p3 = look(X, float(pixel.y + 12));
 
     int list = tile.y * region.z + tile.x;
     uint end = tile_begin[list + 1];
     for (uint i = tile_begin[list]; i < end; ++i) {
-        Splat p = splats[tile_items[i]];
-        bool close = p.matter.y > 0.0;
-        float aside = p.place.z * X - p.place.x;
-        float y0 = p.matter.w * (p.place.z + p.place.x * X);
-        float a = p.matter.z * p.place.w;
-        float m = aside * aside * (1.0 + p.place.y * p.matter.w) * p.place.w;
-        float along = p.place.x * X + p.place.z;
-        float direct_x = p.direct.x * X + p.direct.z;
-        float red_x = p.red.x * X + p.red.z;
-        float green_x = p.green.x * X + p.green.z;
-        float blue_x = p.blue.x * X + p.blue.z;
-
-        for (int r = 0; r < 4; ++r) {
-            vec4 t = (along + p.place.y * Y[r]) * per_d2[r];  // of the closest point, in units of d
-            vec4 off = Y[r] - y0;
-            vec4 miss = a * off * off + m;
-            vec4 tau;
-            if (close) {
-                vec4 up = p.place.y - p.place.z * Y[r], over = p.place.x * Y[r] - p.place.y * X;
-                miss = (up * up + aside * aside + over * over) * p.place.w;
-                tau = p.matter.x * exp(-miss * per_d2[r]) * normal_cdf(t * inversesqrt(per_d2[r]) * p.matter.y);
-                t = max(t, 0.0);
-            } else {
-                tau = p.matter.x * exp(-miss * per_d2[r]);
-            }
-            vec4 alpha = one_minus_exp(tau);
-            vec4 weight = extinguish ? left[r] * alpha : alpha;
-            left[r] -= left[r] * alpha;
-            vec4 direct = clamp(p.direct.w + t * (direct_x + p.direct.y * Y[r]), 0.0, 1.0) * phase[r];
-            red[r] += weight * (clamp(p.red.w + t * (red_x + p.red.y * Y[r]), 0.0, p.tint.w) + direct * p.tint.x);
-            green[r] += weight * (clamp(p.green.w + t * (green_x + p.green.y * Y[r]), 0.0, p.tint.w) + direct * p.tint.y);
-            blue[r] += weight * (clamp(p.blue.w + t * (blue_x + p.blue.y * Y[r]), 0.0, p.tint.w) + direct * p.tint.z);
-        }
+        Splat p = fetch(int(tile_items[i]) * 7);
+        Column k;
+        k.X = X;
+        k.aside = p.place.z * X - p.place.x;
+        k.y0 = p.matter.w * (p.place.z + p.place.x * X);
+        k.a = p.matter.z * p.place.w;
+        k.m = k.aside * k.aside * (1.0 + p.place.y * p.matter.w) * p.place.w;
+        k.along = p.place.x * X + p.place.z;
+        k.direct = p.direct.x * X + p.direct.z;
+        k.red = p.red.x * X + p.red.z;
+        k.green = p.green.x * X + p.green.z;
+        k.blue = p.blue.x * X + p.blue.z;
+        blend(p, k, p0);
+        blend(p, k, p1);
+        blend(p, k, p2);
+        blend(p, k, p3);
         if (extinguish && (i & 7u) == 7u) {
-            vec4 most = max(max(left[0], left[1]), max(left[2], left[3]));
+            vec4 most = max(max(p0.left, p1.left), max(p2.left, p3.left));
             if (max(max(most.x, most.y), max(most.z, most.w)) < kOpaque) break;
         }
     }
@@ -100,15 +147,8 @@ void main() {
     if (pixel.x >= size.x) return;
     int stride = region.z * 16;
     int at = tile.y * 16 * stride + tile.x * 16 + int(gl_LocalInvocationID.x);
-    for (int r = 0; r < 4; ++r)
-        for (int c = 0; c < 4; ++c) {
-            vec3 color = vec3(red[r][c], green[r][c], blue[r][c]);
-            float alpha = 1.0 - left[r][c];
-            if (opaque) {
-                float up = (vertical.x * X + vertical.y * Y[r][c] + vertical.z) * sqrt(per_d2[r][c]);
-                color += left[r][c] * sky_radiance(up, zenith, horizon);
-                alpha = 1.0;
-            }
-            picture[at + (4 * r + c) * stride] = vec4(color, alpha);
-        }
+    put(at, stride, X, p0);
+    put(at + 4 * stride, stride, X, p1);
+    put(at + 8 * stride, stride, X, p2);
+    put(at + 12 * stride, stride, X, p3);
 }
