@@ -112,9 +112,9 @@ class SceneReader {
 
     bool number_integer(json::number_integer_t value) {
         const Field* const field = open_field();
-        if (field && field->integer)
-            return fail("must be " + std::string(field->wanted) + ", not " + std::to_string(value));
-        return number(static_cast<double>(value));
+        if (!field || !field->integer) return number(static_cast<double>(value));
+        if (value == 0) return integer(*field, 0);  // "-0"
+        return fail("must be " + std::string(field->wanted) + ", not " + std::to_string(value));
     }
 
     bool number_unsigned(json::number_unsigned_t value) {
