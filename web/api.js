@@ -35,8 +35,9 @@ async function call(path, options) {
 const post = (path, text, { accept, type = "application/json", signal } = {}) =>
   call(path, { method: "POST", body: text, signal, headers: { "Content-Type": type, Accept: accept } });
 
+// [{ name, title }]
 export async function presets() {
-  return (await call("/v1/presets")).json();
+  return (await (await call("/v1/presets")).json()).presets;
 }
 
 export async function presetText(name) {

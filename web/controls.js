@@ -24,7 +24,12 @@ export function numberInput({ get, set, optional = false, digits = 12, ...attrib
     if (!missing) set(input.valueAsNumber, { moving: false });
   });
   const shownDigits = () => (document.activeElement === input ? 12 : digits);
-  input.addEventListener("focus", () => { input.value = plain(get(), 12); });
+  input.addEventListener("focus", () => {
+    const whole = plain(get(), 12);
+    if (input.value === whole) return;
+    input.value = whole;
+    input.select(); // setting the value has undone what the Tab key selects
+  });
   input.addEventListener("blur", () => {
     bad(false);
     input.value = plain(get(), digits);
@@ -52,7 +57,7 @@ export function slider(store, spec) {
   const range = el("input", {
     type: "range", id, min: to(min), max: to(max), step: log ? (to(max) - to(min)) / 200 : step,
   });
-  const number = numberInput({ get, set, "aria-label": unit ? `${label}, ${unit}` : label });
+  const number = numberInput({ get, set, "aria-label": `${label}, ${unit || "number"}` });
   range.addEventListener("input", () => set(from(range.valueAsNumber), { moving: true }));
   range.addEventListener("change", () => set(from(range.valueAsNumber), { moving: false }));
 

@@ -6,6 +6,14 @@ import { byId, el, plain } from "./dom.js";
 const milliseconds = (ms) => `${ms >= 100 ? Math.round(ms) : plain(Number(ms.toFixed(1)), 3)} ms`;
 const words = (name) => name.replaceAll("_", " ");
 
+// Numbers and yes/no of the survey, each with its path as a name; lists are left out.
+function* figuresOf(survey, path = "") {
+  for (const [name, value] of Object.entries(survey)) {
+    if (typeof value === "number" || typeof value === "boolean") yield [`${path}${words(name)}`, value];
+    else if (value !== null && typeof value === "object" && !Array.isArray(value)) yield* figuresOf(value, `${path}${words(name)} `);
+  }
+}
+
 export function createFigures(store) {
   const body = byId("plan-body");
   let choices = []; // [{ name, input }]
@@ -48,7 +56,7 @@ export function createFigures(store) {
         el("td", {}, available ? input : "–"),
         el("td", { class: "reason" }, reason ?? ""));
     });
-    const facts = Object.entries(survey ?? {}).filter(([, value]) => typeof value === "number" || typeof value === "boolean");
+    const facts = [...figuresOf(survey ?? {})];
     const expected = [];
     if (typeof predicted?.error === "number") expected.push(`expected error ${plain(100 * predicted.error, 2)} %`);
     if (typeof predicted?.time_ms === "number") expected.push(`expected time ${milliseconds(predicted.time_ms)}`);
@@ -59,7 +67,7 @@ export function createFigures(store) {
       ...(expected.length ? [el("p", {}, expected.join(", "))] : []),
       el("h3", {}, "Measured"),
       el("dl", { class: "facts" }, ...facts.map(([name, value]) =>
-        el("div", {}, el("dt", {}, words(name)), el("dd", {}, typeof value === "number" ? plain(value, 4) : value ? "yes" : "no")))));
+        el("div", {}, el("dt", {}, name), el("dd", {}, typeof value === "number" ? plain(value, 4) : value ? "yes" : "no")))));
     refresh();
     if (focused) body.querySelector(`[data-effect="${CSS.escape(focused)}"]`)?.focus();
   }

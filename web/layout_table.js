@@ -80,8 +80,9 @@ export function createLayoutTable(store) {
   const placementBox = el("div", { class: "placement" }, ...placement.map((field) => field.element));
   const cloudChoice = el("span", { class: "buttons" }, el("label", { for: cloudSelect.id }, "Cloud"), cloudSelect);
   const cloudLine = el("div", { class: "cloud-line" }, cloudChoice, copyCloud, dropCloud);
-  const element = group("Layout", "/cubes", true, cloudLine, placementBox, elsewhere, scroll,
-    el("div", { class: "table-foot" }, add, pager, summary));
+  const element = group("Layout", "/cubes", true, cloudLine, placementBox, elsewhere,
+    // Before the table: the keyboard need not pass every cell to get here.
+    el("div", { class: "table-tools" }, add, pager, summary), scroll);
 
   function turn(by) {
     page += by;

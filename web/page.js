@@ -127,10 +127,10 @@ const loop = createRenderLoop({
     const picture = await api.render(textFor(reduction), { signal });
     return { ...picture, width, height, reduction, transparent };
   },
-  shown({ blob, figures: said, width, height, reduction, transparent }, { full }) {
+  async shown({ blob, figures: said, width, height, reduction, transparent }, { full }) {
     stage.shape(width, height, transparent);
     const count = said.particles === null ? "" : ` of ${said.particles} particles`;
-    stage.show(blob, `Cloud${count}, ${width} by ${height} pixels`);
+    await stage.show(blob, `Cloud${count}, ${width} by ${height} pixels`);
     figures.picture(said, Math.round(width / reduction), Math.round(height / reduction));
     problem = null;
     showProblem();

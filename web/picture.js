@@ -12,7 +12,8 @@ const kYoungMs = 400;
 const kSlowPreviewMs = 150; // a half-size picture that takes longer makes the next one a quarter
 
 // render(reduction, signal) -> promise of a picture; reduction 1 is full size.
-// shown(picture, { full }), failed(problem), busy(boolean).
+// shown(picture, { full }) -> promise, failed(problem); busy(true) from the first change until the
+// full picture of the latest state is shown or has failed.
 export function createRenderLoop({ render, shown, failed, busy }) {
   let want = null; // "full" | "preview" | null
   let flight = null; // { kind, started, controller }
@@ -28,15 +29,14 @@ export function createRenderLoop({ render, shown, failed, busy }) {
     want = null;
     const mine = { kind, started: performance.now(), controller: new AbortController() };
     flight = mine;
-    busy(true);
     render(kind === "full" ? 1 : reduction, mine.controller.signal)
       .then((picture) => {
-        if (mine.controller.signal.aborted) return;
+        if (mine.controller.signal.aborted) return undefined;
         if (kind === "preview") {
           const slow = performance.now() - mine.started > kSlowPreviewMs;
           reduction = slow ? 4 : 2;
         }
-        shown(picture, { full: kind === "full" });
+        return shown(picture, { full: kind === "full" });
       })
       .catch((error) => {
         if (mine.controller.signal.aborted) return;
@@ -47,14 +47,16 @@ export function createRenderLoop({ render, shown, failed, busy }) {
       })
       .finally(() => {
         flight = null;
-        if (want === null) busy(false);
-        else if (!startTimer) start();
+        if (want !== null && !startTimer) start();
+        if (want === null && !flight && !idleTimer) busy(false);
       });
   }
 
   function changed({ moving }) {
     clearTimeout(retryTimer);
     clearTimeout(idleTimer);
+    idleTimer = 0;
+    busy(true);
     want = moving ? "preview" : "full";
     if (moving) idleTimer = setTimeout(() => changed({ moving: false }), kIdleMs);
     if (flight) {

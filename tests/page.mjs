@@ -1,0 +1,389 @@
+// page.mjs ORIGIN SCRATCH: uses the page as people do, in Debian's Chromium, and stops at the first
+// thing that is not as it should be. Started by page_test.sh.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import fs from "node:fs";
+import { createRequire } from "node:module";
+import path from "node:path";
+import { fileURLToPath } from "node:url";
+
+const [origin, scratch] = process.argv.slice(2);
+const root = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
+const { chromium } = createRequire(path.join(root, "build/node/package.json"))("playwright-core");
+
+const context = await chromium.launchPersistentContext(path.join(scratch, "profile"), {
+  executablePath: "/usr/bin/chromium",
+  headless: true,
+  acceptDownloads: true,
+  downloadsPath: scratch,
+  viewport: { width: 1440, height: 900 },
+  args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+});
+context.setDefaultTimeout(15_000);
+await context.grantPermissions(["clipboard-read", "clipboard-write"], { origin });
+
+// --- what is watched all the time ---
+
+const faults = []; // console errors, exceptions, violations of the content security policy
+const renders = []; // { scene, state: "flying" | "done" | "cancelled", from, to } of every POST /v1/render
+
+function watch(page) {
+  page.on("pageerror", (error) => faults.push(String(error)));
+  page.on("console", (message) => {
+    if (message.type() !== "error" && message.type() !== "warning") return;
+    if (/status of 4(00|22)/.test(message.text())) return; // asked for below, and shown at the field
+    faults.push(message.text());
+  });
+  const isRender = (request) => new URL(request.url()).pathname === "/v1/render";
+  page.on("request", (request) => {
+    if (!isRender(request)) return;
+    renders.push({ request, scene: JSON.parse(request.postData()), state: "flying", from: performance.now() });
+  });
+  const landed = (state) => (request) => {
+    const render = renders.find((r) => r.request === request);
+    if (render) Object.assign(render, { state, to: performance.now() });
+  };
+  page.on("requestfinished", landed("done"));
+  page.on("requestfailed", landed("cancelled"));
+}
+
+async function open(where = "/") {
+  const page = await context.newPage();
+  watch(page);
+  await page.addInitScript(() => addEventListener("securitypolicyviolation", (event) =>
+    console.error(`policy: ${event.violatedDirective} ${event.blockedURI}`)));
+  await page.goto(origin + where);
+  await settled(page);
+  return page;
+}
+
+// The full picture of the document as it stands is on the screen.
+async function settled(page) {
+  await page.waitForFunction(() =>
+    document.querySelector("#stage").getAttribute("aria-busy") === "false" &&
+    document.querySelector("#picture").naturalWidth > 0, null, { polling: 30 });
+}
+
+// Size, mean, variance and a hash of the pixels on the screen, or of a PNG given as base64.
+const look = (page, base64 = null) => page.evaluate(async (png) => {
+  let image = document.querySelector("#picture");
+  if (png) {
+    image = new Image();
+    image.src = `data:image/png;base64,${png}`;
+    await image.decode();
+  }
+  const { naturalWidth: width, naturalHeight: height } = image;
+  const canvas = Object.assign(document.createElement("canvas"), { width, height });
+  const pen = canvas.getContext("2d");
+  pen.drawImage(image, 0, 0);
+  const { data } = pen.getImageData(0, 0, width, height);
+  let [sum, squares, hash] = [0, 0, 0];
+  for (let i = 0; i < data.length; i += 4) {
+    sum += data[i + 1];
+    squares += data[i + 1] ** 2;
+    hash = (Math.imul(hash, 31) + data[i] + 256 * data[i + 1] + 65536 * data[i + 2]) | 0;
+  }
+  const mean = sum / (width * height);
+  return { width, height, mean, variance: squares / (width * height) - mean ** 2, hash };
+}, base64);
+
+const particles = async (page) => Number((await page.textContent("#particles")).replace(/\D/g, ""));
+const group = (page, title) => page.locator("details.group").filter({ has: page.getByRole("heading", { name: title, exact: true }) });
+const cell = (page, row, member) => page.locator(`tbody input[data-pointer$="/cubes/${row}/${member}"]`);
+
+async function download(page, click) {
+  const [file] = await Promise.all([page.waitForEvent("download"), click()]);
+  return { name: file.suggestedFilename(), bytes: fs.readFileSync(await file.path()) };
+}
+
+// --- the tests, in order; each leaves the page usable for the next ---
+
+const tests = {
+  async "shows a picture of the first preset"(page) {
+    const names = await page.$$eval("#preset option", (options) => options.map((o) => o.value).filter(Boolean));
+    assert.ok(names.length >= 5, `presets: ${names}`);
+    for (const name of ["cumulus", "humilis-field", "stratus", "congestus", "creature"]) assert.ok(names.includes(name), name);
+    const { width, height, variance } = await look(page);
+    assert.ok(width > 0 && height > 0);
+    assert.ok(variance > 50, `a blank picture: variance ${variance}`);
+    assert.equal(await particles(page), 615);
+    assert.match(await page.textContent("#rung"), /\w/);
+    assert.match(await page.textContent("#effects"), /self shadow/);
+    assert.match(await page.textContent("#timing"), /light .* ms/);
+  },
+
+  async "tells why effects run"(page) {
+    await page.click("#plan summary");
+    const rows = await page.locator("#plan-body tbody tr").count();
+    assert.ok(rows >= 5, `${rows} effects`);
+    assert.match(await page.locator('#plan-body tr[data-pointer="/effects/self_shadow"] .reason').textContent(), /\d/);
+    await page.click("#plan summary");
+  },
+
+  async "draws anew when a slider is moved by keyboard"(page) {
+    const before = await look(page);
+    await group(page, "Sun").getByLabel("Elevation", { exact: true }).focus();
+    for (let i = 0; i < 20; i += 1) await page.keyboard.press("ArrowLeft");
+    await settled(page);
+    const after = await look(page);
+    assert.equal(after.width, before.width, "full size again once the slider rests");
+    assert.notEqual(after.hash, before.hash);
+    await page.click("#undo");
+    await settled(page);
+    assert.equal((await look(page)).hash, before.hash, "undone in one step, to the same pixels");
+  },
+
+  async "ends with the last state of fast moves, one request at a time"(page) {
+    const from = renders.length;
+    await group(page, "Sun").getByLabel("Azimuth", { exact: true }).evaluate(async (slider) => {
+      for (let azimuth = 0; azimuth <= 240; azimuth += 4) {
+        slider.value = String(azimuth);
+        slider.dispatchEvent(new Event("input", { bubbles: true }));
+        await new Promise((done) => setTimeout(done, 12));
+      }
+      slider.dispatchEvent(new Event("change", { bubbles: true }));
+    });
+    await settled(page);
+    const sent = renders.slice(from);
+    const last = sent[sent.length - 1];
+    assert.equal(last.scene.sun.azimuth, 240);
+    assert.equal(last.state, "done");
+    assert.ok(sent.length < 60, `${sent.length} requests for 61 moves`);
+    // News of a cancelled request may come late; those that were answered must not overlap.
+    const answered = sent.filter(({ state }) => state === "done");
+    answered.slice(1).forEach(({ from: begun }, i) => assert.ok(begun >= answered[i].to, "two at once"));
+    assert.ok(sent.some(({ scene }) => scene.image.width < last.scene.image.width), "small pictures on the way");
+    const answer = await fetch(`${origin}/v1/render`, {
+      method: "POST", body: JSON.stringify(last.scene), headers: { "Content-Type": "application/json", Accept: "image/png" },
+    });
+    const truth = Buffer.from(await answer.arrayBuffer()).toString("base64");
+    assert.equal((await look(page)).hash, (await look(page, truth)).hash, "what is shown is the last state");
+  },
+
+  async "adds, duplicates and deletes cubes"(page) {
+    const before = await particles(page);
+    await page.getByRole("button", { name: "Add a cube" }).click();
+    await settled(page);
+    assert.equal(await particles(page), before + 50);
+    await page.getByRole("button", { name: "Duplicate cube 1", exact: true }).click();
+    await settled(page);
+    assert.equal(await particles(page), before + 250);
+    await page.getByRole("button", { name: "Delete cube 1", exact: true }).click();
+    await page.getByRole("button", { name: "Delete cube 24", exact: true }).click();
+    await settled(page);
+    assert.equal(await particles(page), before);
+  },
+
+  async "shows an error at the field that it names, and keeps the picture"(page) {
+    const before = await look(page);
+    const field = cell(page, 3, "size/1");
+    const good = await field.inputValue();
+    await field.fill("-1");
+    await page.waitForSelector("#alert:not(:empty)");
+    assert.match(await page.textContent("#alert"), /cube 4, size y/);
+    assert.equal(await field.getAttribute("aria-invalid"), "true");
+    const message = await page.textContent(`#${await field.getAttribute("aria-describedby")}`);
+    assert.ok(message.length > 10, message);
+    assert.equal((await look(page)).hash, before.hash);
+    await page.getByRole("button", { name: "Go to the field" }).click();
+    assert.equal(await field.evaluate((input) => input === document.activeElement), true);
+    await field.fill(good);
+    await page.waitForSelector("#alert:empty", { state: "attached" });
+    assert.equal(await field.getAttribute("aria-invalid"), null);
+
+    const elevation = group(page, "Sun").getByLabel("Elevation, °");
+    await elevation.fill("200");
+    await page.waitForSelector('[data-pointer="/sun/elevation"] .problem');
+    await elevation.fill("");
+    assert.equal(await elevation.evaluate((input) => input.validity.valid), false, "half a number is said to be one");
+    await elevation.fill("35");
+    await settled(page);
+    assert.equal(await page.textContent("#alert"), "");
+  },
+
+  async "keeps the text of the document and the controls in step"(page) {
+    await group(page, "JSON").locator("summary").click();
+    const text = page.locator("#json");
+    const scene = JSON.parse(await text.inputValue());
+    assert.equal(scene.sun.elevation, 35);
+    scene.sun.elevation = 50;
+    scene.seed = 7;
+    await text.fill(JSON.stringify(scene).replace('"seed":7', '"seed":18446744073709551615'));
+    await settled(page);
+    assert.equal(await group(page, "Sun").getByLabel("Elevation, °").inputValue(), "50");
+    assert.equal(await page.getByLabel("Seed").inputValue(), "18446744073709551615");
+    await group(page, "Matter").getByLabel("Forward g", { exact: true }).press("ArrowLeft");
+    assert.match(await text.inputValue(), /"seed": 18446744073709551615/, "64 bits survive an edit elsewhere");
+    await text.fill('{ "cubes": [ ');
+    await page.waitForSelector("#alert:not(:empty)");
+    await text.fill('{ "cubes": [], "clods": 1 }');
+    await page.waitForFunction(() => document.querySelector("#alert").textContent.includes("clods"));
+    await page.click("#undo");
+    await settled(page);
+    await group(page, "JSON").locator("summary").click();
+  },
+
+  async "orbits by dragging and zooms by wheel"(page) {
+    const before = await look(page);
+    const box = await page.locator("#stage").boundingBox();
+    await page.mouse.move(box.x + 300, box.y + 200);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 380, box.y + 220, { steps: 5 });
+    await page.mouse.up();
+    await settled(page);
+    const turned = await look(page);
+    assert.notEqual(turned.hash, before.hash);
+    await page.mouse.wheel(0, -200);
+    await settled(page);
+    assert.notEqual((await look(page)).hash, turned.hash);
+    assert.equal(await group(page, "Camera").getByLabel("Automatic", { exact: false }).isChecked(), false);
+  },
+
+  async "saves pictures, the scene, the layout and the particles"(page) {
+    const save = (name) => download(page, () => page.locator("#files").getByRole("button", { name, exact: true }).click());
+    const png = await save("PNG");
+    assert.equal(png.bytes.subarray(1, 4).toString(), "PNG");
+    assert.match(png.name, /\.png$/);
+    assert.equal((await save("EXR")).bytes.readUInt32LE(0), 20000630);
+    const scene = JSON.parse((await save("JSON")).bytes);
+    assert.equal(scene.cubes.length, 23);
+    const awn = (await save(".awn")).bytes.toString().trim().split(/\r?\n/);
+    assert.deepEqual(awn.slice(0, 2), ["615", "23"]);
+    assert.equal(awn.length, 25);
+    assert.equal(JSON.parse((await save("Particles as JSON")).bytes).count, 615);
+    assert.equal((await save("Particles as CSV")).bytes.toString().trim().split(/\r?\n/).length, 616);
+    assert.equal((await save("Particles as PLY")).bytes.subarray(0, 4).toString(), "ply\n");
+
+    await page.getByRole("button", { name: "Copy curl" }).click();
+    await page.waitForSelector("#note:not(:empty)");
+    const command = await page.evaluate(() => navigator.clipboard.readText());
+    execFileSync("bash", ["-c", command], { cwd: scratch });
+    const copy = fs.readFileSync(path.join(scratch, "cloud.png"));
+    assert.deepEqual(copy, png.bytes, "the copied command makes the same file");
+  },
+
+  async "opens layouts, and says what is wrong with bad ones"(page) {
+    const layout = path.join(scratch, "two.awn");
+    fs.writeFileSync(layout, "30\n2\n10, 1, 1, 1, 0, 0, 0, 1\n20, 2, 1, 2, 3 0, 0, 1.5\n");
+    await page.setInputFiles("#file", layout);
+    await page.waitForFunction(() => document.querySelector("#particles").textContent === "30");
+    await settled(page);
+    assert.equal(await cell(page, 1, "radius").inputValue(), "1.5");
+    fs.writeFileSync(layout, "31\n2\n10, 1, 1, 1, 0, 0, 0, 1\n20, 2, 1, 2, 3 0, 0, 1.5\n");
+    await page.setInputFiles("#file", layout);
+    await page.waitForFunction(() => /31/.test(document.querySelector("#alert").textContent));
+    assert.equal(await cell(page, 1, "radius").inputValue(), "1.5", "the document stays");
+    await page.reload();
+    await settled(page);
+    assert.equal(await particles(page), 30, "the draft is open again");
+  },
+
+  async "shows every preset, and explains why some are no single layout"(page) {
+    const names = await page.$$eval("#preset option", (options) => options.map((o) => o.value).filter(Boolean));
+    for (const name of names) {
+      await page.selectOption("#preset", name);
+      await page.waitForFunction((n) => location.hash === `#${n}`, name);
+      await settled(page);
+      const { variance } = await look(page);
+      assert.ok(variance > 50, `${name}: variance ${variance}`);
+      assert.equal(await page.textContent("#alert"), "", name);
+    }
+    await page.selectOption("#preset", "humilis-field");
+    await settled(page);
+    assert.equal(await page.getByRole("button", { name: ".awn" }).getAttribute("aria-disabled"), "true");
+    assert.match(await page.textContent("#awn-why"), /several clouds/);
+    await page.locator(".cloud-line select").selectOption("1");
+    assert.ok(await page.getByLabel("Turn, °").isVisible());
+  },
+
+  async "works by keyboard alone"(page) {
+    await page.goto(`${origin}/#cumulus`);
+    await page.reload();
+    await settled(page);
+    const active = (script) => page.evaluate(`(${script})(document.activeElement)`);
+    const tabTo = async (what, script, limit = 60) => {
+      for (let i = 0; i < limit; i += 1) {
+        await page.keyboard.press("Tab");
+        const outline = await active("(e) => getComputedStyle(e).outlineStyle");
+        assert.notEqual(outline, "none", `no visible focus at ${await active("(e) => e.outerHTML.slice(0, 120)")}`);
+        if (await active(script)) return;
+      }
+      assert.fail(`Tab does not reach ${what}`);
+    };
+    await tabTo("the presets", '(e) => e.id === "preset"');
+    await page.keyboard.press("ArrowDown");
+    await page.waitForFunction(() => location.hash !== "#cumulus");
+    await settled(page);
+    await page.keyboard.press("ArrowUp");
+    await page.waitForFunction(() => location.hash === "#cumulus");
+    await settled(page);
+    const start = await look(page);
+    await tabTo("the picture", '(e) => e.id === "stage"');
+    await page.keyboard.press("ArrowRight");
+    await settled(page);
+    const turned = await look(page);
+    assert.notEqual(turned.hash, start.hash);
+    await tabTo("a button that saves", '(e) => e.parentElement.id === "save-buttons"');
+    const { bytes } = await download(page, () => page.keyboard.press("Enter"));
+    assert.ok(bytes.length > 0);
+    await tabTo("a slider", '(e) => e.type === "range"');
+    await page.keyboard.press("End");
+    await settled(page);
+    assert.notEqual((await look(page)).hash, turned.hash);
+    await tabTo("the button that adds", '(e) => e.textContent === "Add a cube"');
+    await page.keyboard.press("Enter");
+    await settled(page);
+    assert.equal(await particles(page), 665);
+    assert.equal(await active("(e) => e.dataset.pointer"), "/cubes/23/particles", "the new row has the focus");
+    await page.keyboard.press("ArrowUp");
+    await page.keyboard.press("Shift+Enter"); // up the column
+    assert.equal(await active("(e) => e.dataset.pointer"), "/cubes/22/particles");
+    await settled(page);
+    assert.equal(await particles(page), 666);
+    await tabTo("the button that deletes", '(e) => e.className === "delete"');
+    await page.keyboard.press("Enter");
+    await settled(page);
+    assert.equal(await particles(page), 656);
+  },
+
+  async "fits phones and dark rooms"(page) {
+    const background = () => page.evaluate(() =>
+      getComputedStyle(document.body).backgroundColor.match(/\d+/g).slice(0, 3).reduce((sum, x) => sum + Number(x), 0) / 3);
+    await page.emulateMedia({ colorScheme: "light" });
+    assert.ok((await background()) > 180);
+    await page.emulateMedia({ colorScheme: "dark" });
+    assert.ok((await background()) < 70);
+    for (const [width, height] of [[390, 844], [844, 390], [3840, 2160]]) {
+      await page.setViewportSize({ width, height });
+      const over = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert.ok(over <= 0, `${width} wide: ${over} pixels too wide`);
+    }
+    await page.setViewportSize({ width: 390, height: 844 });
+    assert.ok((await page.screenshot()).length > 10_000);
+  },
+};
+
+const start = Date.now();
+let failed = null;
+try {
+  const page = await open();
+  for (const [name, test] of Object.entries(tests)) {
+    const begun = Date.now();
+    try {
+      await test(page);
+      assert.deepEqual(faults, [], "errors of the browser");
+    } catch (error) {
+      failed = error;
+      console.error(`page_test: ${name}: ${error.stack}`);
+      console.error(`  faults: ${JSON.stringify(faults)}`);
+      break;
+    }
+    console.log(`ok ${name} (${Date.now() - begun} ms)`);
+  }
+} finally {
+  await context.close();
+}
+console.log(`${failed ? "failed" : "passed"} in ${((Date.now() - start) / 1000).toFixed(1)} s`);
+process.exit(failed ? 1 : 0);

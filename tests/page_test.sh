@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# page_test.sh AWAN: the page in a real browser, against a server of its own.
+set -euo pipefail
+awan=$1
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(cd "$here/.." && pwd)
+
+fail() { echo "page_test: $*" >&2; exit 1; }
+command -v node >/dev/null || fail "node is missing"
+[ -x /usr/bin/chromium ] || fail "/usr/bin/chromium is missing"
+[ -d "$root/build/node/node_modules/playwright-core" ] || fail "playwright-core is missing: run tests/run.sh, which installs it"
+
+scratch=$(mktemp -d)
+server=
+cleanup() {
+    if [ -n "$server" ]; then
+        kill "$server" 2>/dev/null || true
+        wait "$server" 2>/dev/null || true
+    fi
+    rm -rf "$scratch"
+}
+trap cleanup EXIT
+
+port=$(node -e 'const s = require("net").createServer().listen(0, "127.0.0.1", () => { console.log(s.address().port); s.close(); })')
+"$awan" serve --listen "127.0.0.1:$port" >"$scratch/server.log" 2>&1 &
+server=$!
+ready=
+for _ in $(seq 100); do
+    if curl -fsS -o /dev/null "http://127.0.0.1:$port/readyz" 2>/dev/null; then ready=yes; break; fi
+    kill -0 "$server" 2>/dev/null || break
+    sleep 0.1
+done
+if [ -z "$ready" ]; then
+    cat "$scratch/server.log" >&2
+    fail "the server did not become ready"
+fi
+
+if ! timeout 180 node "$here/page.mjs" "http://127.0.0.1:$port" "$scratch"; then
+    tail -n 40 "$scratch/server.log" >&2
+    exit 1
+fi
