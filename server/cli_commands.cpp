@@ -95,7 +95,7 @@ Status write_particles(const std::string& path, const std::string& format,
         if (const Status failed = file->write(piece)) return failed;
         piece.clear();
     }
-    if (format == "json") piece += particles_json_tail() + "\n";
+    if (format == "json") piece += particles_json_tail();
     if (const Status failed = file->write(piece)) return failed;
     return file->commit();
 }
@@ -177,7 +177,7 @@ int run_plan(const PlanCommand& command) {
     auto planned = plan_scene(*scene, command.threads, Deadline{});
     if (!planned) return report_error(command.scene, planned.error());
     if (const Status failed =
-            write_output(command.output, plan_to_json(planned->survey, planned->plan) + "\n"))
+            write_output(command.output, plan_to_json(planned->survey, planned->plan)))
         return report_error("", *failed);
     return kExitFine;
 }

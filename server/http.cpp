@@ -197,8 +197,11 @@ void HttpServer::State::begin_drain() {
 }
 
 bool HttpServer::State::drained() const {
-    return std::all_of(connections.begin(), connections.end(),
-                       [](const Connection& c) { return c.stand == Stand::kHead; });
+    // Lingering ones have their answer; a client that keeps its side open must not hold up the
+    // stop.
+    return std::all_of(connections.begin(), connections.end(), [](const Connection& c) {
+        return c.stand == Stand::kHead || c.stand == Stand::kLingering;
+    });
 }
 
 HttpServer::HttpServer(Service& service, Metrics& metrics, HttpOptions options)

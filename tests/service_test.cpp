@@ -1,0 +1,525 @@
+// Requests and their answers, without sockets.
+#include "server/service.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/embedded.h"
+#include "core/pipeline.h"
+#include "fake_renderer.h"
+#include "server/negotiation.h"
+#include "server/pages.h"
+#include "server/problem.h"
+#include "server/scene_text.h"
+#include "server/work_budget.h"
+
+namespace awan::test {
+namespace {
+
+constexpr const char* kScene =
+    R"({"cubes":[{"particles":20,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],"seed":7,)"
+    R"("image":{"width":16,"height":8}})";
+
+using Headers = std::vector<std::pair<std::string, std::string>>;
+
+Request make_request(std::string method, std::string path, std::string body = "",
+                     Headers headers = {{"Content-Type", "application/json"}}) {
+    Request request;
+    request.method = std::move(method);
+    request.path = std::move(path);
+    request.body = std::move(body);
+    request.headers = std::move(headers);
+    request.id = "test-1";
+    return request;
+}
+
+std::string whole_body(const Response& response) {
+    std::string body = response.body;
+    if (response.stream)
+        while (response.stream(body)) {
+        }
+    return body;
+}
+
+class ServiceTest : public testing::Test {
+  protected:
+    explicit ServiceTest(ServiceOptions options = {})
+        : thread(renderer.opener(), 1), service(thread, metrics, options) {
+        thread.wait_until_started();
+    }
+
+    Response get(const std::string& path, Headers headers = {}) {
+        return service.answer(make_request("GET", path, "", std::move(headers)));
+    }
+    Response post(const std::string& path, const std::string& body = kScene, Headers more = {},
+                  const std::string& type = "application/json") {
+        Headers headers = {{"Content-Type", type}};
+        headers.insert(headers.end(), more.begin(), more.end());
+        return service.answer(make_request("POST", path, body, headers));
+    }
+
+    FakeRenderer renderer;
+    Metrics metrics;
+    RenderThread thread;
+    Service service;
+};
+
+void expect_problem(const Response& response, int status, const std::string& pointer = "") {
+    EXPECT_EQ(response.status, status) << response.body;
+    EXPECT_EQ(response.header("Content-Type"), "application/problem+json");
+    EXPECT_NE(response.body.find("\"status\":" + std::to_string(status)), std::string::npos);
+    EXPECT_NE(response.body.find("\"request_id\":\"test-1\""), std::string::npos);
+    if (!pointer.empty()) {
+        EXPECT_NE(response.body.find("\"pointer\":\"" + pointer + "\""), std::string::npos)
+            << response.body;
+    }
+}
+
+// --- routes
+
+TEST_F(ServiceTest, UnknownPathsAre404) {
+    for (const char* path :
+         {"/nowhere", "/v1", "/v1/", "/v1/render/", "/v1/accuracy", "/v1/jobs", "/v1/jobs/1",
+          "/v1/presets/", "/v1/presets/none", "/presets/cumulus.json", "", "*"}) {
+        expect_problem(get(path), 404);
+        expect_problem(post(path), 404);
+    }
+}
+
+TEST_F(ServiceTest, WrongMethodsAre405WithAllow) {
+    for (const char* path : {"/v1/particles", "/v1/render", "/v1/plan"})
+        for (const char* method : {"GET", "HEAD", "PUT", "DELETE", "PATCH", "TRACE"}) {
+            const Response response = service.answer(make_request(method, path, kScene));
+            expect_problem(response, 405);
+            EXPECT_EQ(response.header("Allow"), "POST, OPTIONS");
+        }
+    for (const char* path : {"/", "/healthz", "/v1/presets", "/v1/presets/cumulus"})
+        for (const char* method : {"POST", "PUT", "DELETE"}) {
+            const Response response = service.answer(make_request(method, path, kScene));
+            expect_problem(response, 405);
+            EXPECT_EQ(response.header("Allow"), "GET, HEAD, OPTIONS");
+        }
+}
+
+TEST_F(ServiceTest, OptionsTellsWhatIsAllowed) {
+    EXPECT_EQ(service.answer(make_request("OPTIONS", "/v1/render")).header("Allow"),
+              "POST, OPTIONS");
+    const Response page = service.answer(make_request("OPTIONS", "/"));
+    EXPECT_EQ(page.status, 204);
+    EXPECT_EQ(page.header("Allow"), "GET, HEAD, OPTIONS");
+    EXPECT_EQ(service.answer(make_request("OPTIONS", "*")).status, 204);
+    expect_problem(service.answer(make_request("OPTIONS", "/nowhere")), 404);
+}
+
+TEST_F(ServiceTest, EveryAnswerHasItsIdAndIsNotSniffed) {
+    for (const Response& response :
+         {get("/"), get("/nowhere"), get("/healthz"), post("/v1/plan"), post("/v1/plan", "{"),
+          post("/v1/render"), service.answer(make_request("OPTIONS", "*"))}) {
+        EXPECT_EQ(response.header("X-Request-Id"), "test-1");
+        EXPECT_EQ(response.header("X-Content-Type-Options"), "nosniff");
+    }
+}
+
+// --- what comes in
+
+TEST_F(ServiceTest, ContentTypesOtherThanScenesAre415) {
+    for (const char* type :
+         {"", "text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x",
+          "application/jsonx", "application/json; charset=utf-16", "image/png"}) {
+        const Response response = post("/v1/plan", kScene, {}, type);
+        expect_problem(response, 415);
+        EXPECT_FALSE(response.header("Accept").empty());
+    }
+    expect_problem(service.answer(make_request("POST", "/v1/plan", kScene, {})), 415);
+}
+
+TEST_F(ServiceTest, SceneTypesAreTaken) {
+    EXPECT_EQ(post("/v1/plan", kScene, {}, "Application/JSON; charset=\"UTF-8\"").status, 200);
+    EXPECT_EQ(post("/v1/plan", "20\n1\n20, 2, 1, 2, 0, 0, 0, 0.5\n", {}, "text/x-awn").status, 200);
+    const std::string csv = "x,y,z,radius\n0,0,0,1\n1,0,0,1\n";
+    EXPECT_EQ(post("/v1/plan", csv, {}, "text/csv; charset=utf-8").status, 200);
+    const Response ply = post("/v1/particles", csv, {{"Accept", "application/x-ply"}}, "text/csv");
+    ASSERT_EQ(ply.status, 200);
+    EXPECT_EQ(post("/v1/plan", whole_body(ply), {}, "application/x-ply").status, 200);
+}
+
+TEST_F(ServiceTest, BrokenDocumentsAre400) {
+    for (const char* body : {"", " ", "{", "nonsense", "{\"cubes\":[}", "\xff\xfe"})
+        expect_problem(post("/v1/plan", body), 400);
+    expect_problem(post("/v1/plan", "2\n1\n", {}, "text/x-awn"), 400);
+    expect_problem(post("/v1/plan", "a,b\n1,2\n", {}, "text/csv"), 400);
+    expect_problem(post("/v1/plan", "ply\n", {}, "application/x-ply"), 400);
+}
+
+TEST_F(ServiceTest, ImpossibleScenesAre422AndNameThePlace) {
+    const char* cube = R"({"cubes":[{"particles":1,"size":[1,-1,1],"center":[0,0,0],"radius":1}]})";
+    for (const char* path : {"/v1/plan", "/v1/particles", "/v1/render"})
+        expect_problem(post(path, cube), 422, "/cubes/0/size/1");
+    expect_problem(post("/v1/plan", R"({"cubes":[],"clod":1})"), 422, "/clod");
+    expect_problem(post("/v1/plan", R"({"cubes":[],"ground":{"height":0}})"), 422, "/ground");
+    const Response none = post("/v1/plan", "[]");
+    expect_problem(none, 422);
+    EXPECT_NE(none.body.find("\"pointer\":\"\""), std::string::npos) << "the whole document";
+}
+
+// --- what goes out
+
+TEST_F(ServiceTest, ParticlesComeAsTheClientLikes) {
+    const Response json = post("/v1/particles");
+    EXPECT_EQ(json.header("Content-Type"), "application/json");
+    EXPECT_EQ(json.header("Awan-Particles"), "20");
+    EXPECT_EQ(json.header("Vary"), "Accept");
+    EXPECT_TRUE(json.body.starts_with("{\"count\":20,\"seed\":7,\"bounds\":{\"min\":["));
+    EXPECT_EQ(post("/v1/particles", kScene, {{"Accept", "*/*"}}).body, json.body);
+    EXPECT_EQ(
+        post("/v1/particles", kScene, {{"Accept", "text/csv, */*;q=0.1"}}).header("Content-Type"),
+        "text/csv");
+    EXPECT_EQ(post("/v1/particles", kScene, {{"Accept", "text/*"}}).header("Content-Type"),
+              "text/csv");
+    EXPECT_TRUE(post("/v1/particles", kScene, {{"Accept", "application/x-ply"}})
+                    .body.starts_with("ply\nformat binary_little_endian 1.0\n"));
+    const Response layout = post("/v1/particles", kScene, {{"Accept", "text/x-awn"}});
+    EXPECT_EQ(layout.status, 200);
+    EXPECT_EQ(layout.header("Content-Type"), "text/x-awn");
+    EXPECT_EQ(post("/v1/particles", layout.body, {{"Accept", "text/x-awn"}}, "text/x-awn").body,
+              layout.body);
+    for (const char* accept : {"text/html", "image/*", "application/json;q=0", "nonsense"})
+        expect_problem(post("/v1/particles", kScene, {{"Accept", accept}}), 406);
+}
+
+TEST_F(ServiceTest, LongAnswersAreStreamedAndWhole) {
+    const std::string scene =
+        R"({"cubes":[{"particles":10000,"size":[2,1,2],"center":[0,0,0],"radius":0.5}]})";
+    const auto lines = [](const std::string& text) {
+        return std::count(text.begin(), text.end(), '\n');
+    };
+    const Response csv = post("/v1/particles", scene, {{"Accept", "text/csv"}});
+    EXPECT_TRUE(csv.stream != nullptr);
+    EXPECT_EQ(lines(whole_body(csv)), 10'001);
+    const std::string json = whole_body(post("/v1/particles", scene));
+    EXPECT_EQ(lines(json), 10'002);
+    EXPECT_TRUE(json.ends_with("}\n]}\n"));
+    std::size_t centers = 0;
+    for (std::size_t at = 0; (at = json.find("\"center\"", at)) != std::string::npos; ++at)
+        ++centers;
+    EXPECT_EQ(centers, 10'000u);
+}
+
+TEST_F(ServiceTest, PlanNeedsNoRenderer) {
+    const Response plan = post("/v1/plan");
+    EXPECT_EQ(plan.status, 200);
+    EXPECT_TRUE(plan.body.starts_with("{\"survey\":{"));
+    EXPECT_NE(plan.body.find("\"rung\":\"harris\""), std::string::npos);
+    EXPECT_EQ(renderer.begun(), 0);
+    expect_problem(post("/v1/plan", kScene, {{"Accept", "text/csv"}}), 406);
+}
+
+TEST_F(ServiceTest, RendersAreDescribedByTheirHeaders) {
+    const Response png = post("/v1/render");
+    ASSERT_EQ(png.status, 200);
+    EXPECT_EQ(png.header("Content-Type"), "image/png");
+    EXPECT_TRUE(png.body.starts_with("\x89PNG"));
+    EXPECT_EQ(png.header("Awan-Rung"), "harris");
+    EXPECT_EQ(png.header("Awan-Particles"), "20");
+    EXPECT_NE(png.header("Awan-Effects").find("self_shadow"), std::string_view::npos);
+    EXPECT_EQ(png.header("Awan-Error"), "") << "nothing is predicted yet";
+    EXPECT_EQ(png.header("Vary"), "Accept");
+    const std::string timing(png.header("Server-Timing"));
+    std::size_t at = 0;
+    for (const char* stage : {"queue", "generate", "survey", "light", "draw", "encode"}) {
+        at = timing.find(std::string(stage) + ";dur=", at);
+        EXPECT_NE(at, std::string::npos) << stage << " in " << timing;
+    }
+}
+
+TEST_F(ServiceTest, AcceptChoosesTheImageAndElseTheDocument) {
+    const std::string exr_scene = R"({"cubes":[],"image":{"width":4,"height":4,"format":"exr"}})";
+    const auto type = [&](const std::string& scene, const Headers& headers) {
+        return std::string(post("/v1/render", scene, headers).header("Content-Type"));
+    };
+    EXPECT_EQ(type(exr_scene, {}), "image/x-exr");
+    EXPECT_EQ(type(exr_scene, {{"Accept", "*/*"}}), "image/x-exr");
+    EXPECT_EQ(type(exr_scene, {{"Accept", "image/*"}}), "image/x-exr");
+    EXPECT_EQ(type(exr_scene, {{"Accept", "image/png"}}), "image/png");
+    EXPECT_EQ(type(kScene, {{"Accept", "image/x-exr, image/png;q=0.9"}}), "image/x-exr");
+    EXPECT_EQ(type(kScene, {{"Accept", "image/avif,image/webp,image/png,*/*;q=0.8"}}), "image/png");
+    expect_problem(post("/v1/render", kScene, {{"Accept", "image/jpeg"}}), 406);
+}
+
+TEST_F(ServiceTest, TagsNameTheAnswerAndNotItsSpelling) {
+    const std::string respelled =
+        R"({ "seed": 7.0, "image": {"height": 8, "width": 16}, "fill": "uniform",)"
+        R"("cubes":[{"radius":5e-1,"size":[2,1,2],"particles":20,"center":[0,0,0]}]})";
+    std::set<std::string> tags;
+    for (const char* path : {"/v1/particles", "/v1/render", "/v1/plan"}) {
+        const std::string tag(post(path).header("ETag"));
+        EXPECT_EQ(post(path, respelled).header("ETag"), tag);
+        const Response again = post(path, kScene, {{"If-None-Match", tag}});
+        EXPECT_EQ(again.status, 304);
+        EXPECT_EQ(again.body, "");
+        tags.insert(tag);
+    }
+    tags.insert(
+        std::string(post("/v1/render", kScene, {{"Accept", "image/x-exr"}}).header("ETag")));
+    tags.insert(
+        std::string(post("/v1/particles", kScene, {{"Accept", "text/csv"}}).header("ETag")));
+    EXPECT_EQ(tags.size(), 5u) << "every answer has a tag of its own";
+}
+
+// --- load
+
+TEST_F(ServiceTest, FullQueueRefusesBeforeAnythingIsComputed) {
+    const auto first = thread.take_place();
+    const auto second = thread.take_place();
+    EXPECT_FALSE(thread.take_place()) << "a queue of one has a place for one that runs and one";
+    const Response refused = post("/v1/render");
+    expect_problem(refused, 429);
+    EXPECT_FALSE(refused.header("Retry-After").empty());
+    EXPECT_EQ(metrics.text(0, true).find("stage=\"generate\""), std::string::npos);
+    EXPECT_EQ(post("/v1/plan").status, 200);
+}
+
+TEST_F(ServiceTest, PassedDeadlineIs504) {
+    Request request = make_request("POST", "/v1/particles", kScene);
+    request.deadline.until = Deadline::Clock::now() - std::chrono::seconds(1);
+    expect_problem(service.answer(request), 504);
+    request.path = "/v1/render";
+    expect_problem(service.answer(request), 504);
+    EXPECT_EQ(renderer.begun(), 0);
+}
+
+TEST_F(ServiceTest, NobodyIsAnsweredWhoHasGone) {
+    Request request = make_request("POST", "/v1/render", kScene);
+    request.deadline.cancelled = std::make_shared<std::atomic<bool>>(true);
+    EXPECT_TRUE(service.answer(request).abandoned);
+    EXPECT_EQ(thread.waiting(), 0u);
+}
+
+TEST_F(ServiceTest, DrainingRefusesNewWorkOnly) {
+    EXPECT_EQ(get("/readyz").status, 200);
+    service.drain();
+    const Response refused = post("/v1/plan");
+    expect_problem(refused, 503);
+    EXPECT_FALSE(refused.header("Retry-After").empty());
+    expect_problem(get("/readyz"), 503);
+    EXPECT_EQ(get("/healthz").status, 200);
+    EXPECT_EQ(get("/").status, 200);
+    Request begun = make_request("POST", "/v1/plan", kScene);
+    begun.admitted = true;
+    EXPECT_EQ(service.answer(begun).status, 200);
+}
+
+class SmallMemory : public ServiceTest {
+  protected:
+    static ServiceOptions small() {
+        ServiceOptions options;
+        options.work_bytes = 10'000;
+        return options;
+    }
+    SmallMemory() : ServiceTest(small()) {}
+};
+
+TEST_F(SmallMemory, IsSharedByRefusing) {
+    const std::string large =
+        R"({"cubes":[{"particles":5000,"size":[2,1,2],"center":[0,0,0],"radius":0.5}]})";
+    const Response held = post("/v1/particles", large);
+    ASSERT_EQ(held.status, 200) << "what is more than the whole budget runs alone";
+    expect_problem(post("/v1/particles"), 429);
+    expect_problem(post("/v1/render"), 429);
+    EXPECT_FALSE(whole_body(held).empty());
+}
+
+TEST(WorkBudget, LeasesAreGivenBack) {
+    WorkBudget budget(100);
+    {
+        const auto half = budget.take(50);
+        EXPECT_TRUE(half);
+        EXPECT_FALSE(budget.take(51));
+        EXPECT_TRUE(budget.take(50));
+    }
+    EXPECT_TRUE(budget.take(1'000'000));
+    EXPECT_TRUE(budget.take(100));
+}
+
+// --- without a renderer
+
+TEST(NoRenderer, EverythingButRendersWorks) {
+    Metrics metrics;
+    RenderThread thread(
+        []() -> Result<Renderer> {
+            return Error{ErrorCode::kNoRenderer, "", "no EGL here"};
+        },
+        1);
+    thread.wait_until_started();
+    Service service(thread, metrics, {});
+    expect_problem(service.answer(make_request("POST", "/v1/render", kScene)), 503);
+    EXPECT_EQ(service.answer(make_request("POST", "/v1/plan", kScene)).status, 200);
+    EXPECT_EQ(service.answer(make_request("POST", "/v1/particles", kScene)).status, 200);
+    const Response ready = service.answer(make_request("GET", "/readyz"));
+    expect_problem(ready, 503);
+    EXPECT_NE(ready.body.find("no EGL here"), std::string::npos);
+    const Response version = service.answer(make_request("GET", "/version"));
+    EXPECT_NE(version.body.find("no EGL here"), std::string::npos);
+    // A scene that cannot be is told so even here.
+    expect_problem(service.answer(make_request("POST", "/v1/render", "{}")), 422);
+}
+
+TEST(NoRenderer, ThrowingOpenerIsNoRenderer) {
+    RenderThread thread([]() -> Result<Renderer> { throw std::runtime_error("driver"); }, 1);
+    thread.wait_until_started();
+    EXPECT_EQ(thread.info().reason, "driver");
+}
+
+TEST(RenderThread, ThrowingRenderIsAnInternalErrorWithoutDetails) {
+    Metrics metrics;
+    RenderThread thread(
+        []() -> Result<Renderer> {
+            Renderer renderer;
+            renderer.render = [](const Scene&, Planned, const Deadline&) -> Result<Rendered> {
+                throw std::runtime_error("secret");
+            };
+            return renderer;
+        },
+        1);
+    Service service(thread, metrics, {});
+    const Response response = service.answer(make_request("POST", "/v1/render", kScene));
+    expect_problem(response, 500);
+    EXPECT_EQ(response.body.find("secret"), std::string::npos);
+    EXPECT_EQ(thread.waiting(), 0u);
+}
+
+// With the device itself: a picture, and the renderer's name behind its tag.
+TEST(RealRenderer, Renders) {
+    Metrics metrics;
+    RenderThread thread(DeviceChoice::kSoftware, 1);
+    thread.wait_until_started();
+    ASSERT_EQ(thread.info().state, RenderThread::Info::State::kReady) << thread.info().reason;
+    Service service(thread, metrics, {});
+    const Response response = service.answer(make_request("POST", "/v1/render", kScene));
+    ASSERT_EQ(response.status, 200) << response.body;
+    EXPECT_TRUE(response.body.starts_with("\x89PNG"));
+    const Response again = service.answer(make_request("POST", "/v1/render", kScene));
+    EXPECT_EQ(again.body, response.body);
+
+    FakeRenderer fake;
+    RenderThread fake_thread(fake.opener(), 1);
+    Service other(fake_thread, metrics, {});
+    EXPECT_NE(other.answer(make_request("POST", "/v1/render", kScene)).header("ETag"),
+              response.header("ETag"));
+}
+
+// --- pages, presets, contract, metrics
+
+TEST_F(ServiceTest, PagesAreStrictAboutScripts) {
+    const Response page = get("/");
+    ASSERT_EQ(page.status, 200);
+    EXPECT_EQ(page.header("Content-Type"), "text/html; charset=utf-8");
+    EXPECT_EQ(page.header("Cache-Control"), "no-cache");
+    EXPECT_EQ(page.header("Referrer-Policy"), "no-referrer");
+    EXPECT_EQ(page.header("Content-Security-Policy"), kContentSecurityPolicy);
+    EXPECT_EQ(get("/index.html").body, page.body);
+    EXPECT_EQ(get("/", {{"If-None-Match", std::string(page.header("ETag"))}}).status, 304);
+    for (const EmbeddedFile& file : web_files()) {
+        if (file.name.starts_with("presets/")) continue;
+        const Response response = get("/" + std::string(file.name));
+        EXPECT_EQ(response.status, 200) << file.name;
+        EXPECT_EQ(response.body, file.text);
+        EXPECT_NE(response.header("Content-Type"), "application/octet-stream") << file.name;
+    }
+}
+
+TEST_F(ServiceTest, EveryPresetIsListedAndCanBe) {
+    std::size_t documents = 0;
+    for (const EmbeddedFile& file : web_files())
+        documents += file.name.starts_with("presets/") && file.name != "presets/index.json";
+    const std::vector<Preset> presets = make_presets();
+    EXPECT_EQ(presets.size(), documents) << "a document is missing in web/presets/index.json";
+    const Response list = get("/v1/presets");
+    for (const Preset& preset : presets) {
+        const std::string path = "/v1/presets/" + std::string(preset.entry.name);
+        EXPECT_NE(list.body.find("\"href\":\"" + path + "\""), std::string::npos);
+        EXPECT_NE(list.body.find("\"title\":\"" + std::string(preset.entry.title) + "\""),
+                  std::string::npos);
+        const Response document = get(path);
+        EXPECT_EQ(document.header("Content-Type"), "application/json");
+        EXPECT_EQ(get(path, {{"If-None-Match", std::string(document.header("ETag"))}}).status, 304);
+        EXPECT_EQ(post("/v1/particles", document.body, {{"If-None-Match", "*"}}).status, 304)
+            << document.body;
+    }
+}
+
+TEST_F(ServiceTest, ContractNamesEveryRoute) {
+    const Response contract = get("/openapi.json");
+    ASSERT_EQ(contract.status, 200);
+    EXPECT_EQ(contract.header("Content-Type"), "application/json");
+    for (const char* path :
+         {"/v1/particles", "/v1/render", "/v1/plan", "/v1/presets", "/v1/presets/{name}",
+          "/healthz", "/readyz", "/metrics", "/version", "/openapi.json", "/"})
+        EXPECT_NE(contract.body.find("    \"" + std::string(path) + "\": {"), std::string::npos)
+            << path;
+    EXPECT_NE(contract.body.find("\"version\": \"" + std::string(engine_version()) + "\""),
+              std::string::npos);
+}
+
+TEST_F(ServiceTest, MetricsCountByRouteAndNeverByWhatClientsWrite) {
+    get("/healthz");
+    get("/made-up-path");
+    get("/v1/presets/cumulus");
+    post("/v1/render");
+    post("/v1/render", "{}");
+    const std::string text = get("/metrics").body;
+    for (const char* line :
+         {"awan_http_requests_total{route=\"/healthz\",status=\"2xx\"} 1\n",
+          "awan_http_requests_total{route=\"other\",status=\"4xx\"} 1\n",
+          "awan_http_requests_total{route=\"/v1/presets/{name}\",status=\"2xx\"} 1\n",
+          "awan_http_requests_total{route=\"/v1/render\",status=\"2xx\"} 1\n",
+          "awan_http_requests_total{route=\"/v1/render\",status=\"4xx\"} 1\n",
+          "awan_http_request_duration_seconds_bucket{route=\"/v1/render\",le=\"+Inf\"} 2\n",
+          "awan_stage_duration_seconds_count{stage=\"encode\"} 1\n", "awan_render_queue_length 0\n",
+          "awan_ready 1\n", "process_resident_memory_bytes "})
+        EXPECT_NE(text.find(line), std::string::npos) << line;
+    EXPECT_EQ(text.find("made-up"), std::string::npos);
+    EXPECT_GT(resident_bytes(), 1u << 20);
+}
+
+// --- negotiation
+
+TEST(Accept, BestOfferIsThatOfHighestQualityThenFirst) {
+    const std::string_view offers[] = {"a/x", "a/y", "b/z"};
+    const auto best = [&](std::string_view accept) {
+        return std::string(best_offer(accept, offers).value_or("none"));
+    };
+    EXPECT_EQ(best(""), "a/x");
+    EXPECT_EQ(best("*/*"), "a/x");
+    EXPECT_EQ(best("a/y"), "a/y");
+    EXPECT_EQ(best("A/Y"), "a/y");
+    EXPECT_EQ(best("a/*;q=0.5, b/z"), "b/z");
+    EXPECT_EQ(best("a/x;q=0, */*"), "a/y") << "the most specific range decides";
+    EXPECT_EQ(best("a/x;q=0.2,a/y;q=0.8;v=1"), "a/y");
+    EXPECT_EQ(best("a/x;q=0.001, b/z;q=0.002"), "b/z");
+    EXPECT_EQ(best("a/x;v=\"1,2\";q=0.1, a/y;q=0.2"), "a/y");
+    EXPECT_EQ(best("c/c"), "none");
+    EXPECT_EQ(best("*/*;q=0"), "none");
+    EXPECT_EQ(best(",,;,"), "none");
+}
+
+TEST(SceneText, FormatIsSeenFromTheFirstBytes) {
+    EXPECT_EQ(sniff_scene_format(" \n{\"cubes\":[]}"), SceneFormat::kJson);
+    EXPECT_EQ(sniff_scene_format("ply\nformat ascii 1.0\n"), SceneFormat::kPly);
+    EXPECT_EQ(sniff_scene_format("x,y,z,radius\n"), SceneFormat::kCsv);
+    EXPECT_EQ(sniff_scene_format("200 1\n6.1e-007, 1"), SceneFormat::kAwn);
+    EXPECT_EQ(scene_format_of_name("a.AWN"), SceneFormat::kAwn);
+    EXPECT_EQ(scene_format_of_name("json"), std::nullopt);
+}
+
+TEST(Errors, ExitCodesAreThoseOfTheContract) {
+    EXPECT_EQ(exit_code_of(ErrorCode::kMalformed), 3);
+    EXPECT_EQ(exit_code_of(ErrorCode::kUnsupported), 3);
+    EXPECT_EQ(exit_code_of(ErrorCode::kNoRenderer), 4);
+    EXPECT_EQ(exit_code_of(ErrorCode::kIo), 5);
+}
+
+}  // namespace
+}  // namespace awan::test
