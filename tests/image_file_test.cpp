@@ -1,0 +1,430 @@
+// PNG and EXR, read back by OpenImageIO's own tool and by a reader of PNG written from its
+// definition; the laws of the tone curve and the light meter.
+#include "core/formats/image_file.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <vector>
+
+#include "core/formats/tone.h"
+
+namespace awan {
+namespace {
+
+Image image_of(int width, int height, bool opaque, auto pixel) {
+    Image image;
+    image.width = width;
+    image.height = height;
+    image.opaque = opaque;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const std::array<float, 4> rgba = pixel(x, y);
+            image.pixels.insert(image.pixels.end(), rgba.begin(), rgba.end());
+        }
+    return image;
+}
+
+Image plain(std::array<float, 4> rgba, bool opaque) {
+    return image_of(2, 2, opaque, [&](int, int) { return rgba; });
+}
+
+struct Output {
+    std::string text;
+    int status;
+};
+
+Output run(const std::string& command) {
+    Output output{"", -1};
+    FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
+    if (pipe == nullptr) return output;
+    char buffer[4096];
+    while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, pipe))
+        output.text.append(buffer, n);
+    output.status = pclose(pipe);
+    return output;
+}
+
+// A file that is gone at the end of the test.
+class File {
+  public:
+    File(const std::string& name, const std::string& bytes) : path_(testing::TempDir() + name) {
+        std::ofstream(path_, std::ios::binary) << bytes;
+    }
+    ~File() { std::remove(path_.c_str()); }
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    const std::string& path() const { return path_; }
+
+  private:
+    std::string path_;
+};
+
+// Samples of a PNG in reading order, by a reader that knows the format from its definition only.
+std::vector<int> png_samples(const std::string& bytes, int channels) {
+    const File file("awan_test.png", bytes);
+    const Output output =
+        run("python3 -c \"\n"
+            "import struct,zlib\n"
+            "b=open('" +
+            file.path() +
+            "','rb').read()\n"
+            "assert b[:8]==b'\\x89PNG\\r\\n\\x1a\\n'\n"
+            "at,data=8,b''\n"
+            "while at<len(b):\n"
+            "  n,kind=struct.unpack('>I4s',b[at:at+8])\n"
+            "  body=b[at+8:at+8+n]\n"
+            "  assert zlib.crc32(kind+body)==struct.unpack('>I',b[at+8+n:at+12+n])[0]\n"
+            "  at+=12+n\n"
+            "  if kind==b'IHDR': w,h,depth,color,_,_,lace=struct.unpack('>IIBBBBB',body)\n"
+            "  if kind==b'IDAT': data+=body\n"
+            "assert (depth,lace)==(8,0)\n"
+            "c={2:3,6:4}[color]\n"
+            "assert c==" +
+            std::to_string(channels) +
+            ",c\n"
+            "raw=zlib.decompress(data)\n"
+            "last=[0]*(w*c)\n"
+            "for y in range(h):\n"
+            "  f=raw[y*(w*c+1)]\n"
+            "  line=list(raw[y*(w*c+1)+1:(y+1)*(w*c+1)])\n"
+            "  assert f in (0,1,2),f\n"
+            "  for i in range(w*c):\n"
+            "    line[i]=(line[i]+(0,line[i-c] if i>=c else 0,last[i])[f])%256\n"
+            "  last=line\n"
+            "  print(*line)\n\"");
+    EXPECT_EQ(output.status, 0) << output.text;
+    std::istringstream text(output.text);
+    std::vector<int> samples;
+    for (int value = 0; text >> value;) samples.push_back(value);
+    return samples;
+}
+
+std::string png_of(const Image& image, double stops) {
+    Result<std::string> bytes = encode_png(image, stops);
+    EXPECT_TRUE(bytes.ok()) << bytes.error().message;
+    return bytes ? *bytes : "";
+}
+
+std::string exr_of(const Image& image, Precision precision) {
+    Result<std::string> bytes = encode_exr(image, precision);
+    EXPECT_TRUE(bytes.ok()) << bytes.error().message;
+    return bytes ? *bytes : "";
+}
+
+// What PNG should hold for a radiance, from the definitions.
+int expected_code(float radiance, double stops) {
+    const double x = double{tone_curve(radiance * static_cast<float>(std::exp2(stops)))};
+    const double srgb = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+    return static_cast<int>(std::floor(255 * srgb + 0.5));
+}
+
+// --- the tone curve
+
+TEST(Tone, RisesFromBlackToWhiteAndIsStraightBelowTheKnee) {
+    EXPECT_EQ(tone_curve(0), 0);
+    EXPECT_EQ(tone_curve(0.18f), 0.18f);
+    EXPECT_EQ(tone_curve(0.5f), 0.5f);
+    EXPECT_FLOAT_EQ(tone_curve(8), 1);
+    EXPECT_FLOAT_EQ(tone_curve(std::numeric_limits<float>::infinity()), 1);
+    EXPECT_EQ(tone_curve(-1), 0);
+    float last = -1;
+    for (float x = 0; x < 8; x += 1e-3f) {
+        EXPECT_GT(tone_curve(x), last) << x;
+        EXPECT_LE(tone_curve(x), x + 1e-6f) << x;
+        last = tone_curve(x);
+    }
+}
+
+TEST(Tone, LeavesTheKneeWithoutAKink) {
+    const double h = 1e-3;
+    const double left = (tone_curve(0.5f) - tone_curve(static_cast<float>(0.5 - h))) / h;
+    const double right = (tone_curve(static_cast<float>(0.5 + h)) - tone_curve(0.5f)) / h;
+    EXPECT_NEAR(left, right, 5e-3);
+}
+
+TEST(Tone, MidGreyIsNearTheMiddleOfTheDisplay) {
+    EXPECT_NEAR(DisplayTable().code(0.18f), 118, 1);
+}
+
+TEST(Tone, TheTableIsTheFormulaForEveryCodeAndBetween) {
+    const DisplayTable table;
+    int distinct = 0, last = -1;
+    for (double exponent = -16; exponent < 4; exponent += 1e-4) {
+        const auto x = static_cast<float>(std::exp2(exponent));
+        ASSERT_EQ(table.code(x), expected_code(x, 0)) << x;
+        // Across the steps, float by float.
+        if (table.code(x) != last) {
+            ++distinct;
+            last = table.code(x);
+            float y = x * 0.99995f;
+            for (int i = 0; i < 2000; ++i, y = std::nextafter(y, 100.0f))
+                ASSERT_EQ(table.code(y), expected_code(y, 0)) << y;
+        }
+    }
+    EXPECT_EQ(distinct, 256);
+}
+
+TEST(Tone, TheTableTakesWhatIsNoRadiance) {
+    const DisplayTable table;
+    const float infinity = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(table.code(std::nanf("")), 0);
+    EXPECT_EQ(table.code(-std::nanf("")), 0);
+    EXPECT_EQ(table.code(-1), 0);
+    EXPECT_EQ(table.code(-infinity), 0);
+    EXPECT_EQ(table.code(-0.0f), 0);
+    EXPECT_EQ(table.code(std::numeric_limits<float>::denorm_min()), 0);
+    EXPECT_EQ(table.code(infinity), 255);
+    EXPECT_EQ(table.code(std::numeric_limits<float>::max()), 255);
+}
+
+// --- the light meter
+
+TEST(Exposure, AWhiteWallInTheSunIsALittleBelowDisplayWhite) {
+    // White sun, white sky: the wall's radiance is (irradiance + pi * sky) / pi.
+    Sun sun;
+    sun.color = glm::dvec3(1);
+    sun.intensity = 20;
+    Sky sky;
+    sky.zenith = sky.horizon = glm::dvec3(1);
+    sky.intensity = 3;
+    const double wall = (20 + M_PI * 3) / M_PI;
+    const double stops = auto_exposure(sun, sky);
+    EXPECT_NEAR(wall * std::exp2(stops), double{metered_level()}, 1e-6);
+    const int code = expected_code(static_cast<float>(wall), stops);
+    EXPECT_GE(code, 225);
+    EXPECT_LE(code, 250);
+}
+
+TEST(Exposure, MetersTheMeanOfTheSkysFormula) {
+    // Against the integral of the sky's radiance over the hemisphere, cosine-weighted.
+    Sun sun;
+    sun.intensity = 0;
+    Sky sky;
+    double mean = 0;
+    constexpr int kSteps = 100'000;
+    for (int i = 0; i < kSteps; ++i) {
+        const double m = (i + 0.5) / kSteps;
+        const glm::dvec3 color = sky.horizon + (sky.zenith - sky.horizon) * std::sqrt(m);
+        mean += 2 * m * (0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z) / kSteps;
+    }
+    EXPECT_NEAR(mean * sky.intensity * std::exp2(auto_exposure(sun, sky)), double{metered_level()},
+                1e-6);
+}
+
+TEST(Exposure, TwiceTheLightIsOneStopLess) {
+    Sun sun;
+    Sky sky;
+    const double stops = auto_exposure(sun, sky);
+    sun.intensity *= 2;
+    sky.intensity *= 2;
+    EXPECT_NEAR(auto_exposure(sun, sky), stops - 1, 1e-12);
+}
+
+TEST(Exposure, IsFiniteWithoutLightAndWithTheFaintestAndTheBrightest) {
+    Sun sun;
+    Sky sky;
+    sky.none = true;
+    sun.intensity = 0;
+    EXPECT_EQ(auto_exposure(sun, sky), 0);
+    sun.intensity = 1e-300;
+    EXPECT_EQ(auto_exposure(sun, sky), 64);
+    sun.intensity = 1e6;
+    EXPECT_TRUE(std::isfinite(auto_exposure(sun, sky)));
+}
+
+// --- PNG
+
+TEST(Png, HoldsTheCodeOfEveryRadiance) {
+    const auto radiance = [](int x, int y) {
+        return static_cast<float>(std::exp2(-12 + 16.0 * (x + 64 * y) / (64 * 48)));
+    };
+    const Image image = image_of(64, 48, true, [&](int x, int y) {
+        const float r = radiance(x, y);
+        return std::array<float, 4>{r, r / 2, r / 3, 1};
+    });
+    const std::vector<int> samples = png_samples(png_of(image, 0.5), 3);
+    ASSERT_EQ(samples.size(), std::size_t{64 * 48 * 3});
+    for (std::size_t i = 0; i < samples.size(); i += 3)
+        for (std::size_t c = 0; c < 3; ++c)
+            ASSERT_EQ(samples[i + c], expected_code(image.pixels[i / 3 * 4 + c], 0.5));
+}
+
+TEST(Png, AOneStopBrighterExposureIsTwiceTheRadiance) {
+    const Image one = plain({0.1f, 0.2f, 0.05f, 1}, true), two = plain({0.2f, 0.4f, 0.1f, 1}, true);
+    EXPECT_EQ(png_of(one, 1), png_of(two, 0));
+}
+
+TEST(Png, TransparentPixelsAreStraightInLinearLight) {
+    // Half covered by radiance 0.4: colour 0.4, alpha 128.
+    const std::vector<int> half = png_samples(png_of(plain({0.2f, 0.1f, 0, 0.5f}, false), 0), 4);
+    ASSERT_EQ(half.size(), 16u);
+    EXPECT_EQ(half[0], expected_code(0.4f, 0));
+    EXPECT_EQ(half[1], expected_code(0.2f, 0));
+    EXPECT_EQ(half[2], 0);
+    EXPECT_EQ(half[3], 128);
+    const std::vector<int> full = png_samples(png_of(plain({0.2f, 0.1f, 0, 1}, false), 0), 4);
+    EXPECT_EQ(full[0], expected_code(0.2f, 0));
+    EXPECT_EQ(full[3], 255);
+}
+
+TEST(Png, WhereNothingIsItIsClearBlack) {
+    for (const std::array<float, 4> nothing :
+         {std::array<float, 4>{0, 0, 0, 0}, {1e-9f, 1e-9f, 1e-9f, 1e-9f}, {1, 1, 1, 0}})
+        for (const int sample : png_samples(png_of(plain(nothing, false), 0), 4))
+            EXPECT_EQ(sample, 0);
+}
+
+TEST(Png, TakesWhatIsNoNumber) {
+    const float nan = std::nanf(""), infinity = std::numeric_limits<float>::infinity();
+    const std::vector<int> opaque = png_samples(png_of(plain({nan, -1, infinity, 1}, true), 0), 3);
+    EXPECT_EQ((std::vector<int>{opaque.begin(), opaque.begin() + 3}),
+              (std::vector<int>{0, 0, 255}));
+    const std::vector<int> clear = png_samples(png_of(plain({nan, 1, 1, nan}, false), 0), 4);
+    EXPECT_EQ((std::vector<int>{clear.begin(), clear.begin() + 4}), (std::vector<int>{0, 0, 0, 0}));
+    const std::vector<int> over = png_samples(png_of(plain({1, 1, 1, 7}, false), 64), 4);
+    EXPECT_EQ(over[3], 255);
+}
+
+TEST(Png, SaysItsColourSpaceAndItsMaker) {
+    const File file("awan_info.png", png_of(plain({1, 1, 1, 1}, true), 0));
+    const Output info = run("oiiotool --info -v " + file.path());
+    EXPECT_EQ(info.status, 0);
+    EXPECT_NE(info.text.find("3 channel, uint8 png"), std::string::npos) << info.text;
+    EXPECT_NE(info.text.find("oiio:ColorSpace: \"sRGB\""), std::string::npos) << info.text;
+    EXPECT_NE(info.text.find("Software: \"Awan " AWAN_VERSION), std::string::npos) << info.text;
+}
+
+TEST(Png, OnePixelAndOneRowAndOneColumnAreImages) {
+    for (const auto& [width, height] : {std::pair{1, 1}, {317, 1}, {1, 317}}) {
+        const Image image = image_of(width, height, true, [](int x, int y) {
+            return std::array<float, 4>{static_cast<float>(x) / 317, static_cast<float>(y) / 317,
+                                        0.5f, 1};
+        });
+        const std::vector<int> samples = png_samples(png_of(image, 0), 3);
+        ASSERT_EQ(samples.size(), static_cast<std::size_t>(width * height * 3));
+        EXPECT_EQ(samples.back(), expected_code(0.5f, 0));
+    }
+}
+
+// --- EXR
+
+// Every pixel as oiiotool prints it.
+std::string exr_dump(const std::string& path) {
+    const Output output = run("oiiotool --dumpdata " + path);
+    EXPECT_EQ(output.status, 0) << output.text;
+    return output.text;
+}
+
+// Values of one pixel of a dump.
+std::vector<float> exr_pixel(const std::string& dump, int x, int y) {
+    const std::string pixel = "Pixel (" + std::to_string(x) + ", " + std::to_string(y) + "): ";
+    const std::size_t at = dump.find(pixel);
+    EXPECT_NE(at, std::string::npos) << dump;
+    if (at == std::string::npos) return {};
+    std::istringstream text(dump.substr(at + pixel.size(), 200));
+    std::vector<float> values;
+    for (float value = 0; text >> value;) values.push_back(value);
+    return values;
+}
+
+TEST(Exr, HoldsLinearPremultipliedRadianceInChannelsRGBA) {
+    // 100 rows: not a multiple of the rows that are converted at a time.
+    const Image image = image_of(10, 100, false, [](int x, int y) {
+        return std::array<float, 4>{static_cast<float>(x), static_cast<float>(y), 0.125f, 0.25f};
+    });
+    for (const Precision precision : {Precision::kHalf, Precision::kFloat}) {
+        const File file("awan_test.exr", exr_of(image, precision));
+        const Output info = run("oiiotool --info -v " + file.path());
+        EXPECT_EQ(info.status, 0);
+        for (const char* const words :
+             {precision == Precision::kHalf ? "10 x  100, 4 channel, half openexr"
+                                            : "10 x  100, 4 channel, float openexr",
+              "channel list: R, G, B, A", "compression: \"zip\"", "Software: \"Awan " AWAN_VERSION})
+            EXPECT_NE(info.text.find(words), std::string::npos) << words << "\n" << info.text;
+        const std::string dump = exr_dump(file.path());
+        for (const auto& [x, y] : {std::pair{0, 0}, {9, 63}, {3, 64}, {9, 99}})
+            EXPECT_EQ(
+                exr_pixel(dump, x, y),
+                (std::vector<float>{static_cast<float>(x), static_cast<float>(y), 0.125f, 0.25f}));
+    }
+}
+
+TEST(Exr, FloatKeepsWhatHalfCannot) {
+    const Image image = plain({0.1f, 1e6f, 1e-30f, 1}, true);
+    const File whole("awan_float.exr", exr_of(image, Precision::kFloat));
+    const std::vector<float> exact = exr_pixel(exr_dump(whole.path()), 0, 0);
+    ASSERT_EQ(exact.size(), 4u);
+    EXPECT_FLOAT_EQ(exact[0], 0.1f);
+    EXPECT_FLOAT_EQ(exact[1], 1e6f);
+    const File half("awan_half.exr", exr_of(image, Precision::kHalf));
+    const std::vector<float> rounded = exr_pixel(exr_dump(half.path()), 0, 0);
+    ASSERT_EQ(rounded.size(), 4u);
+    EXPECT_NEAR(rounded[0], 0.1, 5e-5);
+    EXPECT_EQ(rounded[1], 65504);  // the largest half, not infinity
+    EXPECT_EQ(rounded[2], 0);
+}
+
+TEST(Exr, HoldsNoNaNAndNoInfinity) {
+    const float infinity = std::numeric_limits<float>::infinity();
+    const Image image = plain({std::nanf(""), infinity, -infinity, 1}, true);
+    for (const Precision precision : {Precision::kHalf, Precision::kFloat}) {
+        const File file("awan_finite.exr", exr_of(image, precision));
+        const Output stats = run("oiiotool --stats " + file.path());
+        EXPECT_NE(stats.text.find("Stats NanCount: 0 0 0 0"), std::string::npos) << stats.text;
+        EXPECT_NE(stats.text.find("Stats InfCount: 0 0 0 0"), std::string::npos) << stats.text;
+    }
+}
+
+// --- both
+
+TEST(ImageFile, EqualImagesHaveEqualBytesAtAnyTime) {
+    const Image image = image_of(40, 30, false, [](int x, int y) {
+        const auto v = static_cast<float>(x * y) / 1200;
+        return std::array<float, 4>{v, v / 2, v / 3, v};
+    });
+    const std::string png = png_of(image, 1);
+    const std::string exr = exr_of(image, Precision::kHalf);
+    run("sleep 1.1");  // files with the time of day in them would differ
+    EXPECT_EQ(png_of(image, 1), png);
+    EXPECT_EQ(exr_of(image, Precision::kHalf), exr);
+}
+
+TEST(ImageFile, RejectsImagesWithoutTheirPixels) {
+    Image image = plain({1, 1, 1, 1}, true);
+    image.height = 3;
+    for (const Image& bad : {Image{}, image}) {
+        EXPECT_FALSE(encode_png(bad, 0).ok());
+        EXPECT_FALSE(encode_exr(bad, Precision::kHalf).ok());
+        EXPECT_EQ(encode_png(bad, 0).error().code, ErrorCode::kInternal);
+    }
+}
+
+#ifndef AWAN_SANITIZED
+TEST(ImageFile, AnAnswerOfTheUsualSizeIsEncodedInMilliseconds) {
+    const Image image = image_of(800, 600, true, [](int x, int y) {
+        const double cloud = std::exp(-(std::pow(x - 400, 2) + std::pow(y - 300, 2)) / 2e4);
+        const auto v = static_cast<float>(0.2 + 0.001 * y + 8 * cloud);
+        return std::array<float, 4>{v, v * 1.1f, v * 1.3f, 1};
+    });
+    double best = 1e9;
+    for (int i = 0; i < 5; ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        const std::string bytes = png_of(image, -1);
+        const std::chrono::duration<double, std::milli> ms =
+            std::chrono::steady_clock::now() - start;
+        best = std::min(best, ms.count());
+    }
+    EXPECT_LT(best, 60);  // 12 on a quiet core
+}
+#endif
+
+}  // namespace
+}  // namespace awan
