@@ -1,0 +1,153 @@
+#!/usr/bin/env bash
+# The command line: exit codes, messages, files that appear whole or not at all. $1: the binary.
+set -uo pipefail
+awan=$1
+work=$(mktemp -d)
+trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+fail() { echo "FAILED: $*" >&2; failures=$((failures + 1)); }
+same() { [ "$2" = "$3" ] || fail "$1: expected '$2', got '$3'"; }
+contains() { case $3 in *"$2"*) ;; *) fail "$1: '$2' is not in '$3'" ;; esac; }
+
+# run EXIT ARGUMENTS...: runs awan and expects that exit code; output in $work/out, messages in err.
+run() {
+    local expected=$1
+    shift
+    "$awan" "$@" >out 2>err
+    same "exit code of awan $*" "$expected" "$?"
+}
+
+cat >scene.json <<'END'
+{"cubes":[{"particles":60,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],"image":{"width":64,"height":48}}
+END
+printf '60\n1\n60, 2, 1, 2, 0, 0, 0, 0.5\n' >layout.awn
+printf '{"cubes":[{"particles":60,"size":[2,-1,2],"center":[0,0,0],"radius":0.5}]}' >impossible.json
+printf 'nonsense' >broken.json
+
+# --- usage
+run 0 --version
+contains "version" "awan " "$(cat out)"
+run 0 --help
+run 0 render --help
+contains "environment variables are named" "AWAN_WIDTH" "$(cat out)"
+run 2
+run 2 paint scene.json
+run 2 render scene.json
+run 2 render -o a.png
+run 2 render scene.json -o a.png --colour red
+run 2 render scene.json -o a.png --width 0
+contains "bad value" "width" "$(cat err)"
+run 2 render scene.json -o a.png --width many
+contains "bad value" "width" "$(cat err)"
+run 2 render scene.json -o a.png --format jpeg
+contains "bad value" "format" "$(cat err)"
+run 2 render scene.json -o a.jpeg
+contains "unknown extension" "a.jpeg" "$(cat err)"
+run 2 render scene.json -o a.png --format exr
+run 2 particles scene.json -o a.txt
+run 2 convert scene.json a.png
+run 2 serve --listen nowhere:port
+contains "bad address" "nowhere:port" "$(cat err)"
+run 2 serve --queue -1
+AWAN_WIDTH=wide run 2 render scene.json -o a.png
+contains "bad variable" "wide" "$(cat err)"
+same "nothing was written" "" "$(ls -- *.png *.exr *.txt 2>/dev/null)"
+
+# --- scenes that cannot be
+run 3 plan impossible.json
+contains "place" "awan: impossible.json: /cubes/0/size/1: must be" "$(cat err)"
+run 3 plan broken.json
+contains "not JSON" "awan: broken.json: not JSON at byte" "$(cat err)"
+printf '1\n2\n' >short.awn
+run 3 plan short.awn
+contains "line" "awan: short.awn: line " "$(cat err)"
+run 3 render impossible.json -o a.png
+run 3 particles impossible.json
+run 3 convert impossible.json a.awn
+same "one line of message" 1 "$(wc -l <err)"
+
+# --- files that cannot be read or written
+run 5 plan nowhere.json
+contains "missing" "nowhere.json: No such file" "$(cat err)"
+run 5 plan .
+run 5 particles scene.json -o nowhere/a.csv
+run 5 particles scene.json -o /dev/full --format csv
+contains "full" "No space left" "$(cat err)"
+run 0 particles scene.json -o /dev/null --format csv
+same "a device stays one" "character special file" "$(stat -c %F /dev/null)"
+"$awan" particles scene.json -o - --format csv 2>err | head -c 1 >/dev/null
+run 0 particles scene.json -o -
+if [ "$(id -u)" -ne 0 ]; then
+    mkdir sealed && chmod a-w sealed
+    run 5 particles scene.json -o sealed/a.csv
+fi
+(ulimit -f 1; trap '' XFSZ; "$awan" particles scene.json -o big.json 2>err) # a disk that is full half-way
+same "exit code on a full disk" 5 "$?"
+same "no trace of the half" "" "$(ls -A | grep -e big -e tmp)"
+
+# --- results
+run 0 plan scene.json
+same "plan" "harris" "$(python3 -c 'import json; print(json.load(open("out"))["rung"])')"
+run 0 particles scene.json
+mv out a.json
+same "count" 60 "$(python3 -c 'import json; print(len(json.load(open("a.json"))["particles"]))')"
+run 0 particles scene.json -o b.json
+cmp -s a.json b.json || fail "standard output and a file differ"
+run 0 particles scene.json -o b.json --threads 3
+cmp -s a.json b.json || fail "particles depend on the number of threads"
+run 0 particles scene.json -o a.csv
+same "lines of CSV" 61 "$(wc -l <a.csv)"
+run 0 particles scene.json -o a.ply
+same "PLY" "ply" "$(head -n 1 a.ply)"
+run 0 particles a.ply -o again.csv
+cmp -s a.csv again.csv || fail "PLY does not bring the same particles back"
+run 0 particles a.csv -o again.ply
+cmp -s a.ply again.ply || fail "CSV does not bring the same particles back"
+run 0 convert layout.awn b.json
+run 0 convert b.json b.awn
+run 0 convert b.awn c.json
+cmp -s b.json c.json || fail "a layout does not come back"
+run 0 convert a.csv ready.json
+run 0 plan ready.json
+run 3 convert a.csv ready.awn
+for file in scene.json layout.awn a.ply a.csv; do
+    "$awan" particles - -o - --format csv <"$file" >out || fail "$file from standard input"
+    [ "$file" = layout.awn ] || cmp -s a.csv out || fail "$file from standard input is another"
+done
+
+# --- a file is replaced whole, keeps its permissions, and a link stays a link
+echo old >target.csv
+chmod 640 target.csv
+ln -s target.csv link.csv
+run 0 particles scene.json -o link.csv
+cmp -s a.csv target.csv || fail "the file behind the link was not written"
+same "permissions" 640 "$(stat -c %a target.csv)"
+[ -L link.csv ] || fail "the link was replaced"
+run 3 particles impossible.json -o target.csv
+cmp -s a.csv target.csv || fail "an error touched the file"
+mkfifo pipe
+"$awan" particles scene.json -o pipe --format csv & cat pipe >out; wait $!
+cmp -s a.csv out || fail "a pipe"
+same "no temporary files" "" "$(ls -A | grep tmp)"
+
+# --- images
+run 0 render scene.json -o a.png
+same "silence" "" "$(cat out err)"
+same "PNG" "$(printf '\211PNG')" "$(head -c 4 a.png)"
+run 0 render scene.json -o b.PNG --threads 1 --software
+cmp -s a.png b.PNG || fail "a picture depends on the number of threads"
+run 0 render scene.json -o a.exr --width 20 --height 10
+contains "size" "20 x   10" "$(oiiotool --info a.exr)"
+AWAN_WIDTH=30 AWAN_HEIGHT=12 run 0 render scene.json -o b.exr
+contains "size of the environment" "30 x   12" "$(oiiotool --info b.exr)"
+run 0 render scene.json -o - --format exr
+same "EXR on standard output" 762f3101 "$(head -c 4 out | od -An -tx1 | tr -d ' ')"
+run 0 render scene.json -o c.png --background transparent
+contains "alpha" "4 channel" "$(oiiotool --info c.png)"
+run 0 render layout.awn -o d.png --width 64 --height 48
+__EGL_VENDOR_LIBRARY_FILENAMES=/nowhere run 4 render scene.json -o e.png
+same "no file without a renderer" "" "$(ls e.png 2>/dev/null)"
+
+[ "$failures" -eq 0 ] && echo "all well" || exit 1

@@ -1,0 +1,152 @@
+#!/usr/bin/env bash
+# The built program as a stranger uses it: real curl against a real server. $1: the binary.
+set -uo pipefail
+awan=$1
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+work=$(mktemp -d)
+server=
+failures=0
+trap '[ -n "$server" ] && kill -KILL "$server" 2>/dev/null; rm -rf "$work"' EXIT
+
+fail() { echo "FAILED: $*" >&2; failures=$((failures + 1)); }
+same() { [ "$2" = "$3" ] || fail "$1: expected '$2', got '$3'"; }
+contains() { case $3 in *"$2"*) ;; *) fail "$1: '$2' is not in '$3'" ;; esac; }
+
+# start ARGUMENTS...: serves on a free port; sets $server and $url.
+start() {
+    "$awan" serve --listen 127.0.0.1:0 "$@" 2>"$work/log" &
+    server=$!
+    url=
+    for _ in $(seq 200); do
+        url=$(sed -n 's/^awan: listening on \(http:.*\)\/$/\1/p' "$work/log")
+        [ -n "$url" ] && break
+        sleep 0.05
+    done
+    [ -n "$url" ] || { cat "$work/log" >&2; fail "the server did not start"; exit 1; }
+    for _ in $(seq 400); do
+        [ "$(code "$url/readyz")" = 200 ] && return
+        sleep 0.05
+    done
+    cat "$work/log" >&2
+    fail "the server did not become ready"
+    exit 1
+}
+stop() {  # expects exit code $1 after signal $2
+    kill "-$2" "$server"
+    wait "$server"
+    same "exit code after SIG$2" "$1" "$?"
+    server=
+}
+code() { curl -s -o /dev/null -w '%{http_code}' --max-time 20 "$@"; }
+json='Content-Type: application/json'
+scene='{"cubes":[{"particles":60,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],"image":{"width":64,"height":48}}'
+
+start --software
+
+# --- reading
+same "health" "ok" "$(curl -s "$url/healthz")"
+same "health by HEAD" 200 "$(code -I "$url/healthz")"
+contains "version" '"name":"awan"' "$(curl -s "$url/version")"
+contains "metrics" 'awan_ready 1' "$(curl -s "$url/metrics")"
+contains "page" '<html' "$(curl -s "$url/")"
+same "unknown path" 404 "$(code "$url/v1/jobs")"
+same "wrong method" 405 "$(code -X DELETE "$url/healthz")"
+contains "Allow" 'Allow: POST, OPTIONS' "$(curl -si "$url/v1/render")"
+same "path as it is" 404 "$(code --path-as-is "$url/../../etc/passwd")"
+contains "echoed id" 'X-Request-Id: curl-7' "$(curl -si -H 'X-Request-Id: curl-7' "$url/healthz")"
+
+# The contract: valid references, and every path in it is there.
+curl -s "$url/openapi.json" >"$work/openapi.json"
+python3 - "$work/openapi.json" "$url" <<'PYTHON' || fail "the contract"
+import json, sys, urllib.request, urllib.error
+document = json.load(open(sys.argv[1]))
+def refs(node):
+    if isinstance(node, dict):
+        if "$ref" in node: yield node["$ref"]
+        for value in node.values(): yield from refs(value)
+    elif isinstance(node, list):
+        for value in node: yield from refs(value)
+for ref in refs(document):
+    node = document
+    for part in ref.removeprefix("#/").split("/"): node = node[part]
+for path, methods in document["paths"].items():
+    for method in set(methods) - {"parameters"}:
+        request = urllib.request.Request(sys.argv[2] + path.replace("{name}", "cumulus"), method=method.upper(),
+            data=b"{}" if method == "post" else None, headers={"Content-Type": "application/json"})
+        try: status = urllib.request.urlopen(request).status
+        except urllib.error.HTTPError as error: status = error.code
+        assert status == (422 if method == "post" else 200), (path, method, status)
+        assert str(status) in methods[method]["responses"], (path, method, status)
+PYTHON
+
+# --- posting
+for preset in $(curl -s "$url/v1/presets" | grep -o '/v1/presets/[a-z0-9-]*'); do
+    curl -s "$url$preset" >"$work/preset.json"
+    same "plan of $preset" 200 "$(code -H "$json" --data-binary @"$work/preset.json" "$url/v1/plan")"
+done
+curl -s -D "$work/head" -H "$json" -d "$scene" "$url/v1/render" -o "$work/a.png"
+same "PNG" "$(printf '\211PNG')" "$(head -c 4 "$work/a.png")"
+contains "timing" 'Server-Timing: queue;dur=' "$(cat "$work/head")"
+tag=$(tr -d '\r' <"$work/head" | sed -n 's/^ETag: //p')
+same "not modified" 304 "$(code -H "$json" -H "If-None-Match: $tag" -d "$scene" "$url/v1/render")"
+curl -s -H "$json" -H 'Accept: image/x-exr' -d "$scene" "$url/v1/render" -o "$work/a.exr"
+same "EXR" "762f3101" "$(head -c 4 "$work/a.exr" | od -An -tx1 | tr -d ' ')"
+contains "EXR channels" "R, G, B, A" "$(oiiotool --info -v "$work/a.exr" 2>&1)"
+curl -s -H "$json" -d "$scene" "$url/v1/particles" | python3 -c '
+import json, sys
+answer = json.load(sys.stdin)
+assert answer["count"] == 60 == len(answer["particles"])' || fail "particles as JSON"
+same "lines of CSV" 61 "$(curl -s -H "$json" -H 'Accept: text/csv' -d "$scene" "$url/v1/particles" | wc -l)"
+curl -s -H "$json" -H 'Accept: text/x-awn' -d "$scene" "$url/v1/particles" >"$work/a.awn"
+same "a layout" 200 "$(code -H 'Content-Type: text/x-awn' --data-binary @"$work/a.awn" "$url/v1/plan")"
+same "a form" 415 "$(code -d "$scene" "$url/v1/plan")"
+same "no JSON" 400 "$(code -H "$json" -d '{' "$url/v1/plan")"
+contains "pointer" '"pointer":"/cubes/0/size/1"' "$(curl -s -H "$json" \
+    -d '{"cubes":[{"particles":1,"size":[1,0,1],"center":[0,0,0],"radius":1}]}' "$url/v1/plan")"
+same "no acceptable type" 406 "$(code -H "$json" -H 'Accept: text/html' -d "$scene" "$url/v1/render")"
+same "chunked" 411 "$(code -H "$json" -H 'Transfer-Encoding: chunked' -d "$scene" "$url/v1/plan")"
+same "compressed" 415 "$(code -H "$json" -H 'Content-Encoding: gzip' -d "$scene" "$url/v1/plan")"
+same "foreign Host" 421 "$(code -H 'Host: evil.example' "$url/healthz")"
+same "foreign Origin" 403 "$(code -H "$json" -H 'Origin: http://evil.example' -d "$scene" "$url/v1/plan")"
+same "own Origin" 200 "$(code -H "$json" -H "Origin: $url" -d "$scene" "$url/v1/plan")"
+
+# A million bytes make curl ask first (Expect: 100-continue); the answer must come all the same.
+head -c 2000000 /dev/zero | tr '\0' ' ' >"$work/long.json"
+echo "$scene" >>"$work/long.json"
+same "long body" 200 "$(code -H "$json" --data-binary @"$work/long.json" "$url/v1/plan")"
+same "long body nobody wants" 404 "$(code -H "$json" --data-binary @"$work/long.json" "$url/nowhere")"
+head -c 110000000 /dev/zero >"$work/huge"
+same "body over the limit" 413 "$(code -H "$json" --data-binary @"$work/huge" "$url/v1/plan")"
+same "and without asking" 413 "$(code -H "$json" -H 'Expect:' --data-binary @"$work/huge" "$url/v1/plan")"
+rm "$work/huge"
+
+# Two requests on one connection.
+contains "keep-alive" 'Re-using existing connection' \
+    "$(curl -sv -o /dev/null -o /dev/null "$url/healthz" "$url/version" 2>&1)"
+
+# --- a second server on the same port
+"$awan" serve --listen "${url#http://}" 2>"$work/second"
+same "port taken" 5 "$?"
+contains "port taken" "taken" "$(cat "$work/second")"
+
+# --- stopping with work in flight
+curl -s -o "$work/last" -w '%{http_code}' -H "$json" \
+    -d '{"cubes":[{"particles":200000,"size":[9,9,9],"center":[0,0,0],"radius":0.5}]}' \
+    -H 'Accept: text/csv' --limit-rate 20M "$url/v1/particles" >"$work/status" &
+client=$!
+for _ in $(seq 100); do [ -s "$work/last" ] && break; sleep 0.02; done
+stop 0 TERM
+wait "$client"
+same "what was in flight" "200 200001" "$(cat "$work/status") $(wc -l <"$work/last")"
+
+# --- settings: flags, then the environment, then the file
+printf 'queue = 3\nallow-host = ["file.example", "other.example"]\n' >"$work/awan.conf"
+start --software --config "$work/awan.conf"
+same "host of the file" 200 "$(code -H 'Host: other.example' "$url/healthz")"
+stop 0 INT
+AWAN_ALLOW_HOST=env.example start --software --config "$work/awan.conf"
+same "host of the environment" 200 "$(code -H 'Host: env.example:80' "$url/healthz")"
+same "host of the file, overruled" 421 "$(code -H 'Host: file.example' "$url/healthz")"
+stop 0 TERM
+
+[ "$failures" -eq 0 ] && echo "all well" || exit 1
