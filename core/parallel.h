@@ -8,8 +8,8 @@
 
 namespace awan {
 
-// Calls work(i) once for every i in 0..count-1, on at most `threads` threads (the caller's is one of them).
-// work must not throw and items must not touch each other's data.
+// Calls work(i) once for every i in 0..count-1, on at most `threads` threads (the caller's is one
+// of them). work must not throw and items must not touch each other's data.
 template <typename Work>
 void parallel_for(int threads, std::size_t count, const Work& work) {
     std::atomic<std::size_t> next{0};

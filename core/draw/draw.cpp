@@ -39,13 +39,13 @@ void set_uniforms(const Scene& scene, const View& view, const Plan& plan) {
 }
 
 void copy_region(const std::vector<float>& from, const gl::TileRegion& region, Image& image) {
-    const int left = region.x * kTilePixels, top = region.y * kTilePixels;
-    const int width = std::min(region.width * kTilePixels, image.width - left);
-    const int height = std::min(region.height * kTilePixels, image.height - top);
+    const int left = region.x * kTileWidth, top = region.y * kTileHeight;
+    const int width = std::min(region.width * kTileWidth, image.width - left);
+    const int height = std::min(region.height * kTileHeight, image.height - top);
     for (int y = 0; y < height; ++y) {
         const float* source = from.data() + static_cast<std::size_t>(y) *
                                                 static_cast<std::size_t>(region.width) *
-                                                kTilePixels * 4;
+                                                kTileWidth * 4;
         float* target = image.pixels.data() +
                         (static_cast<std::size_t>(top + y) * static_cast<std::size_t>(image.width) +
                          static_cast<std::size_t>(left)) *
@@ -70,13 +70,13 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
     (plan.on(Effect::kInterior) ? programs.splat_interior : programs.splat).use();
     set_uniforms(scene, view, plan);
     const auto status = gl::for_each_region(
-        list.tiles, (image.width + kTilePixels - 1) / kTilePixels,
-        (image.height + kTilePixels - 1) / kTilePixels, 1, kMaxEntries, kMaxTiles, deadline,
+        list.tiles, (image.width + kTileWidth - 1) / kTileWidth,
+        (image.height + kTileHeight - 1) / kTileHeight, 1, kMaxEntries, kMaxTiles, deadline,
         [&](const gl::TileRegion& region) -> Status {
             const gl::Buffer begin{std::span<const std::uint32_t>(region.begin)};
             const gl::Buffer items{std::span<const std::uint32_t>(region.items)};
             pixels.resize(static_cast<std::size_t>(region.width) *
-                          static_cast<std::size_t>(region.height) * kTilePixels * kTilePixels * 4);
+                          static_cast<std::size_t>(region.height) * kTileWidth * kTileHeight * 4);
             const gl::Buffer picture(pixels.size() * sizeof(float));
             splats.bind(0);
             begin.bind(1);

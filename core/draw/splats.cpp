@@ -47,21 +47,52 @@ struct Seen {
     gl::TileBox tiles;
 };
 
-// Pixels whose centres see slopes low..high, as tiles. `up`: rows count downward.
-void tiles_of(Interval slopes, double tangent, int pixels, bool up, std::int32_t& first,
-              std::int32_t& last) {
-    if (slopes.low > slopes.high) return;
+// Pixels whose centres see slopes low..high, as tiles: first and last, and the ellipse's centre and
+// semi-axis.
+struct Along {
+    std::int32_t first = 0, last = -1;
+    double center = 0, half = 0;
+};
+
+// `up`: rows count downward.
+Along tiles_along(Interval slopes, double tangent, int pixels, int tile, bool up) {
+    Along along;
+    if (slopes.low > slopes.high) return along;
     const double sign = up ? -1 : 1;
     const auto pixel = [&](double slope) {
-        return std::clamp((sign * slope / tangent + 1) / 2 * pixels - 0.5, -1.0,
-                          static_cast<double>(pixels));
+        return std::clamp((sign * slope / tangent + 1) / 2 * pixels - 0.5, -1e7, 1e7);
     };
     const double a = pixel(up ? slopes.high : slopes.low), b = pixel(up ? slopes.low : slopes.high);
-    const int low = std::max(0, static_cast<int>(std::ceil(a))),
-              high = std::min(pixels - 1, static_cast<int>(std::floor(b)));
-    if (low > high) return;
-    first = low / kTilePixels;
-    last = high / kTilePixels;
+    const int low = static_cast<int>(std::ceil(std::max(a, 0.0)));
+    const int high = static_cast<int>(std::floor(std::min(b, pixels - 1.0)));
+    if (low > high) return along;
+    along.first = low / tile;
+    along.last = high / tile;
+    along.center = ((a + b) / 2 + 0.5) / tile;
+    along.half = (b - a) / 2 / tile + 1e-3;
+    return along;
+}
+
+// The tiles of a ball: those of its bounding rectangle, without the corners where that is safe. A
+// ball is seen as an ellipse, longest away from the picture's middle; of all ellipses in a
+// rectangle whose axes differ by a factor e, none leaves the upright one by more than sqrt(2 / (1 +
+// 1 / e^2)), and e = 1 / cos of the angle to its far side.
+gl::TileBox tiles_of(const Seen& seen, const View& view, const ImageSettings& image) {
+    const Along x = tiles_along(disc_slopes(seen.q.x, seen.q.z, seen.reach),
+                                view.tan_half_fov * view.aspect, image.width, kTileWidth, false);
+    const Along y = tiles_along(disc_slopes(seen.q.y, seen.q.z, seen.reach), view.tan_half_fov,
+                                image.height, kTileHeight, true);
+    gl::TileBox box{x.first, y.first, x.last, y.last};
+    if (seen.distance <= seen.reach) return box;
+    const double far_side = std::acos(std::clamp(seen.q.z / seen.distance, -1.0, 1.0)) +
+                            std::asin(seen.reach / seen.distance);
+    if (far_side > 1.0) return box;  // e < 1.9
+    const double grow = std::sqrt(2 / (1 + std::cos(far_side) * std::cos(far_side)));
+    box.center_x = static_cast<float>(x.center);
+    box.center_y = static_cast<float>(y.center);
+    box.per_x = static_cast<float>(1 / (grow * x.half));
+    box.per_y = static_cast<float>(1 / (grow * y.half));
+    return box;
 }
 
 Seen see(const Scene& scene, const ParticleSet& particles, std::size_t i, const View& view) {
@@ -79,12 +110,7 @@ Seen see(const Scene& scene, const ParticleSet& particles, std::size_t i, const 
     if (!(seen.tau > 0)) return seen;
     seen.reach = seen.s * std::max(kMinReach,
                                    std::sqrt(2 * std::log(std::max(1.0, seen.tau / kFaintDepth))));
-    gl::TileBox tiles;
-    tiles_of(disc_slopes(seen.q.x, seen.q.z, seen.reach), view.tan_half_fov * view.aspect,
-             scene->image.width, false, tiles.first_x, tiles.last_x);
-    tiles_of(disc_slopes(seen.q.y, seen.q.z, seen.reach), view.tan_half_fov, scene->image.height,
-             true, tiles.first_y, tiles.last_y);
-    seen.tiles = tiles;
+    seen.tiles = tiles_of(seen, view, scene->image);
     return seen;
 }
 
@@ -97,24 +123,33 @@ glm::vec4 from_eye(glm::dvec4 f, const View& view, glm::dvec3 q) {
     return glm::vec4(glm::dvec4(turned, f.w - glm::dot(turned, q)));
 }
 
+// Keeps a fraction of a light from passing 1 where most of the particle is; the shader keeps it
+// from passing 0.
+glm::dvec4 bounded(glm::vec4 light, const Seen& seen) {
+    glm::dvec4 f(light);
+    const double rise = 2.5 * seen.s * glm::length(glm::dvec3(f));
+    const double room = std::max(0.0, 1 - f.w);
+    const double keep = seen.widened ? 0 : rise > room ? room / rise : 1;  // a speck has one light
+    return {keep * glm::dvec3(f), f.w};
+}
+
 Splat make_splat(const Seen& seen, glm::dvec3 color, const ParticleLight* lit, const View& view,
                  const Sources& sources) {
     Splat splat{};
-    const double c = seen.q.x * seen.q.x + seen.q.z * seen.q.z;
-    splat.place = glm::vec4(glm::dvec4(seen.q, 0.5 / (seen.s * seen.s)));
-    splat.matter = glm::vec4(glm::dvec4(seen.tau, 1 / seen.s, c, c > 0 ? seen.q.y / c : 0));
+    // Straight above or below the eye a column of pixels has no nearest row; a hair beside it has.
+    const bool vertical = seen.q.x * seen.q.x + seen.q.z * seen.q.z < 1e-10 * seen.q.y * seen.q.y;
+    const glm::dvec3 place =
+        vertical ? seen.q + glm::dvec3(1e-5 * std::abs(seen.q.y), 0, 0) : seen.q;
+    splat.place = glm::vec4(glm::dvec4(place, 0.5 / (seen.s * seen.s)));
     const glm::dvec3 albedo = sources.albedo * color;
-    const glm::dvec3 cap = albedo * (sources.sun + sources.above + sources.below);
-    splat.tint = glm::vec4(glm::dvec4(albedo * sources.sun, std::max({cap.x, cap.y, cap.z})));
+    splat.matter = glm::vec4(glm::dvec4(albedo * sources.sun, seen.tau));
 
     glm::dvec4 direct(0, 0, 0, 1), scattered(0), above(0, 0, 0, 1), below(0, 0, 0, 1);
     if (lit != nullptr) {
-        const double slope = seen.widened ? 0 : 1;  // a speck has one light
-        const glm::dvec4 keep(slope, slope, slope, 1);
-        direct = keep * glm::dvec4(lit->direct);
-        scattered = keep * glm::dvec4(lit->scattered);
-        above = keep * glm::dvec4(lit->from_above);
-        below = keep * glm::dvec4(lit->from_below);
+        direct = bounded(lit->direct, seen);
+        scattered = bounded(lit->scattered, seen);
+        above = bounded(lit->from_above, seen);
+        below = bounded(lit->from_below, seen);
     }
     splat.direct = from_eye(direct, view, seen.q);
     const auto channel = [&](int k) {
@@ -131,11 +166,11 @@ Splat make_splat(const Seen& seen, glm::dvec3 color, const ParticleLight* lit, c
 // Adds a particle of the same centre and radius: optical depths add, light and colour are weighted
 // by them.
 void merge(Splat& into, const Splat& other) {
-    const float whole = into.matter.x + other.matter.x;
-    const float share = other.matter.x / whole;
-    into.matter.x = whole;
-    for (auto member : {&Splat::direct, &Splat::red, &Splat::green, &Splat::blue, &Splat::tint})
+    const float whole = into.matter.w + other.matter.w;
+    const float share = other.matter.w / whole;
+    for (auto member : {&Splat::matter, &Splat::direct, &Splat::red, &Splat::green, &Splat::blue})
         into.*member += share * (other.*member - into.*member);
+    into.matter.w = whole;
 }
 
 // Sorts by the upper 32 bits, stably; the lower ones ride along. Least significant digit first.

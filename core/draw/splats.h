@@ -11,14 +11,14 @@ namespace awan {
 
 // As in splat.glsl (std430).
 struct Splat {
-    glm::vec4 place, matter, direct, red, green, blue, tint;
+    glm::vec4 place, matter, direct, red, green, blue;
 };
 
 struct SplatList {
     std::vector<Splat> splats;       // nearest first when sorted
-    std::vector<gl::TileBox> tiles;  // of kTilePixels x kTilePixels pixels, as long as splats
+    std::vector<gl::TileBox> tiles;  // of kTileWidth x kTileHeight pixels, as long as splats
 };
-inline constexpr int kTilePixels = 16;
+inline constexpr int kTileWidth = 8, kTileHeight = 16;  // as in splat.glsl
 
 // Everything in the picture. A Gaussian is cut where its optical depth falls below a thousandth,
 // but not within 4 s (0.03% of the mass); one narrower than half a pixel is widened to it, its

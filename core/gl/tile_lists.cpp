@@ -10,13 +10,19 @@ struct Rectangle {
     int x, y, width, height;
 };
 
-TileBox clip(const TileBox& box, const Rectangle& to) {
-    return {std::max(box.first_x, to.x),
-            std::max(box.first_y, to.y),
-            std::min(box.last_x, to.x + to.width - 1),
-            std::min(box.last_y, to.y + to.height - 1),
-            box.first_z,
-            box.last_z};
+TileBox clip(TileBox box, const Rectangle& to) {
+    box.first_x = std::max(box.first_x, to.x);
+    box.first_y = std::max(box.first_y, to.y);
+    box.last_x = std::min(box.last_x, to.x + to.width - 1);
+    box.last_y = std::min(box.last_y, to.y + to.height - 1);
+    return box;
+}
+
+// How far a tile from `tile` to tile + 1 stays away from `center`, in units of 1 / per, squared.
+float apart2(std::int32_t tile, float center, float per) {
+    const auto low = static_cast<float>(tile);
+    const float d = std::max({0.F, low - center, center - low - 1.F}) * per;
+    return d * d;
 }
 
 std::uint64_t tiles_in(const TileBox& box) {
@@ -39,8 +45,10 @@ TileRegion make_lists(std::span<const TileBox> boxes, const std::vector<std::uin
                 const std::size_t row =
                     (static_cast<std::size_t>(z) * height + static_cast<std::size_t>(y - area.y)) *
                     width;
+                const float up = apart2(y, box.center_y, box.per_y);
                 for (int x = box.first_x; x <= box.last_x; ++x)
-                    visit(row + static_cast<std::size_t>(x - area.x));
+                    if (up + apart2(x, box.center_x, box.per_x) <= 1.F)
+                        visit(row + static_cast<std::size_t>(x - area.x));
             }
     };
     region.begin.assign(width * height * static_cast<std::size_t>(layers) + 1, 0);

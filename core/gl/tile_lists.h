@@ -11,10 +11,14 @@
 
 namespace awan::gl {
 
-// Tiles an item touches, inclusive; nothing when last < first. z: for rasters of several layers.
+// Tiles an item may touch, inclusive; nothing when last < first. z: for rasters of several layers.
+// Of these it touches those that reach into an ellipse: ((x - center_x) per_x)^2 + ((y - center_y)
+// per_y)^2 <= 1 at some point of the tile, which spans x .. x + 1. With the default every tile of
+// the box.
 struct TileBox {
     std::int32_t first_x = 0, first_y = 0, last_x = -1, last_y = -1;
     std::int32_t first_z = 0, last_z = 0;
+    float center_x = 0, center_y = 0, per_x = 0, per_y = 0;
 };
 
 // A rectangle of tiles in all layers and, for each of them, layer by layer and row by row, the

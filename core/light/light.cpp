@@ -30,23 +30,45 @@ struct OnGrid {
     gl::TileBox tiles;
 };
 
-OnGrid put_on_grid(const ParticleSet& particles, std::size_t i, const LightGrid& grid) {
+// Coefficients of light_columns.glsl's start tau / (1 + bend tau), which stands for the gain depth
+// -log(gain + (1 - gain) e^-tau) on lines through a particle whose centre has optical depth
+// `whole`.
+struct GainCurve {
+    double start, bend;
+};
+
+GainCurve gain_curve(double gain, double whole) {
+    const double start = 1 - gain;
+    if (!(start > 0)) return {0, 0};
+    if (whole < 1e-4)
+        return {start, gain / 2};  // the limit; below, the quotients lose their digits
+    const double depth = -std::log1p(start * std::expm1(-std::min(whole, 700.0)));
+    return {start, std::max(0.0, (start * whole / depth - 1) / whole)};
+}
+
+OnGrid put_on_grid(const ParticleSet& particles, std::size_t i, const LightGrid& grid,
+                   double gain) {
     const double s = 0.5 * static_cast<double>(particles.radius[i]);
     const double tau =
         static_cast<double>(particles.density[i]) * s * std::sqrt(2 * std::numbers::pi);
     const glm::dvec3 place = grid.place(particles.center[i]);
     const double across = std::max(s / grid.texel, 0.6), along = std::max(s / grid.slab, 0.4);
     const double thinned = tau * (s / grid.texel / across) * (s / grid.texel / across);
+    const GainCurve curve = gain_curve(gain, thinned);
     const double wide = 4 * across, deep = kSpread * along;
     const auto tile = [](double cell, int count) {
         return static_cast<std::int32_t>(
             std::clamp(std::floor(cell / kTile), 0.0, static_cast<double>((count - 1) / kTile)));
     };
-    return {{glm::vec4(place.x, place.y, place.z, 0.5 / (across * across)),
-             glm::vec4(thinned, 0.5 / (kSpread * along), 0, 0)},
-            {tile(place.x - wide, grid.cells.x), tile(place.y - wide, grid.cells.y),
-             tile(place.x + wide, grid.cells.x), tile(place.y + wide, grid.cells.y),
-             tile(place.z - deep, grid.cells.z), tile(place.z + deep + 1, grid.cells.z)}};
+    OnGrid on{{glm::vec4(place.x, place.y, place.z, 0.5 / (across * across)),
+               glm::vec4(thinned, 0.5 / (kSpread * along), curve.start, curve.bend)},
+              {tile(place.x - wide, grid.cells.x), tile(place.y - wide, grid.cells.y),
+               tile(place.x + wide, grid.cells.x), tile(place.y + wide, grid.cells.y),
+               tile(place.z - deep, grid.cells.z), tile(place.z + deep + 1, grid.cells.z)}};
+    on.tiles.center_x = static_cast<float>(place.x / kTile);
+    on.tiles.center_y = static_cast<float>(place.y / kTile);
+    on.tiles.per_x = on.tiles.per_y = static_cast<float>(kTile / wide);
+    return on;
 }
 
 struct OneLight {
@@ -63,7 +85,7 @@ Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const One
     std::vector<gl::TileBox> tiles(particles.size());
     std::vector<glm::vec4> points(particles.size());
     for (std::size_t i = 0; i < particles.size(); ++i) {
-        const OnGrid on = put_on_grid(particles, i, grid);
+        const OnGrid on = put_on_grid(particles, i, grid, light.gain);
         placed[i] = on.gpu;
         tiles[i] = on.tiles;
         points[i] =
@@ -87,7 +109,6 @@ Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const One
             volume.bind(3);
             glUniform3i(0, cells.x, cells.y, cells.z);
             glUniform4i(1, region.x, region.y, region.width, region.height);
-            glUniform1f(2, static_cast<float>(light.gain));
             glDispatchCompute(static_cast<GLuint>(region.width), static_cast<GLuint>(region.height),
                               static_cast<GLuint>(cells.z / kTile));
             glFinish();

@@ -11,17 +11,6 @@ vec4 one_minus_exp(vec4 tau) {
     return mix(1.0f - exp(-tau), series, lessThan(tau, vec4(0.03125f)));
 }
 
-// Effective optical depth of a particle in the recurrence of the light pass (document 000, eq. 3.12),
-//     I_after = g + T I,  T = exp(-tau),  g = gain (1 - T) I,
-// that is -log(gain + (1 - gain) T). gain in [0, 1]: the part of the scattered light that goes on. Since g is
-// bounded by what was taken out (1 - T), light never grows, whatever the phase function. tau >= 0, capped at
-// 80 (T = 2e-35) so that the logarithm stays finite.
-float gain_depth(float tau, float gain) {
-    float lost = (1.0f - gain) * one_minus_exp(tau);
-    return lost < 0.03125f ? lost * (1.0f + lost * (0.5f + lost * (1.0f / 3.0f + lost * 0.25f)))
-                          : -log(gain + (1.0f - gain) * exp(-min(tau, 80.0f)));
-}
-
 // Cumulative normal distribution by Abramowitz & Stegun 7.1.26; absolute error < 1e-7, relative to the smaller tail
 // too within 1e-3 for |x| < 4. Same-sign arguments only: no 1 - erf for the far tail.
 vec4 normal_cdf(vec4 x) {

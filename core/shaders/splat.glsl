@@ -1,25 +1,24 @@
 // Pass 2: Gaussian particles blended front to back, per pixel (document 000, eq. 3.13 with S = a (1 - e^-tau) p I / 4 pi).
 //
-// A work group draws a tile of 16 x 16 pixels, a work item a column of 16 of them, four by four in vectors. A particle's
+// A work group draws a tile of 8 x 16 pixels, a work item a column of 16 of them, four by four in vectors. A particle's
 // optical depth along a pixel's ray d is exact in perspective: tau exp(-|q x d|^2 / (2 s^2 |d|^2)), and in a column
 // |q x d|^2 = C (Y - Y0)^2 + m with no cancellation.
 // The program is compiled twice, since llvmpipe runs both sides of every branch: INTERIOR (effect `interior`) takes the half
 // line before the eye for all particles, the other the whole line.
 // Light and phase function are evaluated where the fragment is: at the ray's closest point to the centre.
-layout(local_size_x = 16) in;
+layout(local_size_x = 8) in;
 
 #include "optics.glsl"
 #include "phase.glsl"
 #include "sky.glsl"
 
-// Seven texels a particle. A buffer texture, since llvmpipe fetches a vec4 of it in a tenth of the time that four
+// Six texels a particle. A buffer texture, since llvmpipe fetches a vec4 of it in a tenth of the time that four
 // words of a storage buffer take.
 struct Splat {
     vec4 place;   // centre in the eye's frame (right, up, forward), 1 / (2 s^2)
-    vec4 matter;  // tau through the centre, 1 / s, C = x^2 + z^2, y / C
+    vec4 matter;  // albedo * colour * sun irradiance / 4 pi; optical depth through the centre
     vec4 direct;  // sun light that was not scattered: gradient (eye's frame), value at the eye (!)
     vec4 red, green, blue;  // radiance scattered from all other light, likewise
-    vec4 tint;    // albedo * colour * sun irradiance / 4 pi; upper bound of red, green, blue
 };
 layout(binding = 0) uniform samplerBuffer splats;
 layout(std430, binding = 1) readonly buffer TileBegin { uint tile_begin[]; };
@@ -38,8 +37,9 @@ layout(location = 8) uniform bool is_cornette_shanks;
 layout(location = 9) uniform bool extinguish;  // effect view_extinction
 layout(location = 10) uniform bool opaque;     // the sky behind
 
-// Below this transmittance nothing behind can change an 8-bit or half-float pixel; the rest of the list is skipped.
-const float kOpaque = 1e-6;
+// Below this transmittance the rest of the list is skipped: what is behind can add no more than a ten-thousandth of itself,
+// a fifth of a half float's last place.
+const float kOpaque = 1e-4;
 
 // Four pixels of a column. Never in an array: an array that a loop indexes lives in memory on llvmpipe.
 struct Pixels {
@@ -47,15 +47,48 @@ struct Pixels {
     vec4 left, red, green, blue;   // transmittance and radiance so far
 };
 
-// What a particle is to a whole column: terms that do not depend on Y.
+// What a particle is to a whole column: terms that do not depend on Y. Light is linear in the scene, and as good as
+// linear in Y along a column: it is expanded about the row nearest to the centre.
 struct Column {
-    float X, aside, y0, a, m, along, direct, red, green, blue;
+    float X, aside, y0, a, m, along;
+    vec2 direct, red, green, blue;  // at Y: x + y Y
 };
 
 Splat fetch(int at) {
     return Splat(texelFetch(splats, at), texelFetch(splats, at + 1), texelFetch(splats, at + 2),
-                 texelFetch(splats, at + 3), texelFetch(splats, at + 4), texelFetch(splats, at + 5),
-                 texelFetch(splats, at + 6));
+                 texelFetch(splats, at + 3), texelFetch(splats, at + 4), texelFetch(splats, at + 5));
+}
+
+// A linear function of the scene on the rays (X, Y, 1) near Y = y: point t d, t the closest to the centre, slope its change with Y.
+vec2 on_column(vec4 f, float X, float y, float t, float slope) {
+    float along = f.x * X + f.z + f.y * y;
+    float change = slope * along + t * f.y;
+    return vec2(f.w + t * along - change * y, change);
+}
+
+Column on_column(Splat p, float X, float low, float high) {
+    Column k;
+    float c = p.place.x * p.place.x + p.place.z * p.place.z;
+    float ratio = p.place.y / max(c, 1e-30);
+    k.X = X;
+    k.aside = p.place.z * X - p.place.x;
+    k.along = p.place.x * X + p.place.z;
+    k.y0 = ratio * k.along;
+    k.a = c * p.place.w;
+    k.m = k.aside * k.aside * (1.0 + p.place.y * ratio) * p.place.w;
+    float y = clamp(k.y0, low, high);
+    float per_d2 = 1.0 / (1.0 + X * X + y * y);
+    float t = (k.along + p.place.y * y) * per_d2;
+    float slope = (p.place.y - 2.0 * y * t) * per_d2;
+#ifdef INTERIOR
+    slope = t > 0.0 ? slope : 0.0;
+    t = max(t, 0.0);
+#endif
+    k.direct = on_column(p.direct, X, y, t, slope);
+    k.red = on_column(p.red, X, y, t, slope);
+    k.green = on_column(p.green, X, y, t, slope);
+    k.blue = on_column(p.blue, X, y, t, slope);
+    return k;
 }
 
 Pixels look(float X, float first_row) {
@@ -76,23 +109,23 @@ Pixels look(float X, float first_row) {
 }
 
 void blend(Splat p, Column k, inout Pixels px) {
-    vec4 t = (k.along + p.place.y * px.Y) * px.per_d2;  // of the closest point, in units of d
 #ifdef INTERIOR
+    vec4 t = (k.along + p.place.y * px.Y) * px.per_d2;  // of the closest point, in units of d
     vec4 up = p.place.y - p.place.z * px.Y, over = p.place.x * px.Y - p.place.y * k.X;
     vec4 miss = (up * up + k.aside * k.aside + over * over) * p.place.w;
-    vec4 tau = p.matter.x * exp(-miss * px.per_d2) * normal_cdf(t * inversesqrt(px.per_d2) * p.matter.y);
-    t = max(t, 0.0);
+    vec4 tau = p.matter.w * exp(-miss * px.per_d2) *
+               normal_cdf(t * inversesqrt(px.per_d2) * sqrt(2.0 * p.place.w));
 #else
     vec4 off = px.Y - k.y0;
-    vec4 tau = p.matter.x * exp(-(k.a * off * off + k.m) * px.per_d2);
+    vec4 tau = p.matter.w * exp(-(k.a * off * off + k.m) * px.per_d2);
 #endif
     vec4 alpha = one_minus_exp(tau);
     vec4 weight = extinguish ? px.left * alpha : alpha;
     px.left -= px.left * alpha;
-    vec4 direct = clamp(p.direct.w + t * (k.direct + p.direct.y * px.Y), 0.0, 1.0) * px.phase;
-    px.red += weight * (clamp(p.red.w + t * (k.red + p.red.y * px.Y), 0.0, p.tint.w) + direct * p.tint.x);
-    px.green += weight * (clamp(p.green.w + t * (k.green + p.green.y * px.Y), 0.0, p.tint.w) + direct * p.tint.y);
-    px.blue += weight * (clamp(p.blue.w + t * (k.blue + p.blue.y * px.Y), 0.0, p.tint.w) + direct * p.tint.z);
+    vec4 direct = clamp(k.direct.x + k.direct.y * px.Y, 0.0, 1.0) * px.phase;
+    px.red += weight * (max(k.red.x + k.red.y * px.Y, 0.0) + direct * p.matter.x);
+    px.green += weight * (max(k.green.x + k.green.y * px.Y, 0.0) + direct * p.matter.y);
+    px.blue += weight * (max(k.blue.x + k.blue.y * px.Y, 0.0) + direct * p.matter.z);
 }
 
 void put(int at, float X, float Y, float per_d2, float left, vec3 color) {
@@ -114,7 +147,7 @@ void put(int at, int stride, float X, Pixels px) {
 
 void main() {
     ivec2 tile = ivec2(gl_WorkGroupID.xy);
-    ivec2 pixel = (region.xy + tile) * 16 + ivec2(int(gl_LocalInvocationID.x), 0);
+    ivec2 pixel = (region.xy + tile) * ivec2(8, 16) + ivec2(int(gl_LocalInvocationID.x), 0);
     float X = ((float(pixel.x) + 0.5) / float(size.x) * 2.0 - 1.0) * tangent.x;
     Pixels p0 = look(X, float(pixel.y)), p1 = look(X, float(pixel.y + 4));
     Pixels p2 = look(X, float(pixel.y + 8)), p3 = look(X, float(pixel.y + 12));
@@ -122,18 +155,8 @@ void main() {
     int list = tile.y * region.z + tile.x;
     uint end = tile_begin[list + 1];
     for (uint i = tile_begin[list]; i < end; ++i) {
-        Splat p = fetch(int(tile_items[i]) * 7);
-        Column k;
-        k.X = X;
-        k.aside = p.place.z * X - p.place.x;
-        k.y0 = p.matter.w * (p.place.z + p.place.x * X);
-        k.a = p.matter.z * p.place.w;
-        k.m = k.aside * k.aside * (1.0 + p.place.y * p.matter.w) * p.place.w;
-        k.along = p.place.x * X + p.place.z;
-        k.direct = p.direct.x * X + p.direct.z;
-        k.red = p.red.x * X + p.red.z;
-        k.green = p.green.x * X + p.green.z;
-        k.blue = p.blue.x * X + p.blue.z;
+        Splat p = fetch(int(tile_items[i]) * 6);
+        Column k = on_column(p, X, p3.Y.w, p0.Y.x);
         blend(p, k, p0);
         blend(p, k, p1);
         blend(p, k, p2);
@@ -145,8 +168,8 @@ void main() {
     }
 
     if (pixel.x >= size.x) return;
-    int stride = region.z * 16;
-    int at = tile.y * 16 * stride + tile.x * 16 + int(gl_LocalInvocationID.x);
+    int stride = region.z * 8;
+    int at = tile.y * 16 * stride + tile.x * 8 + int(gl_LocalInvocationID.x);
     put(at, stride, X, p0);
     put(at + 4 * stride, stride, X, p1);
     put(at + 8 * stride, stride, X, p2);
