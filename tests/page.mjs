@@ -117,6 +117,10 @@ const tests = {
     await page.waitForFunction(() => location.hash === "#cumulus");
     await settled(page);
     assert.equal(await particles(page), 615);
+    await group(page, "Picture").locator("summary").click();
+    await page.getByLabel("Size", { exact: true }).selectOption("640 × 360"); // quicker
+    await settled(page);
+    assert.equal((await look(page)).width, 640);
   },
 
   async "tells why effects run"(page) {

@@ -4,6 +4,7 @@ import * as api from "./api.js";
 import { sceneFromAwn, whyNoLayout } from "./document.js";
 import { byId, el } from "./dom.js";
 import { prettyJson } from "./json_text.js";
+import { placeName } from "./problems.js";
 
 function save(blob, name) {
   const url = URL.createObjectURL(blob);
@@ -12,6 +13,20 @@ function save(blob, name) {
   link.click();
   link.remove();
   setTimeout(() => URL.revokeObjectURL(url), 60_000); // large files are still being written
+}
+
+// Browsers give pages the clipboard only over https or from localhost; the old way works everywhere.
+async function copy(text) {
+  if (navigator.clipboard) return navigator.clipboard.writeText(text);
+  const field = el("textarea", { class: "unseen" });
+  field.value = text;
+  const focused = document.activeElement;
+  document.body.append(field);
+  field.select();
+  const done = document.execCommand("copy");
+  field.remove();
+  focused?.focus();
+  if (!done) throw new Error("The browser does not let the page copy.");
 }
 
 // The shell command that makes the picture. A quoted here-document keeps the scene as it is.
@@ -59,7 +74,7 @@ export function createFiles(store, { name, failed, note }) {
       button("CSV", listed("text/csv", ".csv"), { "aria-label": "Particles as CSV" }),
       button("PLY", listed("application/x-ply", ".ply"), { "aria-label": "Particles as PLY" })),
     button("Copy curl", async () => {
-      await navigator.clipboard.writeText(curlCommand(store.text, location.origin));
+      await copy(curlCommand(store.text, location.origin));
       note("The command is on the clipboard.");
     }, { title: "The command that makes this picture" }),
   );
@@ -72,8 +87,8 @@ export function createFiles(store, { name, failed, note }) {
     why.textContent = reason;
   }
 
-  // An .awn is judged by the service before it is read here; so is nothing else: a wrong JSON
-  // document is opened, and its faults are then shown at their fields.
+  // The service judges an .awn before it is read here. A JSON document is opened as it is; what is
+  // wrong in it is then shown at its fields.
   async function open(file) {
     try {
       const text = await file.text();
@@ -85,7 +100,9 @@ export function createFiles(store, { name, failed, note }) {
       }
       note(`${file.name} is open.`);
     } catch (error) {
-      failed(error instanceof api.Problem ? error : new Error(`${file.name}: ${error.message}`));
+      // A pointer would name a place in the file, not in the document that stays open.
+      const place = error.pointer ? `${placeName(error.pointer)}: ` : "";
+      failed(new Error(`${file.name}: ${place}${error.message}`));
     }
   }
 

@@ -18,14 +18,16 @@ import { createStage } from "./stage.js";
 const DRAFT = "awan.draft";
 
 const store = createStore();
-let measured = null; // { scene's clouds, bounds } of the last plan
+let measured = null; // { scene, bounds } of the last plan
 let problem = null; // what is wrong with the document as it stands
 let presetName = "";
 
-// The service's bounds while they are of the layout at hand, else an estimate.
-const layoutOf = (scene) => compactJson([scene.cubes ?? null, scene.clouds ?? null]);
+// The service's bounds while they are of the layout at hand, else an estimate. Edits share what
+// they do not touch, so the same list is the same layout.
 function bounds() {
-  return measured && measured.layout === layoutOf(store.scene) ? measured.bounds : boundsOfCubes(store.scene);
+  const { scene } = store;
+  const current = measured && measured.scene.cubes === scene.cubes && measured.scene.clouds === scene.clouds;
+  return current ? measured.bounds : boundsOfCubes(scene);
 }
 
 // --- the status line ---
@@ -105,7 +107,7 @@ async function askPlan() {
   const scene = store.scene;
   try {
     const answer = await api.plan(store.text, { signal: planFlight.signal });
-    if (answer.survey?.bounds) measured = { layout: layoutOf(scene), bounds: answer.survey.bounds };
+    if (answer.survey?.bounds) measured = { scene, bounds: answer.survey.bounds };
     figures.plan(answer);
     panels.forEach((panel) => panel.refresh());
   } catch (error) {

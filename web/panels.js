@@ -43,7 +43,7 @@ export function cameraPanel(store, bounds) {
   const write = (part, options) =>
     store.update((scene) => ({ ...scene, camera: cameraOf(scene, { ...orbitOf(scene, bounds()), ...part }) }),
       { key: "/camera", ...options });
-  const part = (name) => ({ get: () => Number(orbit()[name].toFixed(name === "distance" ? 3 : 1)), set: (value, options) => write({ [name]: value }, options) });
+  const part = (name) => ({ get: () => Number(name === "distance" ? orbit()[name].toPrecision(4) : orbit()[name].toFixed(1)), set: (value, options) => write({ [name]: value }, options) });
   const radius = () => sizeOf(bounds()).radius;
   const fields = [
     checkbox({

@@ -67,8 +67,10 @@ export function focusProblem(pointer) {
   (input ?? element).scrollIntoView({ block: "center" });
 }
 
-// "/cubes/3/size/1" -> "cube 4, size y": people count from one.
+// "/cubes/3/size/1" -> "cube 4, size y": people count from one. What is no JSON pointer ("line 14")
+// stays as it is.
 export function placeName(pointer) {
+  if (!pointer.startsWith("/")) return pointer;
   const words = [];
   const parts = pointer.split("/").slice(1);
   const axes = ["x", "y", "z"];
