@@ -54,9 +54,10 @@ export function withAt(scene, pointer, value) {
 }
 
 // The clouds of a document with the pointer of each; a document with `cubes` at its top is one
-// cloud, whose pointer is "".
+// cloud, whose pointer is "". Documents may be wrong in any way; here, what is no cloud is empty.
 export function cloudsOf(scene) {
-  if (Array.isArray(scene.clouds)) return scene.clouds.map((cloud, k) => ({ cloud, pointer: `/clouds/${k}` }));
+  const known = (cloud) => (cloud !== null && typeof cloud === "object" ? cloud : {});
+  if (Array.isArray(scene.clouds)) return scene.clouds.map((cloud, k) => ({ cloud: known(cloud), pointer: `/clouds/${k}` }));
   return [{ cloud: scene, pointer: "" }];
 }
 
@@ -73,7 +74,8 @@ export function whyNoLayout(scene) {
   if (clouds.length !== 1) return "An .awn file holds one layout; this document has several clouds.";
   const { cloud } = clouds[0];
   if ((cloud.model ?? "cubes") !== "cubes") return `An .awn file holds cubes, not the model “${cloud.model}”.`;
-  const moved = (cloud.translate ?? []).some((t) => t !== 0) || (cloud.scale ?? 1) !== 1 || (cloud.rotate_y ?? 0) !== 0;
+  const shift = Array.isArray(cloud.translate) ? cloud.translate : [];
+  const moved = shift.some((t) => t !== 0) || (cloud.scale ?? 1) !== 1 || (cloud.rotate_y ?? 0) !== 0;
   if (moved) return "An .awn file cannot say that its cloud is moved, scaled or turned.";
   return "";
 }

@@ -65,7 +65,8 @@ export function createLayoutTable(store) {
   const translate = [0, 1, 2].map((axis) => ofCloud(`Move ${"xyz"[axis]}`, `translate/${axis}`, "0", {
     set: (value, options) => {
       const pointer = `${cloudPointer()}/translate`;
-      const moved = [...(at(store.scene, pointer) ?? [0, 0, 0])];
+      const before = at(store.scene, pointer);
+      const moved = Array.isArray(before) ? [...before] : [0, 0, 0];
       moved[axis] = value ?? 0;
       store.set(pointer, moved, options);
     },
@@ -100,7 +101,7 @@ export function createLayoutTable(store) {
   function insert(index, cube) {
     const list = cubes();
     const last = list[list.length - 1];
-    const fresh = cube ?? (last ? { ...FRESH, center: last.center, radius: last.radius } : FRESH);
+    const fresh = cube ?? (last ? { ...FRESH, center: last.center ?? FRESH.center, radius: last.radius ?? FRESH.radius } : FRESH);
     change([...list.slice(0, index), structuredClone(fresh), ...list.slice(index)]);
     focusRow(index, "input");
   }
