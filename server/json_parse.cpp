@@ -12,6 +12,7 @@
 #include "core/scene/limits.h"
 #include "server/json.h"
 #include "server/json_fields.h"
+#include "server/json_runs.h"
 
 namespace awan {
 namespace {
@@ -97,6 +98,10 @@ class SceneReader {
   public:
     std::optional<Error> error;
     DraftInProgress state;
+    TextCursor text;  // where the parser is
+
+    explicit SceneReader(std::string_view document)
+        : text{document.data(), document.data() + document.size()}, begin_(document.data()) {}
 
     // --- nlohmann's SAX interface; false stops the reading
 
@@ -199,7 +204,9 @@ class SceneReader {
                 state.draft.top_level_cubes = field->list == ListKind::kCubes;
                 if (field->list == ListKind::kCubes) state.begin(ObjectKind::kCloud);
             }
-            return push({.type = Frame::Type::kList, .list = field->list});
+            const bool pushed = push({.type = Frame::Type::kList, .list = field->list});
+            if (pushed) read_ahead();
+            return pushed;
         }
         const ListKind list = top().list;
         if (list != ListKind::kPositions && list != ListKind::kColors)
@@ -218,15 +225,16 @@ class SceneReader {
         }
         const bool is_row = frame.type == Frame::Type::kRow;
         pop();
-        if (is_row) take_row();
+        if (is_row) take_row(top().list, row_);
         return true;
     }
 
-    bool parse_error(std::size_t position, const std::string&, const json::exception& e) {
+    bool parse_error(std::size_t, const std::string&, const json::exception& e) {
         constexpr int kNumberOverflow = 406;
         if (e.id == kNumberOverflow) return fail("must be finite: the number overflows");
-        error = Error{ErrorCode::kMalformed, "",
-                      "not JSON at byte " + std::to_string(position) + ": " + reason_of(e.what())};
+        error = Error{
+            ErrorCode::kMalformed, "",
+            "not JSON at byte " + std::to_string(text.at - begin_) + ": " + reason_of(e.what())};
         return false;
     }
 
@@ -301,10 +309,28 @@ class SceneReader {
         if (frame.list != ListKind::kRadii && frame.list != ListKind::kDensities)
             return wrong_type("a number");
         if (!has_room()) return false;
-        ReadyParticles& ready = state.cloud->ready;
-        (frame.list == ListKind::kRadii ? ready.radii : ready.densities).push_back(to_float(value));
+        take_number(frame.list, value);
         ++frame.index;
         return true;
+    }
+
+    // The regular part of a list of numbers that begins here (json_runs.h).
+    void read_ahead() {
+        Frame& frame = top();
+        const ListKind list = frame.list;
+        if (list == ListKind::kRadii || list == ListKind::kDensities)
+            frame.index = take_run<1>(text, limit_of(list), [&](const std::array<double, 1>& v) {
+                take_number(list, v[0]);
+            });
+        if (list == ListKind::kPositions || list == ListKind::kColors)
+            frame.index = take_run<3>(text, limit_of(list), [&](const std::array<double, 3>& v) {
+                take_row(list, {v[0], v[1], v[2]});
+            });
+    }
+
+    void take_number(ListKind list, double value) {
+        ReadyParticles& ready = state.cloud->ready;
+        (list == ListKind::kRadii ? ready.radii : ready.densities).push_back(to_float(value));
     }
 
     bool too_long() {
@@ -312,13 +338,12 @@ class SceneReader {
         return fail(wanted() + ", not more");
     }
 
-    void take_row() {
-        Frame& list = top();
+    void take_row(ListKind list, const glm::dvec3& row) {
         ReadyParticles& ready = state.cloud->ready;
-        if (list.list == ListKind::kPositions)
-            ready.positions.push_back(row_);
+        if (list == ListKind::kPositions)
+            ready.positions.push_back(row);
         else
-            ready.colors.emplace_back(to_float(row_.x), to_float(row_.y), to_float(row_.z));
+            ready.colors.emplace_back(to_float(row.x), to_float(row.y), to_float(row.z));
     }
 
     // Whether the open list may have one more element. validate() counts over all clouds; this
@@ -344,6 +369,7 @@ class SceneReader {
         return true;
     }
 
+    const char* begin_;
     std::vector<Frame> frames_;
     glm::dvec3 row_{0};  // of the list being read
 };
@@ -351,9 +377,9 @@ class SceneReader {
 }  // namespace
 
 Result<SceneDraft> parse_scene(std::string_view text) {
-    SceneReader reader;
+    SceneReader reader(text);
     try {
-        json::sax_parse(text.begin(), text.end(), &reader);
+        json::sax_parse(TextIterator(reader.text), TextIterator(), &reader);
     } catch (const std::exception& e) {
         return Error{ErrorCode::kInternal, "", std::string("reading JSON failed: ") + e.what()};
     }

@@ -183,7 +183,7 @@ TEST(ParticlesJson, AMillionParticlesAreWrittenAndReadInSeconds) {
     const std::chrono::duration<double> read_seconds =
         std::chrono::steady_clock::now() - read_start;
     EXPECT_EQ(again.clouds[0].ready.positions.size(), set.size());
-    EXPECT_LT(read_seconds.count(), 6.0);  // 1.1 s on a quiet core
+    EXPECT_LT(read_seconds.count(), 6.0);  // 0.9 s on a busy core
 }
 #endif
 

@@ -54,7 +54,5 @@ inline constexpr double kMinFov = 0.01,
 // -------------------------------------------------------------------------------------------
 inline constexpr int kMaxJsonDepth = 32;          // the contract's deepest value is at 6
 inline constexpr std::uint64_t kMaxString = 256;  // bytes; names only
-inline constexpr std::uint64_t kMaxJsonObjects =
-    4 * kMaxCubes;  // objects of any kind in one document
 
 }  // namespace awan::limits
