@@ -1,0 +1,119 @@
+// What page.mjs uses: Debian's Chromium, a watch on everything that goes wrong in it, and ways to look
+// at the page as it stands.
+
+import fs from "node:fs";
+import { createRequire } from "node:module";
+import path from "node:path";
+import { fileURLToPath } from "node:url";
+
+export const [origin, scratch] = process.argv.slice(2);
+const root = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
+const { chromium } = createRequire(path.join(root, "build/node/package.json"))("playwright-core");
+
+export const context = await chromium.launchPersistentContext(path.join(scratch, "profile"), {
+  executablePath: "/usr/bin/chromium",
+  headless: true,
+  acceptDownloads: true,
+  downloadsPath: scratch,
+  viewport: { width: 1440, height: 900 },
+  args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+});
+context.setDefaultTimeout(15_000);
+await context.grantPermissions(["clipboard-read", "clipboard-write"], { origin });
+
+// --- what is watched all the time ---
+
+export const faults = []; // console errors, exceptions, violations of the content security policy
+export const renders = []; // { scene, state: "flying" | "done" | "cancelled" } of every POST /v1/render
+
+function watch(page) {
+  page.on("pageerror", (error) => faults.push(String(error)));
+  page.on("console", (message) => {
+    if (message.type() !== "error" && message.type() !== "warning") return;
+    if (/status of 4(00|22)/.test(message.text())) return; // asked for below, and shown at the field
+    faults.push(message.text());
+  });
+  const isRender = (request) => new URL(request.url()).pathname === "/v1/render";
+  page.on("request", (request) => {
+    if (!isRender(request)) return;
+    renders.push({ request, scene: JSON.parse(request.postData()), state: "flying" });
+  });
+  const landed = (state) => (request) => {
+    const render = renders.find((r) => r.request === request);
+    if (render) render.state = state;
+  };
+  page.on("requestfinished", landed("done"));
+  page.on("requestfailed", landed("cancelled"));
+}
+
+export async function open(where = "/") {
+  const page = await context.newPage();
+  watch(page);
+  await page.addInitScript(() => {
+    addEventListener("securitypolicyviolation", (event) =>
+      console.error(`policy: ${event.violatedDirective} ${event.blockedURI}`));
+    // Counted in the page: the browser's own reports come in any order.
+    const flights = { now: 0, most: 0 };
+    window.flights = flights;
+    const { fetch } = window;
+    window.fetch = async (url, options) => {
+      if (url !== "/v1/render") return fetch(url, options);
+      flights.now += 1;
+      flights.most = Math.max(flights.most, flights.now);
+      try {
+        const { status, headers, body } = await fetch(url, options);
+        return new Response(await new Response(body).blob(), { status, headers });
+      } finally {
+        flights.now -= 1;
+      }
+    };
+  });
+  await page.goto(origin + where);
+  await settled(page);
+  return page;
+}
+
+// The full picture of the document as it stands is on the screen.
+export async function settled(page) {
+  await page.waitForFunction(() =>
+    document.querySelector("#stage").getAttribute("aria-busy") === "false" &&
+    document.querySelector("#picture").naturalWidth > 0, null, { polling: 30 });
+}
+
+// Size, mean, variance and a hash of the pixels on the screen, or of a PNG given as base64.
+export const look = (page, base64 = null) => page.evaluate(async (png) => {
+  let image = document.querySelector("#picture");
+  if (png) {
+    image = new Image();
+    image.src = `data:image/png;base64,${png}`;
+    await image.decode();
+  }
+  const { naturalWidth: width, naturalHeight: height } = image;
+  const canvas = Object.assign(document.createElement("canvas"), { width, height });
+  const pen = canvas.getContext("2d");
+  pen.drawImage(image, 0, 0);
+  const { data } = pen.getImageData(0, 0, width, height);
+  let [sum, squares, hash] = [0, 0, 0];
+  for (let i = 0; i < data.length; i += 4) {
+    sum += data[i + 1];
+    squares += data[i + 1] ** 2;
+    hash = (Math.imul(hash, 31) + data[i] + 256 * data[i + 1] + 65536 * data[i + 2]) | 0;
+  }
+  const mean = sum / (width * height);
+  return { width, height, mean, variance: squares / (width * height) - mean ** 2, hash };
+}, base64);
+
+export async function choose(page, preset) {
+  await page.selectOption("#preset", preset);
+  await page.waitForFunction((name) => location.hash === `#${name}`, preset);
+  await settled(page);
+}
+export const particles = async (page) => Number((await page.textContent("#particles")).replace(/\D/g, ""));
+export const group = (page, title) => page.locator("details.group").filter({ has: page.getByRole("heading", { name: title, exact: true }) });
+export const cell = (page, row, member) => page.locator(`tbody input[data-pointer$="/cubes/${row}/${member}"]`);
+
+export async function download(page, click) {
+  const [file] = await Promise.all([page.waitForEvent("download"), click()]);
+  return { name: file.suggestedFilename(), bytes: fs.readFileSync(await file.path()) };
+}
