@@ -34,6 +34,8 @@ void set_uniforms(const Scene& scene, const View& view, const Plan& plan) {
     set3(6, scene->sky.horizon * sky);
     glUniform1f(7, static_cast<float>(scene->medium.g));
     glUniform1i(8, scene->medium.phase == PhaseFunction::kCornetteShanks ? 1 : 0);
+    const LightSources sources = light_sources(scene, plan);
+    set3(11, sources.sun + sources.above + sources.below);
     glUniform1i(9, plan.on(Effect::kViewExtinction) ? 1 : 0);
     glUniform1i(10, scene->image.background == Background::kSky ? 1 : 0);
 }
@@ -83,8 +85,17 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
             items.bind(2);
             picture.bind(3);
             glUniform4i(0, region.x, region.y, region.width, region.height);
-            glDispatchCompute(static_cast<GLuint>(region.width), static_cast<GLuint>(region.height),
-                              1);
+            const std::uint32_t longest = std::max(region.longest_list(), 1u);
+            for (std::uint32_t first = 0; first < longest; first += gl::kMaxRun) {
+                if (auto error = deadline.over()) return error;
+                const bool last = longest - first <= gl::kMaxRun;
+                glUniform3i(12, static_cast<GLint>(first), static_cast<GLint>(gl::kMaxRun),
+                            last ? 1 : 0);
+                glDispatchCompute(static_cast<GLuint>(region.width),
+                                  static_cast<GLuint>(region.height), 1);
+                glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+                if (!last) glFinish();
+            }
             picture.read(pixels.data(), pixels.size() * sizeof(float));
             copy_region(pixels, region, image);
             return gl::gl_status("the eye pass");

@@ -14,30 +14,11 @@
 namespace awan {
 namespace {
 
-constexpr double kMinReach = 4;          // of s
-constexpr double kFaintDepth = 1e-3;     // optical depth at which a dense particle may be cut
-constexpr double kMinWidthPixels = 0.5;  // of s
-constexpr double kCloseReaches = 2;      // an eye within so many reaches needs the half line
-
-// Light of unit colour and full strength, per channel.
-struct Sources {
-    glm::dvec3 sun;    // direct and scattered: sun irradiance / 4 pi
-    glm::dvec3 above;  // upper half of the sky: its share of the mean radiance
-    glm::dvec3 below;
-    double albedo;
-};
-
-Sources sources_of(const Scene& scene, const Plan& plan) {
-    const Sky& sky = scene->sky;
-    Sources sources{scene->sun.color * (scene->sun.intensity / (4 * std::numbers::pi)),
-                    glm::dvec3(0), glm::dvec3(0), scene->medium.albedo};
-    if (plan.on(Effect::kSkyLight)) {
-        sources.above =
-            0.5 * sky.intensity * glm::dvec3(shader::sky_mean_above(sky.zenith, sky.horizon));
-        sources.below = 0.5 * sky.intensity * sky.horizon;
-    }
-    return sources;
-}
+constexpr double kMinReach = 4;       // of s
+constexpr double kFaintDepth = 1e-3;  // optical depth at which a dense particle may be cut
+constexpr double kMinWidthPixels =
+    0.6;  // of s: sampled at pixel centres it sums to its whole within 1%
+constexpr double kCloseReaches = 2;  // an eye within so many reaches needs the half line
 
 // A particle in the eye's frame.
 struct Seen {
@@ -102,7 +83,7 @@ Seen see(const Scene& scene, const ParticleSet& particles, std::size_t i, const 
     seen.distance = glm::length(seen.q);
     const double own_s = 0.5 * static_cast<double>(particles.radius[i]);
     const double pixel = 2 * view.tan_half_fov / scene->image.height;
-    seen.s = std::max({own_s, kMinWidthPixels * pixel * seen.distance, 1e-12});
+    seen.s = std::max({own_s, kMinWidthPixels * pixel * std::max(0.0, seen.q.z), 1e-12});
     seen.widened = seen.s > own_s;
     const double thinned = (own_s / seen.s) * (own_s / seen.s);
     seen.tau = thinned * static_cast<double>(particles.density[i]) * own_s *
@@ -123,18 +104,13 @@ glm::vec4 from_eye(glm::dvec4 f, const View& view, glm::dvec3 q) {
     return glm::vec4(glm::dvec4(turned, f.w - glm::dot(turned, q)));
 }
 
-// Keeps a fraction of a light from passing 1 where most of the particle is; the shader keeps it
-// from passing 0.
-glm::dvec4 bounded(glm::vec4 light, const Seen& seen) {
-    glm::dvec4 f(light);
-    const double rise = 2.5 * seen.s * glm::length(glm::dvec3(f));
-    const double room = std::max(0.0, 1 - f.w);
-    const double keep = seen.widened ? 0 : rise > room ? room / rise : 1;  // a speck has one light
-    return {keep * glm::dvec3(f), f.w};
+// A speck, drawn wider than it is, has one light.
+glm::dvec4 over(glm::vec4 light, const Seen& seen) {
+    return seen.widened ? glm::dvec4(0, 0, 0, light.w) : glm::dvec4(light);
 }
 
 Splat make_splat(const Seen& seen, glm::dvec3 color, const ParticleLight* lit, const View& view,
-                 const Sources& sources) {
+                 const LightSources& sources) {
     Splat splat{};
     // Straight above or below the eye a column of pixels has no nearest row; a hair beside it has.
     const bool vertical = seen.q.x * seen.q.x + seen.q.z * seen.q.z < 1e-10 * seen.q.y * seen.q.y;
@@ -146,10 +122,10 @@ Splat make_splat(const Seen& seen, glm::dvec3 color, const ParticleLight* lit, c
 
     glm::dvec4 direct(0, 0, 0, 1), scattered(0), above(0, 0, 0, 1), below(0, 0, 0, 1);
     if (lit != nullptr) {
-        direct = bounded(lit->direct, seen);
-        scattered = bounded(lit->scattered, seen);
-        above = bounded(lit->from_above, seen);
-        below = bounded(lit->from_below, seen);
+        direct = over(lit->direct, seen);
+        scattered = over(lit->scattered, seen);
+        above = over(lit->from_above, seen);
+        below = over(lit->from_below, seen);
     }
     splat.direct = from_eye(direct, view, seen.q);
     const auto channel = [&](int k) {
@@ -187,9 +163,21 @@ void radix_sort(std::vector<std::uint64_t>& keys) {
 
 }  // namespace
 
+LightSources light_sources(const Scene& scene, const Plan& plan) {
+    const Sky& sky = scene->sky;
+    LightSources sources{scene->sun.color * (scene->sun.intensity / (4 * std::numbers::pi)),
+                         glm::dvec3(0), glm::dvec3(0), scene->medium.albedo};
+    if (plan.on(Effect::kSkyLight)) {
+        sources.above =
+            0.5 * sky.intensity * glm::dvec3(shader::sky_mean_above(sky.zenith, sky.horizon));
+        sources.below = 0.5 * sky.intensity * sky.horizon;
+    }
+    return sources;
+}
+
 SplatList make_splats(const Scene& scene, const ParticleSet& particles, const View& view,
                       const Plan& plan, const Lighting& lighting) {
-    const Sources sources = sources_of(scene, plan);
+    const LightSources sources = light_sources(scene, plan);
     std::vector<Seen> seen(particles.size());
     std::vector<std::uint64_t> order;
     order.reserve(particles.size());

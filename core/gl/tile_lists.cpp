@@ -101,6 +101,13 @@ struct Cutter {
 
 }  // namespace
 
+std::uint32_t TileRegion::longest_list() const {
+    std::uint32_t longest = 0;
+    for (std::size_t tile = 0; tile + 1 < begin.size(); ++tile)
+        longest = std::max(longest, begin[tile + 1] - begin[tile]);
+    return longest;
+}
+
 Status for_each_region(std::span<const TileBox> boxes, int width, int height, int layers,
                        std::uint64_t max_entries, std::uint64_t max_tiles, const Deadline& deadline,
                        const std::function<Status(const TileRegion&)>& visit) {

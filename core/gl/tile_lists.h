@@ -27,7 +27,13 @@ struct TileRegion {
     int x = 0, y = 0, width = 0, height = 0;
     std::vector<std::uint32_t> begin;
     std::vector<std::uint32_t> items;
+
+    std::uint32_t longest_list() const;
 };
+
+// A shader may walk so many entries of a list in one dispatch; the rest wants another. llvmpipe
+// ends every loop after 65,535 rounds, without a word.
+inline constexpr std::uint32_t kMaxRun = 60'000;
 
 // Cuts a raster of width x height x layers tiles into regions with at most max_entries list entries
 // and max_tiles tiles each (a single tile may have more entries) and calls visit for each of them.

@@ -17,7 +17,7 @@ constexpr int kTile = 8;  // texels a side, as in light_columns.glsl
 constexpr double kSpread = 1.88;
 constexpr std::uint64_t kMaxEntries =
     1u << 21;  // about half a second of llvmpipe between looks at the deadline
-constexpr float kCornerDistance =
+constexpr float kSampleDistance =
     1.2F;  // of the sample points, in s: where most of a particle's mass is
 
 struct GpuParticle {
@@ -89,7 +89,7 @@ Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const One
         placed[i] = on.gpu;
         tiles[i] = on.tiles;
         points[i] =
-            glm::vec4(glm::vec3(on.gpu.place), kCornerDistance * 0.5F * particles.radius[i]);
+            glm::vec4(glm::vec3(on.gpu.place), kSampleDistance * 0.5F * particles.radius[i]);
     }
 
     const Device::Programs& programs = device.programs();
@@ -109,9 +109,16 @@ Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const One
             volume.bind(3);
             glUniform3i(0, cells.x, cells.y, cells.z);
             glUniform4i(1, region.x, region.y, region.width, region.height);
-            glDispatchCompute(static_cast<GLuint>(region.width), static_cast<GLuint>(region.height),
-                              static_cast<GLuint>(cells.z / kTile));
-            glFinish();
+            const std::uint32_t longest = std::max(region.longest_list(), 1u);
+            for (std::uint32_t first = 0; first < longest; first += gl::kMaxRun) {
+                if (auto error = deadline.over()) return error;
+                glUniform2i(2, static_cast<GLint>(first), static_cast<GLint>(gl::kMaxRun));
+                glDispatchCompute(static_cast<GLuint>(region.width),
+                                  static_cast<GLuint>(region.height),
+                                  static_cast<GLuint>(cells.z / kTile));
+                glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+                glFinish();
+            }
             return std::nullopt;
         });
     if (status) return *status;

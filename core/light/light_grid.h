@@ -21,10 +21,13 @@ struct LightGrid {
 inline constexpr int kMaxLightTexels = 256;  // a side: 256 x 256 x 64 x 8 bytes are 32 MiB
 inline constexpr int kMinLightTexels = 16;
 inline constexpr int kMaxLightSlabs = 64;
-inline constexpr double kTexelsPerS = 1.0;  // texels in the typical s
+// Texels in the typical (root mean square) s. A Gaussian is interpolated within 3% at 2, within 12%
+// at 1. The finest of these that keeps the work below kMaxLightWork bricks (of 8 x 8 x 8 cells, a
+// particle each), else the coarsest.
+inline constexpr double kTexelsPerS[] = {2, 1.5, 1.2, 1};
+inline constexpr double kMaxLightWork = 30'000;  // about 15 ms of one llvmpipe core
 
-// Holds every particle out to 4 s. Its resolution follows the root mean square s. particles is not
-// empty.
+// Holds every particle out to 4 s. particles is not empty.
 LightGrid light_grid(const ParticleSet& particles, glm::dvec3 to_light);
 
 }  // namespace awan

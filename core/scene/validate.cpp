@@ -109,6 +109,12 @@ Error too_far(std::string pointer) {
                        " from the origin after the cloud's scale, rotate_y and translate");
 }
 
+// Ready radii are float32, and the smallest one allowed rounds to just below itself.
+double as_written(float radius) {
+    return radius == static_cast<float>(limits::kMinRadius) ? limits::kMinRadius
+                                                            : static_cast<double>(radius);
+}
+
 template <typename Pointer>
 Status scaled_radius(double radius, double scale, Pointer pointer) {
     const double scaled = radius * scale;
@@ -179,10 +185,10 @@ Status check_ready(const ReadyParticles& ready, const Placement& placement, doub
     }
     for (std::size_t i = 0; i < n; ++i) {
         const auto pointer = [&] { return element("/radii/", i); };
-        if (Status wrong =
-                in_range(ready.radii[i], limits::kMinRadius, limits::kMaxRadius, pointer))
+        const double radius = as_written(ready.radii[i]);
+        if (Status wrong = in_range(radius, limits::kMinRadius, limits::kMaxRadius, pointer))
             return wrong;
-        if (Status wrong = scaled_radius(ready.radii[i], placement.scale, pointer)) return wrong;
+        if (Status wrong = scaled_radius(radius, placement.scale, pointer)) return wrong;
     }
     for (std::size_t i = 0; i < ready.densities.size(); ++i) {
         const auto pointer = [&] { return element("/densities/", i); };

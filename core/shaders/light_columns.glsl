@@ -15,10 +15,11 @@ layout(local_size_x = 8) in;
 layout(binding = 0) uniform samplerBuffer particles;
 layout(std430, binding = 1) readonly buffer TileBegin { uint tile_begin[]; };
 layout(std430, binding = 2) readonly buffer TileItems { uint tile_items[]; };
-layout(std430, binding = 3) writeonly buffer Volume { vec2 volume[]; };  // plain, with gain
+layout(std430, binding = 3) buffer Volume { vec2 volume[]; };  // plain, with gain
 
 layout(location = 0) uniform ivec3 cells;   // texels u, texels v, slabs
 layout(location = 1) uniform ivec4 region;  // of tiles: first u, first v, count u, count v
+layout(location = 2) uniform ivec2 run;     // first and count of the list entries to add now
 
 // Part of a Gaussian's mass before depth z, x = (z - centre) / (2 kSpread s): a smooth step in place of the error
 // function, within .02 of it.
@@ -44,12 +45,14 @@ void add(inout Cells c, float share, vec4 plain_a, vec4 plain_b, vec4 gained_a, 
     c.gained_b += share * gained_b;
 }
 
+void put(int at, vec2 depth) { volume[at] = run.x > 0 ? volume[at] + depth : depth; }
+
 void put(int u, int v, int slab, vec4 plain, vec4 gain) {
     int at = (slab * cells.y + v) * cells.x + u;
-    if (v < cells.y) volume[at] = vec2(plain.x, gain.x);
-    if (v + 1 < cells.y) volume[at + cells.x] = vec2(plain.y, gain.y);
-    if (v + 2 < cells.y) volume[at + 2 * cells.x] = vec2(plain.z, gain.z);
-    if (v + 3 < cells.y) volume[at + 3 * cells.x] = vec2(plain.w, gain.w);
+    if (v < cells.y) put(at, vec2(plain.x, gain.x));
+    if (v + 1 < cells.y) put(at + cells.x, vec2(plain.y, gain.y));
+    if (v + 2 < cells.y) put(at + 2 * cells.x, vec2(plain.z, gain.z));
+    if (v + 3 < cells.y) put(at + 3 * cells.x, vec2(plain.w, gain.w));
 }
 
 void put(int u, int v, int slab, Cells c) {
@@ -69,8 +72,9 @@ void main() {
     Cells c0 = none, c1 = none, c2 = none, c3 = none, c4 = none, c5 = none, c6 = none, c7 = none;
 
     int list = (tile.z * region.w + tile.y) * region.z + tile.x;
-    uint end = tile_begin[list + 1];
-    for (uint i = tile_begin[list]; i < end; ++i) {
+    uint first = tile_begin[list] + uint(run.x);
+    uint end = min(tile_begin[list + 1], first + uint(run.y));
+    for (uint i = first; i < end; ++i) {
         int at = int(tile_items[i]) * 2;
         vec4 place = texelFetch(particles, at);
         vec4 matter = texelFetch(particles, at + 1);

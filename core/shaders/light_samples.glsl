@@ -1,11 +1,11 @@
 // Pass 1, step 3: the light on each particle, as a value at its centre and a gradient.
 //
-// Four points around the centre, the corners of a regular tetrahedron at distance r: the mean of their values is the
-// value, and 3 / (4 r^2) sum(value * corner) the gradient of the linear function through them.
+// Six points around the centre, at distance r along the scene's axes: the mean of their values is the value, and half the
+// difference of two opposite ones over r the gradient.
 layout(local_size_x = 64) in;
 
 struct SamplePoint {
-    vec4 place;  // u, v (texels), depth (slabs) of the centre; distance r of the corners, scene units
+    vec4 place;  // u, v (texels), depth (slabs) of the centre; distance r of the points, scene units
 };
 layout(std430, binding = 0) readonly buffer Points { SamplePoint points[]; };
 layout(std430, binding = 1) readonly buffer Volume { vec2 volume[]; };
@@ -46,18 +46,14 @@ void main() {
     int i = int(gl_GlobalInvocationID.x);
     if (i >= count) return;
     vec4 point = points[i].place;
-    float corner = point.w * 0.57735027;
-    vec2 mean = vec2(0.0);
-    vec3 slope_a = vec3(0.0), slope_b = vec3(0.0);
-    for (int c = 0; c < 4; ++c) {
-        vec3 offset = corner * vec3(c == 0 || c == 1 ? 1.0 : -1.0, c == 0 || c == 2 ? 1.0 : -1.0,
-                                    c == 0 || c == 3 ? 1.0 : -1.0);
-        vec2 value = light_at(point.xyz + vec3(dot(axis_u, offset), dot(axis_v, offset), dot(axis_depth, offset)));
-        mean += 0.25 * value;
-        slope_a += value.x * offset;
-        slope_b += value.y * offset;
-    }
-    float scale = point.w > 0.0 ? 0.75 / (point.w * point.w) : 0.0;
-    samples[2 * i] = vec4(slope_a * scale, mean.x);
-    samples[2 * i + 1] = vec4(slope_b * scale, mean.y);
+    vec3 step_x = point.w * vec3(axis_u.x, axis_v.x, axis_depth.x);
+    vec3 step_y = point.w * vec3(axis_u.y, axis_v.y, axis_depth.y);
+    vec3 step_z = point.w * vec3(axis_u.z, axis_v.z, axis_depth.z);
+    vec2 right = light_at(point.xyz + step_x), left = light_at(point.xyz - step_x);
+    vec2 above = light_at(point.xyz + step_y), below = light_at(point.xyz - step_y);
+    vec2 front = light_at(point.xyz + step_z), back = light_at(point.xyz - step_z);
+    vec2 mean = (right + left + above + below + front + back) / 6.0;
+    float scale = point.w > 0.0 ? 0.5 / point.w : 0.0;
+    samples[2 * i] = vec4(scale * vec3(right.x - left.x, above.x - below.x, front.x - back.x), mean.x);
+    samples[2 * i + 1] = vec4(scale * vec3(right.y - left.y, above.y - below.y, front.y - back.y), mean.y);
 }

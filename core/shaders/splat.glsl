@@ -23,7 +23,7 @@ struct Splat {
 layout(binding = 0) uniform samplerBuffer splats;
 layout(std430, binding = 1) readonly buffer TileBegin { uint tile_begin[]; };
 layout(std430, binding = 2) readonly buffer TileItems { uint tile_items[]; };
-layout(std430, binding = 3) writeonly buffer Picture { vec4 picture[]; };
+layout(std430, binding = 3) buffer Picture { vec4 picture[]; };
 
 layout(location = 0) uniform ivec4 region;    // of tiles: first x, first y, count x, count y
 layout(location = 1) uniform ivec2 size;      // of the whole picture, pixels
@@ -36,6 +36,8 @@ layout(location = 7) uniform float g;
 layout(location = 8) uniform bool is_cornette_shanks;
 layout(location = 9) uniform bool extinguish;  // effect view_extinction
 layout(location = 10) uniform bool opaque;     // the sky behind
+layout(location = 12) uniform ivec3 run;       // first and count of the list entries to blend now; 1 when they are the last
+layout(location = 11) uniform vec3 most;       // radiance that no particle can pass: white, in full light
 
 // Below this transmittance the rest of the list is skipped: what is behind can add no more than a ten-thousandth of itself,
 // a fifth of a half float's last place.
@@ -123,12 +125,16 @@ void blend(Splat p, Column k, inout Pixels px) {
     vec4 weight = extinguish ? px.left * alpha : alpha;
     px.left -= px.left * alpha;
     vec4 direct = clamp(k.direct.x + k.direct.y * px.Y, 0.0, 1.0) * px.phase;
-    px.red += weight * (max(k.red.x + k.red.y * px.Y, 0.0) + direct * p.matter.x);
-    px.green += weight * (max(k.green.x + k.green.y * px.Y, 0.0) + direct * p.matter.y);
-    px.blue += weight * (max(k.blue.x + k.blue.y * px.Y, 0.0) + direct * p.matter.z);
+    px.red += weight * (clamp(k.red.x + k.red.y * px.Y, 0.0, most.x) + direct * p.matter.x);
+    px.green += weight * (clamp(k.green.x + k.green.y * px.Y, 0.0, most.y) + direct * p.matter.y);
+    px.blue += weight * (clamp(k.blue.x + k.blue.y * px.Y, 0.0, most.z) + direct * p.matter.z);
 }
 
 void put(int at, float X, float Y, float per_d2, float left, vec3 color) {
+    if (run.z == 0) {  // to be continued: transmittance instead of opacity, nothing behind
+        picture[at] = vec4(color, left);
+        return;
+    }
     float alpha = 1.0 - left;
     if (opaque) {
         float up = (vertical.x * X + vertical.y * Y + vertical.z) * sqrt(per_d2);
@@ -145,6 +151,14 @@ void put(int at, int stride, float X, Pixels px) {
     put(at + 3 * stride, X, px.Y.w, px.per_d2.w, px.left.w, vec3(px.red.w, px.green.w, px.blue.w));
 }
 
+void resume(int at, int stride, inout Pixels px) {
+    vec4 a = picture[at], b = picture[at + stride], c = picture[at + 2 * stride], d = picture[at + 3 * stride];
+    px.red = vec4(a.x, b.x, c.x, d.x);
+    px.green = vec4(a.y, b.y, c.y, d.y);
+    px.blue = vec4(a.z, b.z, c.z, d.z);
+    px.left = vec4(a.w, b.w, c.w, d.w);
+}
+
 void main() {
     ivec2 tile = ivec2(gl_WorkGroupID.xy);
     ivec2 pixel = (region.xy + tile) * ivec2(8, 16) + ivec2(int(gl_LocalInvocationID.x), 0);
@@ -152,9 +166,19 @@ void main() {
     Pixels p0 = look(X, float(pixel.y)), p1 = look(X, float(pixel.y + 4));
     Pixels p2 = look(X, float(pixel.y + 8)), p3 = look(X, float(pixel.y + 12));
 
+    int stride = region.z * 8;
+    int at = tile.y * 16 * stride + tile.x * 8 + int(gl_LocalInvocationID.x);
+    if (run.x > 0) {
+        resume(at, stride, p0);
+        resume(at + 4 * stride, stride, p1);
+        resume(at + 8 * stride, stride, p2);
+        resume(at + 12 * stride, stride, p3);
+    }
+
     int list = tile.y * region.z + tile.x;
-    uint end = tile_begin[list + 1];
-    for (uint i = tile_begin[list]; i < end; ++i) {
+    uint first = tile_begin[list] + uint(run.x);
+    uint end = min(tile_begin[list + 1], first + uint(run.y));
+    for (uint i = first; i < end; ++i) {
         Splat p = fetch(int(tile_items[i]) * 6);
         Column k = on_column(p, X, p3.Y.w, p0.Y.x);
         blend(p, k, p0);
@@ -162,14 +186,11 @@ void main() {
         blend(p, k, p2);
         blend(p, k, p3);
         if (extinguish && (i & 7u) == 7u) {
-            vec4 most = max(max(p0.left, p1.left), max(p2.left, p3.left));
-            if (max(max(most.x, most.y), max(most.z, most.w)) < kOpaque) break;
+            vec4 rest = max(max(p0.left, p1.left), max(p2.left, p3.left));
+            if (max(max(rest.x, rest.y), max(rest.z, rest.w)) < kOpaque) break;
         }
     }
 
-    if (pixel.x >= size.x) return;
-    int stride = region.z * 8;
-    int at = tile.y * 16 * stride + tile.x * 8 + int(gl_LocalInvocationID.x);
     put(at, stride, X, p0);
     put(at + 4 * stride, stride, X, p1);
     put(at + 8 * stride, stride, X, p2);

@@ -1,0 +1,188 @@
+// Both passes against the plain methods, and what share of the bare arithmetic they reach.
+//   build/release/tests/passes_bench
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "core/draw/draw.h"
+#include "core/light/light.h"
+#include "core/parallel.h"
+#include "core/scene/validate.h"
+#include "tests/bench/baselines.h"
+#include "tests/bench/paired.h"
+#include "tests/scenes.h"
+
+namespace awan {
+namespace {
+
+// Table 4.4's shape (its large cubes) with `count` particles whose splats have the size that keeps
+// a cloud of so many particles whole; 800 x 600, one sun, no sky: one light pass and one eye pass,
+// as in the papers.
+SceneDraft cloud_of(std::uint64_t count) {
+    SceneDraft draft = test::table_4_4();
+    const double times = static_cast<double>(count) / 460;
+    for (Cube& cube : draft.clouds[0].cubes) {
+        cube.particles = static_cast<std::uint64_t>(static_cast<double>(cube.particles) * times);
+        cube.radius *= std::cbrt(1.4 / times);
+    }
+    draft.density = 0.2 * std::cbrt(times);
+    draft.sky.none = true;
+    draft.image.background = Background::kTransparent;
+    return draft;
+}
+
+struct Setting {
+    Scene scene;
+    Planned planned;
+    Lighting lighting;
+    SplatList splats;
+    glm::dvec3 sun_in_frame;
+};
+
+Setting set_up(std::uint64_t count) {
+    Scene scene = test::valid(cloud_of(count));
+    Planned planned = *plan_scene(scene, 2, {});
+    Lighting lighting = *light(scene, planned.particles, planned.plan, test::device(), {});
+    SplatList splats =
+        make_splats(scene, planned.particles, planned.survey.view, planned.plan, lighting);
+    const View& view = planned.survey.view;
+    const glm::dvec3 sun = sun_direction(scene->sun);
+    const glm::dvec3 in_frame(glm::dot(sun, view.right), glm::dot(sun, view.up),
+                              glm::dot(sun, view.forward));
+    return {std::move(scene), std::move(planned), std::move(lighting), std::move(splats), in_frame};
+}
+
+bench::QuadSplats quads_of(const Setting& set) {
+    const View& view = set.planned.survey.view;
+    return {set.splats,
+            800,
+            600,
+            view.tan_half_fov * view.aspect,
+            view.tan_half_fov,
+            set.sun_in_frame,
+            set.scene->medium.g};
+}
+
+void run_light(const Setting& set) {
+    benchmark::DoNotOptimize(
+        light(set.scene, set.planned.particles, set.planned.plan, test::device(), {}));
+}
+void run_draw(const Setting& set) {
+    benchmark::DoNotOptimize(draw(set.scene, set.planned.particles, set.planned.survey.view,
+                                  set.planned.plan, set.lighting, test::device(), {}));
+}
+
+double gain_of(const Scene& scene) {
+    return scene->medium.albedo * gathering_fraction(scene->medium, std::numbers::pi / 2);
+}
+
+void BothPassesAgainstOneReadbackAParticle(benchmark::State& state) {
+    const Setting set = set_up(static_cast<std::uint64_t>(state.range(0)));
+    bench::ReadbackLight readback(set.planned.particles, sun_direction(set.scene->sun),
+                                  gain_of(set.scene));
+    bench::QuadSplats quads = quads_of(set);
+    bench::paired(
+        state,
+        [&] {
+            run_light(set);
+            run_draw(set);
+        },
+        [&] {
+            readback.run();
+            quads.run();
+        });
+    state.counters["Mfragments"] = quads.fragments() / 1e6;
+}
+BENCHMARK(BothPassesAgainstOneReadbackAParticle)
+    ->Arg(1000)
+    ->Arg(10000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(7);
+
+void LightPassAgainstOneReadbackAParticle(benchmark::State& state) {
+    const Setting set = set_up(static_cast<std::uint64_t>(state.range(0)));
+    bench::ReadbackLight readback(set.planned.particles, sun_direction(set.scene->sun),
+                                  gain_of(set.scene));
+    bench::paired(
+        state, [&] { run_light(set); }, [&] { readback.run(); });
+}
+BENCHMARK(LightPassAgainstOneReadbackAParticle)
+    ->Arg(1000)
+    ->Arg(10000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(7);
+
+void EyePassAgainstInstancedQuads(benchmark::State& state) {
+    const Setting set = set_up(static_cast<std::uint64_t>(state.range(0)));
+    bench::QuadSplats quads = quads_of(set);
+    bench::paired(
+        state, [&] { run_draw(set); }, [&] { quads.run(); });
+    state.counters["Mfragments"] = quads.fragments() / 1e6;
+}
+BENCHMARK(EyePassAgainstInstancedQuads)
+    ->Arg(1000)
+    ->Arg(10000)
+    ->Arg(50000)
+    ->Arg(200000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(7);
+
+// The bare arithmetic of the fragments that matter (circles of 4 s, before the cloud is opaque is
+// not counted off): per fragment two exponentials and the blend of four channels, sixteen lanes at
+// a time where the machine has them.
+#ifndef AWAN_SANITIZED
+__attribute__((target_clones("avx512f", "avx2", "default")))
+#endif
+float blend_row(float* left, float* light, int count, float start, float step, float tau) {
+    for (int i = 0; i < count; ++i) {
+        const float x = start + step * static_cast<float>(i);
+        // exp(-y) = 2^(-y log2 e) by exponent bits and a cubic
+        const auto power = [](float y) {
+            y = y < -80 ? -80 : y;
+            const float f = y * 1.442695F;
+            const int whole = static_cast<int>(f) - 1;
+            const float r = f - static_cast<float>(whole);
+            const float p = 1 + r * (0.6951786F + r * (0.2276402F + r * 0.0781478F));
+            const int bits = std::bit_cast<int>(p) + (whole << 23);
+            return std::bit_cast<float>(bits);
+        };
+        const float depth = tau * power(-x * x);
+        const float alpha = 1 - power(-depth);
+        light[i] += left[i] * alpha * (0.5F + 0.1F * x) * 4;
+        left[i] -= left[i] * alpha;
+    }
+    return left[count / 2];
+}
+
+void EyePassAgainstArithmeticFloor(benchmark::State& state) {
+    const Setting set = set_up(static_cast<std::uint64_t>(state.range(0)));
+    const double fragments = quads_of(set).fragments() * std::numbers::pi / 4;
+    const auto rows = static_cast<std::size_t>(fragments / 64);
+    bench::paired(
+        state, [&] { run_draw(set); },
+        [&] {
+            parallel_for(2, 2, [&](std::size_t) {
+                std::vector<float> left(64, 1.F), light(64, 0.F);
+                for (std::size_t r = 0; r < rows / 2; ++r)
+                    benchmark::DoNotOptimize(
+                        blend_row(left.data(), light.data(), 64, -3.F, 0.1F, 1e-6F));
+            });
+        });
+    state.counters["share_of_floor"] = state.counters["baseline_ms"] / state.counters["ours_ms"];
+}
+BENCHMARK(EyePassAgainstArithmeticFloor)
+    ->Arg(10000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(7);
+
+}  // namespace
+}  // namespace awan
+
+BENCHMARK_MAIN();
