@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 
 #include "server/http_state.h"
@@ -18,6 +19,9 @@ namespace awan {
 namespace {
 
 using Clock = Connection::Clock;
+
+// How long no connection is accepted after there were no descriptors for one.
+constexpr std::chrono::milliseconds kAcceptPause{100};
 
 // Connections beyond the table, kept just long enough to tell them so.
 constexpr std::size_t kTurnedAway = 32;
@@ -58,8 +62,11 @@ void HttpServer::State::poll_once() {
     std::vector<pollfd> polled;
     std::vector<Connection*> whose;
     polled.push_back({wake.get(), POLLIN, 0});
-    polled.push_back({listener.get(), POLLIN, 0});  // -1 while draining: poll passes over it
+    // poll passes over -1: no listener while draining, and none while it must wait.
+    const bool accepting = Clock::now() >= accept_after;
+    polled.push_back({accepting ? listener.get() : -1, POLLIN, 0});
     Clock::time_point soonest = draining ? drain_until : Clock::time_point::max();
+    if (!accepting) soonest = std::min(soonest, accept_after);
     for (Connection& c : connections) {
         short events = POLLIN;
         if (c.stand == Stand::kWriting) events = POLLOUT;
@@ -150,7 +157,13 @@ void HttpServer::State::take_back_done() {
 void HttpServer::State::accept_all() {
     for (;;) {
         Descriptor socket(accept4(listener.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-        if (socket.get() < 0) return;
+        if (socket.get() < 0) {
+            // Out of descriptors or memory: the connection stays in the backlog, and poll would
+            // report it at once, again and again.
+            if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR && errno != ECONNABORTED)
+                accept_after = Clock::now() + kAcceptPause;
+            return;
+        }
         const int on = 1;
         setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
         const bool full = connections.size() >= options.max_connections && !make_room();

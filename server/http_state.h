@@ -41,6 +41,7 @@ struct HttpServer::State {
     std::atomic<std::size_t> parked{0};  // workers count too
     bool draining = false;
     Clock::time_point drain_until;
+    Clock::time_point accept_after;
     Workers<Connection*>* workers = nullptr;
     std::mutex done_mutex;
     struct Done {

@@ -10,6 +10,7 @@
 #include "core/pipeline.h"
 #include "core/scene/limits.h"
 #include "server/cli.h"
+#include "server/problem.h"
 
 namespace {
 
@@ -69,7 +70,6 @@ Run add_serve(CLI::App& app) {
     command->working = static_cast<std::size_t>(processors());
     auto listen = std::make_shared<std::string>("127.0.0.1:8080");
     CLI::App* serve = app.add_subcommand("serve", "answer HTTP");
-    serve->configurable();
     serve->fallthrough();  // --config is the program's, and may stand after `serve`
     add(*serve, "--listen", *listen, "host:port, [v6]:port, host or port; port 0 is any free one")
         ->check([](const std::string& text) {
@@ -158,7 +158,13 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", std::string("awan ") + engine_version());
     app.require_subcommand(1);
     app.config_formatter(std::make_shared<ServeConfig>());
-    app.set_config("--config", "", "flags of serve, one a line: queue = 4")->envname("AWAN_CONFIG");
+    // CLI11 reads the file before the environment, so this variable is looked up here. A file that
+    // is named must be there.
+    const char* const config = std::getenv("AWAN_CONFIG");
+    const bool named = config != nullptr && *config != '\0';
+    app.set_config("--config", named ? config : "",
+                   "flags of serve, one a line: queue = 4 (Env:AWAN_CONFIG)", named);
+    app.allow_config_extras(CLI::config_extras_mode::error);
 
     const std::pair<const char*, Run> commands[] = {{"serve", add_serve(app)},
                                                     {"render", add_render(app)},
@@ -170,7 +176,8 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         const bool help = e.get_exit_code() == 0;
         app.exit(e);
-        return help ? kExitFine : kExitUsage;
+        if (help) return kExitFine;
+        return dynamic_cast<const CLI::FileError*>(&e) ? exit_code_of(ErrorCode::kIo) : kExitUsage;
     }
     try {
         for (const auto& [name, run] : commands)

@@ -73,10 +73,10 @@ class FakeRenderer {
     std::shared_ptr<State> state_ = std::make_shared<State>();
 };
 
-// Waits until `condition` holds, at most five seconds.
+// Waits until `condition` holds, at most twenty seconds: sanitizers are slow.
 template <typename Condition>
 bool eventually(Condition condition) {
-    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (!condition()) {
         if (std::chrono::steady_clock::now() > until) return false;
         std::this_thread::sleep_for(std::chrono::milliseconds(2));

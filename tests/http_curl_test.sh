@@ -140,13 +140,21 @@ wait "$client"
 same "what was in flight" "200 200001" "$(cat "$work/status") $(wc -l <"$work/last")"
 
 # --- settings: flags, then the environment, then the file
-printf 'queue = 3\nallow-host = ["file.example", "other.example"]\n' >"$work/awan.conf"
-start --software --config "$work/awan.conf"
+printf '[serve]\nsoftware = true\nqueue = 3\nallow-host = ["file.example", "other.example"]\n' >"$work/awan.conf"
+AWAN_CONFIG="$work/awan.conf" start
 same "host of the file" 200 "$(code -H 'Host: other.example' "$url/healthz")"
 stop 0 INT
+same "the file is for serve only" 0 "$(AWAN_CONFIG="$work/awan.conf" "$awan" plan "$work/long.json" >/dev/null; echo $?)"
 AWAN_ALLOW_HOST=env.example start --software --config "$work/awan.conf"
 same "host of the environment" 200 "$(code -H 'Host: env.example:80' "$url/healthz")"
 same "host of the file, overruled" 421 "$(code -H 'Host: file.example' "$url/healthz")"
 stop 0 TERM
+
+"$awan" serve --config "$work/none.conf" 2>"$work/second"
+same "file that is not there" 5 "$?"
+printf 'queeu = 3\n' >"$work/wrong.conf"
+AWAN_CONFIG="$work/wrong.conf" "$awan" serve 2>"$work/second"
+same "unknown setting" 2 "$?"
+contains "unknown setting" "queeu" "$(cat "$work/second")"
 
 [ "$failures" -eq 0 ] && echo "all well" || exit 1

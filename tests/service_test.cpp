@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <thread>
 
 #include "core/embedded.h"
 #include "core/pipeline.h"
@@ -288,6 +289,19 @@ TEST_F(ServiceTest, PassedDeadlineIs504) {
     request.path = "/v1/render";
     expect_problem(service.answer(request), 504);
     EXPECT_EQ(renderer.begun(), 0);
+}
+
+TEST_F(ServiceTest, RenderWhoseDeadlinePassesInTheQueueNeverBegins) {
+    renderer.hold();
+    std::thread running(
+        [&] { EXPECT_EQ(service.answer(make_request("POST", "/v1/render", kScene)).status, 200); });
+    EXPECT_TRUE(eventually([&] { return renderer.begun() == 1; }));
+    Request late = make_request("POST", "/v1/render", kScene);
+    late.deadline.until = Deadline::Clock::now() + std::chrono::milliseconds(100);
+    expect_problem(service.answer(late), 504);
+    renderer.release();
+    running.join();
+    EXPECT_EQ(renderer.begun(), 1);
 }
 
 TEST_F(ServiceTest, NobodyIsAnsweredWhoHasGone) {
