@@ -81,8 +81,9 @@ TEST(Draw, AnEmptySceneIsItsBackground) {
     const Rendered rendered = render(draft);
     for (const int y : {0, 20, 47}) {
         const glm::dvec3 d = test::ray(rendered.survey.view, rendered.image, 30, y).direction;
+        const double up = std::max(0.0, d.y);
         const glm::dvec3 expected =
-            2.0 * glm::mix(draft.sky.horizon, draft.sky.zenith, std::sqrt(std::max(0.0, d.y)));
+            2.0 * glm::mix(draft.sky.horizon, draft.sky.zenith, 1.09 * up * up / (up * up + 0.09));
         const Pixel p = pixel(rendered.image, 30, y);
         EXPECT_NEAR(p.r, expected.x, 1e-5);
         EXPECT_NEAR(p.b, expected.z, 1e-5);
@@ -240,6 +241,7 @@ TEST(Light, WhiteFurnaceIsInvisibleWithoutShadow) {
     draft.medium.albedo = 1;
     draft.sun.intensity = 0;
     draft.sky.zenith = draft.sky.horizon = {1, 1, 1};
+    draft.sky.intensity = 1;
     draft.image.width = 64;
     draft.image.height = 48;
     effect(draft, Effect::kSelfShadow) = Switch::kOff;
@@ -253,6 +255,7 @@ TEST(Light, AFurnaceNeverExceedsOne) {
         draft.medium.albedo = 1;
         draft.sun.intensity = 0;
         draft.sky.zenith = draft.sky.horizon = {1, 1, 1};
+    draft.sky.intensity = 1;
         draft.image.width = 64;
         draft.image.height = 48;
         EXPECT_TRUE(all_finite(render(draft).image, 1.00002)) << density;
@@ -274,7 +277,7 @@ TEST(Light, TheRecurrenceOfHarris) {
     const auto lighting =
         light(test::valid(draft), planned->particles, planned->plan, test::device(), {});
     ASSERT_TRUE(lighting.ok());
-    const double gain = gathering_fraction(draft.medium, std::numbers::pi / 2);
+    const double gain = gathering_fraction(draft.medium, kSunGathering);
     for (std::size_t k = 0; k < depths.size(); ++k) {
         double direct = 0, whole = 0;
         for (int point = 0; point < 6; ++point) {

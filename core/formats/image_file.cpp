@@ -163,14 +163,14 @@ Result<std::string> encode_exr(const Image& image, Precision precision) {
 }
 
 double auto_exposure(const Sun& sun, const Sky& sky) {
-    // Mean of mix(horizon, zenith, sqrt(sin elevation)) over the upper hemisphere, weighted with
-    // the cosine to the zenith m: the integral of 2 m sqrt(m) over m = 0..1 is 4/5.
+    // Mean of the sky's radiance (core/shaders/sky.glsl) over the upper hemisphere, weighted with
+    // the cosine to the zenith u: the integral of 2 u 1.09 u^2 / (u^2 + .09) over u = 0..1 is 1.09
+    // (1 - .09 ln(1.09 / .09)).
     const double mean_sky =
-        sky.none ? 0.0 : sky.intensity * luminance(glm::mix(sky.horizon, sky.zenith, 0.8));
-    const double white_wall =
-        sun.intensity * luminance(sun.color) * std::numbers::inv_pi + mean_sky;
-    if (!(white_wall > 0)) return 0;  // no light: nothing to meter
-    return std::clamp(std::log2(static_cast<double>(metered_level()) / white_wall),
+        sky.none ? 0.0 : sky.intensity * luminance(glm::mix(sky.horizon, sky.zenith, 0.845326504));
+    const double cloud = sun.intensity * luminance(sun.color) / (4 * std::numbers::pi) + mean_sky;
+    if (!(cloud > 0)) return 0;  // no light: nothing to meter
+    return std::clamp(std::log2(static_cast<double>(metered_level()) / cloud),
                       -limits::kMaxExposure, limits::kMaxExposure);
 }
 

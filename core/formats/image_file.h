@@ -16,10 +16,10 @@ Result<std::string> encode_png(const Image& image, double exposure_stops);
 // Linear radiance, premultiplied alpha, channels R G B A, no tone curve, ZIP compression.
 Result<std::string> encode_exr(const Image& image, Precision precision);
 
-// Exposure in stops for "auto": that of an incident light meter. A white diffuse surface facing the
-// sun under this sky has radiance (sun irradiance + pi * mean sky radiance) / pi; it is brought to
-// kMeteredLevel before the tone curve. Depends on the lights only, so it does not flicker as a
-// camera moves.
+// Exposure in stops for "auto": what a photographer would meter on the sunlit side of a thick
+// cloud, as the two passes light it: radiance sun irradiance / 4 pi + mean sky radiance. It is
+// brought to kMeteredLevel before the tone curve. Depends on the lights only, so it does not
+// flicker as a camera moves.
 double auto_exposure(const Sun& sun, const Sky& sky);
 
 }  // namespace awan

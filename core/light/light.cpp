@@ -160,14 +160,16 @@ Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const P
                        Device& device, const Deadline& deadline) {
     Lighting lighting;
     if (!plan.on(Effect::kSelfShadow) || particles.size() == 0) return lighting;
-    const double gain =
-        plan.on(Effect::kMultipleScattering)
-            ? scene->medium.albedo * gathering_fraction(scene->medium, std::numbers::pi / 2)
-            : 0.0;
+    const auto gain = [&](double half_angle) {
+        return plan.on(Effect::kMultipleScattering)
+                   ? scene->medium.albedo * gathering_fraction(scene->medium, half_angle)
+                   : 0.0;
+    };
     const glm::vec4 full(0, 0, 0, 1), none(0);
     lighting.particles.assign(particles.size(), {full, none, full, full});
     if (scene->sun.intensity > 0) {
-        auto sun = one_light(particles, {sun_direction(scene->sun), gain, false}, device, deadline);
+        auto sun = one_light(particles, {sun_direction(scene->sun), gain(kSunGathering), false},
+                             device, deadline);
         if (!sun.ok()) return sun.error();
         for (std::size_t i = 0; i < particles.size(); ++i) {
             lighting.particles[i].direct = (*sun)[2 * i];
@@ -175,7 +177,7 @@ Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const P
         }
     }
     if (plan.on(Effect::kSkyLight)) {
-        auto sky = one_light(particles, {{0, 1, 0}, gain, true}, device, deadline);
+        auto sky = one_light(particles, {{0, 1, 0}, gain(kSkyGathering), true}, device, deadline);
         if (!sky.ok()) return sky.error();
         for (std::size_t i = 0; i < particles.size(); ++i) {
             lighting.particles[i].from_above = (*sky)[2 * i];

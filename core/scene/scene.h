@@ -71,12 +71,12 @@ struct Sun {
     double intensity = 40;    // irradiance at normal incidence
 };
 
-// Radiance `intensity * mix(horizon, zenith, sqrt(max(0, sin elevation)))` (core/shaders/sky.glsl).
+// Radiance `intensity * mix(horizon, zenith, f(sine of elevation))`, see core/shaders/sky.glsl.
 struct Sky {
     bool none = false;  // "none": black, no light
-    glm::dvec3 zenith{0.16, 0.32, 0.66};
-    glm::dvec3 horizon{0.62, 0.76, 0.92};
-    double intensity = 1;
+    glm::dvec3 zenith{0.09, 0.25, 0.72};
+    glm::dvec3 horizon{0.44, 0.67, 0.95};
+    double intensity = 1.7;
 };
 
 struct Ground {

@@ -10,7 +10,7 @@
 const float kToneKnee = 0.5f;   // display-linear; below it the curve is the identity
 const float kToneWhite = 8.0f;  // exposed radiance that becomes display white
 
-// Where automatic exposure puts a white diffuse surface that faces the sun, before the curve;
+// Where automatic exposure puts the sunlit side of a thick cloud, before the curve;
 // tone_curve(1.6) is 0.85, 237 of 255 in sRGB: white, with room for what is brighter.
 const float kMeteredLevel = 1.6f;
 

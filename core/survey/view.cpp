@@ -12,7 +12,7 @@ constexpr double kRadians = std::numbers::pi / 180.0;
 
 // "auto" stands at this azimuth and height over the cloud and leaves this margin around it.
 constexpr double kAutoAzimuth = 30 * kRadians;
-constexpr double kAutoElevation = 8 * kRadians;
+constexpr double kAutoElevation = -6 * kRadians;  // looking up a little, as one sees clouds
 constexpr double kAutoMargin = 1.08;
 constexpr double kAutoFov = 40;
 
