@@ -1,82 +1,15 @@
-// Requests and their answers, without sockets.
-#include "server/service.h"
-
+// Requests for scenes and their answers, without sockets.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 #include <thread>
 
-#include "core/embedded.h"
-#include "core/pipeline.h"
-#include "fake_renderer.h"
-#include "server/negotiation.h"
-#include "server/pages.h"
-#include "server/problem.h"
-#include "server/scene_text.h"
 #include "server/work_budget.h"
+#include "service_fixture.h"
 
 namespace awan::test {
 namespace {
-
-constexpr const char* kScene =
-    R"({"cubes":[{"particles":20,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],"seed":7,)"
-    R"("image":{"width":16,"height":8}})";
-
-using Headers = std::vector<std::pair<std::string, std::string>>;
-
-Request make_request(std::string method, std::string path, std::string body = "",
-                     Headers headers = {{"Content-Type", "application/json"}}) {
-    Request request;
-    request.method = std::move(method);
-    request.path = std::move(path);
-    request.body = std::move(body);
-    request.headers = std::move(headers);
-    request.id = "test-1";
-    return request;
-}
-
-std::string whole_body(const Response& response) {
-    std::string body = response.body;
-    if (response.stream)
-        while (response.stream(body)) {
-        }
-    return body;
-}
-
-class ServiceTest : public testing::Test {
-  protected:
-    explicit ServiceTest(ServiceOptions options = {})
-        : thread(renderer.opener(), 1), service(thread, metrics, options) {
-        thread.wait_until_started();
-    }
-
-    Response get(const std::string& path, Headers headers = {}) {
-        return service.answer(make_request("GET", path, "", std::move(headers)));
-    }
-    Response post(const std::string& path, const std::string& body = kScene, Headers more = {},
-                  const std::string& type = "application/json") {
-        Headers headers = {{"Content-Type", type}};
-        headers.insert(headers.end(), more.begin(), more.end());
-        return service.answer(make_request("POST", path, body, headers));
-    }
-
-    FakeRenderer renderer;
-    Metrics metrics;
-    RenderThread thread;
-    Service service;
-};
-
-void expect_problem(const Response& response, int status, const std::string& pointer = "") {
-    EXPECT_EQ(response.status, status) << response.body;
-    EXPECT_EQ(response.header("Content-Type"), "application/problem+json");
-    EXPECT_NE(response.body.find("\"status\":" + std::to_string(status)), std::string::npos);
-    EXPECT_NE(response.body.find("\"request_id\":\"test-1\""), std::string::npos);
-    if (!pointer.empty()) {
-        EXPECT_NE(response.body.find("\"pointer\":\"" + pointer + "\""), std::string::npos)
-            << response.body;
-    }
-}
 
 // --- routes
 
@@ -422,117 +355,6 @@ TEST(RealRenderer, Renders) {
     Service other(fake_thread, metrics, {});
     EXPECT_NE(other.answer(make_request("POST", "/v1/render", kScene)).header("ETag"),
               response.header("ETag"));
-}
-
-// --- pages, presets, contract, metrics
-
-TEST_F(ServiceTest, PagesAreStrictAboutScripts) {
-    const Response page = get("/");
-    ASSERT_EQ(page.status, 200);
-    EXPECT_EQ(page.header("Content-Type"), "text/html; charset=utf-8");
-    EXPECT_EQ(page.header("Cache-Control"), "no-cache");
-    EXPECT_EQ(page.header("Referrer-Policy"), "no-referrer");
-    EXPECT_EQ(page.header("Content-Security-Policy"), kContentSecurityPolicy);
-    EXPECT_EQ(get("/index.html").body, page.body);
-    EXPECT_EQ(get("/", {{"If-None-Match", std::string(page.header("ETag"))}}).status, 304);
-    for (const EmbeddedFile& file : web_files()) {
-        if (file.name.starts_with("presets/")) continue;
-        const Response response = get("/" + std::string(file.name));
-        EXPECT_EQ(response.status, 200) << file.name;
-        EXPECT_EQ(response.body, file.text);
-        EXPECT_NE(response.header("Content-Type"), "application/octet-stream") << file.name;
-    }
-}
-
-TEST_F(ServiceTest, EveryPresetIsListedAndCanBe) {
-    std::size_t documents = 0;
-    for (const EmbeddedFile& file : web_files())
-        documents += file.name.starts_with("presets/") && file.name != "presets/index.json";
-    const std::vector<Preset> presets = make_presets();
-    EXPECT_EQ(presets.size(), documents) << "a document is missing in web/presets/index.json";
-    const Response list = get("/v1/presets");
-    for (const Preset& preset : presets) {
-        const std::string path = "/v1/presets/" + std::string(preset.entry.name);
-        EXPECT_NE(list.body.find("\"href\":\"" + path + "\""), std::string::npos);
-        EXPECT_NE(list.body.find("\"title\":\"" + std::string(preset.entry.title) + "\""),
-                  std::string::npos);
-        const Response document = get(path);
-        EXPECT_EQ(document.header("Content-Type"), "application/json");
-        EXPECT_EQ(get(path, {{"If-None-Match", std::string(document.header("ETag"))}}).status, 304);
-        EXPECT_EQ(post("/v1/particles", document.body, {{"If-None-Match", "*"}}).status, 304)
-            << document.body;
-    }
-}
-
-TEST_F(ServiceTest, ContractNamesEveryRoute) {
-    const Response contract = get("/openapi.json");
-    ASSERT_EQ(contract.status, 200);
-    EXPECT_EQ(contract.header("Content-Type"), "application/json");
-    for (const char* path :
-         {"/v1/particles", "/v1/render", "/v1/plan", "/v1/presets", "/v1/presets/{name}",
-          "/healthz", "/readyz", "/metrics", "/version", "/openapi.json", "/"})
-        EXPECT_NE(contract.body.find("    \"" + std::string(path) + "\": {"), std::string::npos)
-            << path;
-    EXPECT_NE(contract.body.find("\"version\": \"" + std::string(engine_version()) + "\""),
-              std::string::npos);
-}
-
-TEST_F(ServiceTest, MetricsCountByRouteAndNeverByWhatClientsWrite) {
-    get("/healthz");
-    get("/made-up-path");
-    get("/v1/presets/cumulus");
-    post("/v1/render");
-    post("/v1/render", "{}");
-    const std::string text = get("/metrics").body;
-    for (const char* line :
-         {"awan_http_requests_total{route=\"/healthz\",status=\"2xx\"} 1\n",
-          "awan_http_requests_total{route=\"other\",status=\"4xx\"} 1\n",
-          "awan_http_requests_total{route=\"/v1/presets/{name}\",status=\"2xx\"} 1\n",
-          "awan_http_requests_total{route=\"/v1/render\",status=\"2xx\"} 1\n",
-          "awan_http_requests_total{route=\"/v1/render\",status=\"4xx\"} 1\n",
-          "awan_http_request_duration_seconds_bucket{route=\"/v1/render\",le=\"+Inf\"} 2\n",
-          "awan_stage_duration_seconds_count{stage=\"encode\"} 1\n", "awan_render_queue_length 0\n",
-          "awan_ready 1\n", "process_resident_memory_bytes "})
-        EXPECT_NE(text.find(line), std::string::npos) << line;
-    EXPECT_EQ(text.find("made-up"), std::string::npos);
-    EXPECT_GT(resident_bytes(), 1u << 20);
-}
-
-// --- negotiation
-
-TEST(Accept, BestOfferIsThatOfHighestQualityThenFirst) {
-    const std::string_view offers[] = {"a/x", "a/y", "b/z"};
-    const auto best = [&](std::string_view accept) {
-        return std::string(best_offer(accept, offers).value_or("none"));
-    };
-    EXPECT_EQ(best(""), "a/x");
-    EXPECT_EQ(best("*/*"), "a/x");
-    EXPECT_EQ(best("a/y"), "a/y");
-    EXPECT_EQ(best("A/Y"), "a/y");
-    EXPECT_EQ(best("a/*;q=0.5, b/z"), "b/z");
-    EXPECT_EQ(best("a/x;q=0, */*"), "a/y") << "the most specific range decides";
-    EXPECT_EQ(best("a/x;q=0.2,a/y;q=0.8;v=1"), "a/y");
-    EXPECT_EQ(best("a/x;q=0.001, b/z;q=0.002"), "b/z");
-    EXPECT_EQ(best("a/x;v=\"1,2\";q=0.1, a/y;q=0.2"), "a/y");
-    EXPECT_EQ(best("c/c"), "none");
-    EXPECT_EQ(best("*/*;q=0"), "none");
-    EXPECT_EQ(best(",,;,"), "none");
-}
-
-TEST(SceneText, FormatIsSeenFromTheFirstBytes) {
-    EXPECT_EQ(sniff_scene_format(" \n{\"cubes\":[]}"), SceneFormat::kJson);
-    EXPECT_EQ(sniff_scene_format("ply\nformat ascii 1.0\n"), SceneFormat::kPly);
-    EXPECT_EQ(sniff_scene_format("x,y,z,radius\n"), SceneFormat::kCsv);
-    EXPECT_EQ(sniff_scene_format("200 1\n6.1e-007, 1"), SceneFormat::kAwn);
-    EXPECT_EQ(scene_format_of_name("a.AWN"), SceneFormat::kAwn);
-    EXPECT_EQ(scene_format_of_name("json"), std::nullopt);
-}
-
-TEST(Errors, ExitCodesAreThoseOfTheContract) {
-    EXPECT_EQ(exit_code_of(ErrorCode::kMalformed), 3);
-    EXPECT_EQ(exit_code_of(ErrorCode::kUnsupported), 3);
-    EXPECT_EQ(exit_code_of(ErrorCode::kNoRenderer), 4);
-    EXPECT_EQ(exit_code_of(ErrorCode::kIo), 5);
 }
 
 }  // namespace
