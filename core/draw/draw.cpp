@@ -34,26 +34,30 @@ void set_uniforms(const Scene& scene, const View& view, const Plan& plan) {
     set3(6, scene->sky.horizon * sky);
     glUniform1f(7, static_cast<float>(scene->medium.g));
     glUniform1i(8, scene->medium.phase == PhaseFunction::kCornetteShanks ? 1 : 0);
-    const LightSources sources = light_sources(scene, plan);
-    set3(11, sources.sun + sources.above + sources.below);
     glUniform1i(9, plan.on(Effect::kViewExtinction) ? 1 : 0);
     glUniform1i(10, scene->image.background == Background::kSky ? 1 : 0);
 }
 
-void copy_region(const std::vector<float>& from, const gl::TileRegion& region, Image& image) {
+// Takes a region's pixels from GL. `spare` is room for those regions that do not fit the picture's rows.
+void take_region(const gl::Buffer& from, const gl::TileRegion& region, std::vector<float>& spare,
+                 Image& image) {
     const int left = region.x * kTileWidth, top = region.y * kTileHeight;
     const int width = std::min(region.width * kTileWidth, image.width - left);
     const int height = std::min(region.height * kTileHeight, image.height - top);
-    for (int y = 0; y < height; ++y) {
-        const float* source = from.data() + static_cast<std::size_t>(y) *
-                                                static_cast<std::size_t>(region.width) *
-                                                kTileWidth * 4;
-        float* target = image.pixels.data() +
-                        (static_cast<std::size_t>(top + y) * static_cast<std::size_t>(image.width) +
-                         static_cast<std::size_t>(left)) *
-                            4;
-        std::memcpy(target, source, static_cast<std::size_t>(width) * 4 * sizeof(float));
+    const auto stride = static_cast<std::size_t>(region.width) * kTileWidth * 4;
+    const std::size_t row = static_cast<std::size_t>(image.width) * 4;
+    float* target = image.pixels.data() + static_cast<std::size_t>(top) * row +
+                    static_cast<std::size_t>(left) * 4;
+    if (stride == row) {
+        from.read(target, static_cast<std::size_t>(height) * row * sizeof(float));
+        return;
     }
+    spare.resize(static_cast<std::size_t>(height) * stride);
+    from.read(spare.data(), spare.size() * sizeof(float));
+    for (int y = 0; y < height; ++y)
+        std::memcpy(target + static_cast<std::size_t>(y) * row,
+                    spare.data() + static_cast<std::size_t>(y) * stride,
+                    static_cast<std::size_t>(width) * 4 * sizeof(float));
 }
 
 }  // namespace
@@ -66,7 +70,7 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
     image.pixels.resize(4 * image.pixel_count());
     const SplatList list = make_splats(scene, particles, view, plan, lighting);
     const gl::TexelBuffer splats{std::span<const Splat>(list.splats)};
-    std::vector<float> pixels;
+    std::vector<float> spare;
 
     const Device::Programs& programs = device.programs();
     (plan.on(Effect::kInterior) ? programs.splat_interior : programs.splat).use();
@@ -77,9 +81,10 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
         [&](const gl::TileRegion& region) -> Status {
             const gl::Buffer begin{std::span<const std::uint32_t>(region.begin)};
             const gl::Buffer items{std::span<const std::uint32_t>(region.items)};
-            pixels.resize(static_cast<std::size_t>(region.width) *
-                          static_cast<std::size_t>(region.height) * kTileWidth * kTileHeight * 4);
-            const gl::Buffer picture(pixels.size() * sizeof(float));
+            const std::size_t pixels = static_cast<std::size_t>(region.width) *
+                                       static_cast<std::size_t>(region.height) * kTileWidth *
+                                       kTileHeight;
+            const gl::Buffer picture(pixels * 4 * sizeof(float));
             splats.bind(0);
             begin.bind(1);
             items.bind(2);
@@ -89,15 +94,14 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
             for (std::uint32_t first = 0; first < longest; first += gl::kMaxRun) {
                 if (auto error = deadline.over()) return error;
                 const bool last = longest - first <= gl::kMaxRun;
-                glUniform3i(12, static_cast<GLint>(first), static_cast<GLint>(gl::kMaxRun),
+                glUniform3i(11, static_cast<GLint>(first), static_cast<GLint>(gl::kMaxRun),
                             last ? 1 : 0);
                 glDispatchCompute(static_cast<GLuint>(region.width),
                                   static_cast<GLuint>(region.height), 1);
                 glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
                 if (!last) glFinish();
             }
-            picture.read(pixels.data(), pixels.size() * sizeof(float));
-            copy_region(pixels, region, image);
+            take_region(picture, region, spare, image);
             return gl::gl_status("the eye pass");
         });
     if (status) return *status;

@@ -14,11 +14,31 @@
 namespace awan {
 namespace {
 
-constexpr double kMinReach = 4;       // of s
-constexpr double kFaintDepth = 1e-3;  // optical depth at which a dense particle may be cut
+constexpr double kMinReach = 3.5;          // of s; 0.2% of the mass lies beyond
+constexpr double kFaintDepth = 5e-4;  // optical depth at which a particle is cut
 constexpr double kMinWidthPixels =
     0.6;  // of s: sampled at pixel centres it sums to its whole within 1%
 constexpr double kCloseReaches = 2;  // an eye within so many reaches needs the half line
+
+// Radiance that a white, opaque particle in full light scatters, by where the light comes from.
+struct LightSources {
+    glm::dvec3 sun;    // sun irradiance / 4 pi
+    glm::dvec3 above;  // upper half of the sky: its share of the mean radiance
+    glm::dvec3 below;  // lower half
+    double albedo;
+};
+
+LightSources light_sources(const Scene& scene, const Plan& plan) {
+    const Sky& sky = scene->sky;
+    LightSources sources{scene->sun.color * (scene->sun.intensity / (4 * std::numbers::pi)),
+                         glm::dvec3(0), glm::dvec3(0), scene->medium.albedo};
+    if (plan.on(Effect::kSkyLight)) {
+        sources.above =
+            0.5 * sky.intensity * glm::dvec3(shader::sky_mean_above(sky.zenith, sky.horizon));
+        sources.below = 0.5 * sky.intensity * sky.horizon;
+    }
+    return sources;
+}
 
 // A particle in the eye's frame.
 struct Seen {
@@ -89,8 +109,11 @@ Seen see(const Scene& scene, const ParticleSet& particles, std::size_t i, const 
     seen.tau = thinned * static_cast<double>(particles.density[i]) * own_s *
                std::sqrt(2 * std::numbers::pi);
     if (!(seen.tau > 0)) return seen;
-    seen.reach = seen.s * std::max(kMinReach,
-                                   std::sqrt(2 * std::log(std::max(1.0, seen.tau / kFaintDepth))));
+    const double cut =
+        std::max(kMinReach, std::sqrt(2 * std::log(std::max(1.0, seen.tau / kFaintDepth))));
+    seen.reach = seen.s * cut;
+    seen.tau /=
+        -std::expm1(-cut * cut / 2);  // of a Gaussian in the plane, exp(-cut^2 / 2) lies beyond
     seen.tiles = tiles_of(seen, view, scene->image);
     return seen;
 }
@@ -128,14 +151,17 @@ Splat make_splat(const Seen& seen, glm::dvec3 color, const ParticleLight* lit, c
         below = over(lit->from_below, seen);
     }
     splat.direct = from_eye(direct, view, seen.q);
-    const auto channel = [&](int k) {
-        return from_eye(albedo[k] * (sources.sun[k] * scattered + sources.above[k] * above +
-                                     sources.below[k] * below),
-                        view, seen.q);
-    };
-    splat.red = channel(0);
-    splat.green = channel(1);
-    splat.blue = channel(2);
+
+    // All other light has one gradient, that of its sum, in units of its value at the centre.
+    const auto sum = [](glm::dvec3 c) { return c.x + c.y + c.z; };
+    const glm::dvec4 other =
+        sum(sources.sun) * scattered + sum(sources.above) * above + sum(sources.below) * below;
+    const glm::dvec3 value =
+        sources.sun * scattered.w + sources.above * above.w + sources.below * below.w;
+    const double most = sum(sources.sun + sources.above + sources.below);
+    splat.other =
+        glm::vec4(glm::dvec4(albedo * value, other.w > 0 ? std::min(most / other.w, 1e6) : 0));
+    splat.change = from_eye(other.w > 0 ? other / other.w : glm::dvec4(0), view, seen.q);
     return splat;
 }
 
@@ -144,7 +170,7 @@ Splat make_splat(const Seen& seen, glm::dvec3 color, const ParticleLight* lit, c
 void merge(Splat& into, const Splat& other) {
     const float whole = into.matter.w + other.matter.w;
     const float share = other.matter.w / whole;
-    for (auto member : {&Splat::matter, &Splat::direct, &Splat::red, &Splat::green, &Splat::blue})
+    for (auto member : {&Splat::matter, &Splat::direct, &Splat::other, &Splat::change})
         into.*member += share * (other.*member - into.*member);
     into.matter.w = whole;
 }
@@ -162,18 +188,6 @@ void radix_sort(std::vector<std::uint64_t>& keys) {
 }
 
 }  // namespace
-
-LightSources light_sources(const Scene& scene, const Plan& plan) {
-    const Sky& sky = scene->sky;
-    LightSources sources{scene->sun.color * (scene->sun.intensity / (4 * std::numbers::pi)),
-                         glm::dvec3(0), glm::dvec3(0), scene->medium.albedo};
-    if (plan.on(Effect::kSkyLight)) {
-        sources.above =
-            0.5 * sky.intensity * glm::dvec3(shader::sky_mean_above(sky.zenith, sky.horizon));
-        sources.below = 0.5 * sky.intensity * sky.horizon;
-    }
-    return sources;
-}
 
 SplatList make_splats(const Scene& scene, const ParticleSet& particles, const View& view,
                       const Plan& plan, const Lighting& lighting) {

@@ -60,6 +60,10 @@ void Buffer::bind(GLuint binding) const {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_);
 }
 
+void Buffer::clear() {
+    glClearNamedBufferData(name_, GL_R32F, GL_RED, GL_FLOAT, nullptr);
+}
+
 void Buffer::read(void* to, std::size_t bytes) const {
     if (bytes == 0) return;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);

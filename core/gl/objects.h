@@ -28,6 +28,7 @@ class Buffer {
     ~Buffer();
 
     void bind(GLuint binding) const;  // to layout(binding = ...) buffer
+    void clear();                     // to zeros
     GLuint name() const { return name_; }
     // Copies bytes from the start; waits for the shaders that write them.
     void read(void* to, std::size_t bytes) const;

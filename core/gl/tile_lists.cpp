@@ -108,6 +108,13 @@ std::uint32_t TileRegion::longest_list() const {
     return longest;
 }
 
+std::vector<std::uint32_t> TileRegion::filled_tiles() const {
+    std::vector<std::uint32_t> tiles;
+    for (std::uint32_t tile = 0; tile + 1 < begin.size(); ++tile)
+        if (begin[tile + 1] > begin[tile]) tiles.push_back(tile);
+    return tiles;
+}
+
 Status for_each_region(std::span<const TileBox> boxes, int width, int height, int layers,
                        std::uint64_t max_entries, std::uint64_t max_tiles, const Deadline& deadline,
                        const std::function<Status(const TileRegion&)>& visit) {

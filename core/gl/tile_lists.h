@@ -29,6 +29,7 @@ struct TileRegion {
     std::vector<std::uint32_t> items;
 
     std::uint32_t longest_list() const;
+    std::vector<std::uint32_t> filled_tiles() const;  // those whose list is not empty
 };
 
 // A shader may walk so many entries of a list in one dispatch; the rest wants another. llvmpipe

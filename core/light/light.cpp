@@ -13,6 +13,8 @@ namespace awan {
 namespace {
 
 constexpr int kTile = 8;  // texels a side, as in light_columns.glsl
+// Where a particle is cut, in s. What lies beyond, 0.4%, goes to what is within.
+constexpr double kReach = 3.3;
 // Half width, in s, of the smooth step that stands for a Gaussian's mass (light_columns.glsl).
 constexpr double kSpread = 1.88;
 constexpr std::uint64_t kMaxEntries =
@@ -53,9 +55,10 @@ OnGrid put_on_grid(const ParticleSet& particles, std::size_t i, const LightGrid&
         static_cast<double>(particles.density[i]) * s * std::sqrt(2 * std::numbers::pi);
     const glm::dvec3 place = grid.place(particles.center[i]);
     const double across = std::max(s / grid.texel, 0.6), along = std::max(s / grid.slab, 0.4);
-    const double thinned = tau * (s / grid.texel / across) * (s / grid.texel / across);
+    const double narrowing = s / grid.texel / across;
+    const double thinned = tau * narrowing * narrowing / -std::expm1(-kReach * kReach / 2);
     const GainCurve curve = gain_curve(gain, thinned);
-    const double wide = 4 * across, deep = kSpread * along;
+    const double wide = kReach * across, deep = kSpread * along;
     const auto tile = [](double cell, int count) {
         return static_cast<std::int32_t>(
             std::clamp(std::floor(cell / kTile), 0.0, static_cast<double>((count - 1) / kTile)));
@@ -95,27 +98,29 @@ Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const One
     const Device::Programs& programs = device.programs();
     const glm::ivec3 cells = grid.cells;
     const gl::TexelBuffer placed_buffer{std::span<const GpuParticle>(placed)};
-    const gl::Buffer volume(static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
-                            static_cast<std::size_t>(cells.z) * 2 * sizeof(float));
+    gl::Buffer volume(static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
+                      static_cast<std::size_t>(cells.z) * 2 * sizeof(float));
+    volume.clear();  // columns are worked out only where particles are
     const auto status = gl::for_each_region(
         tiles, (cells.x + kTile - 1) / kTile, (cells.y + kTile - 1) / kTile, cells.z / kTile,
         kMaxEntries, 1u << 20, deadline, [&](const gl::TileRegion& region) -> Status {
             const gl::Buffer begin{std::span<const std::uint32_t>(region.begin)};
             const gl::Buffer items{std::span<const std::uint32_t>(region.items)};
+            const std::vector<std::uint32_t> filled = region.filled_tiles();
+            const gl::Buffer filled_buffer{std::span<const std::uint32_t>(filled)};
             programs.light_columns.use();
             placed_buffer.bind(0);
             begin.bind(1);
             items.bind(2);
             volume.bind(3);
+            filled_buffer.bind(4);
             glUniform3i(0, cells.x, cells.y, cells.z);
             glUniform4i(1, region.x, region.y, region.width, region.height);
-            const std::uint32_t longest = std::max(region.longest_list(), 1u);
+            const std::uint32_t longest = region.longest_list();
             for (std::uint32_t first = 0; first < longest; first += gl::kMaxRun) {
                 if (auto error = deadline.over()) return error;
                 glUniform2i(2, static_cast<GLint>(first), static_cast<GLint>(gl::kMaxRun));
-                glDispatchCompute(static_cast<GLuint>(region.width),
-                                  static_cast<GLuint>(region.height),
-                                  static_cast<GLuint>(cells.z / kTile));
+                glDispatchCompute(static_cast<GLuint>(filled.size()), 1, 1);
                 glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
                 glFinish();
             }

@@ -37,18 +37,18 @@ Extent extent_of(const ParticleSet& particles, const LightGrid& grid) {
     return extent;
 }
 
-void set_cells(LightGrid& grid, const Extent& extent, double per_s) {
+void set_cells(LightGrid& grid, const Extent& extent, double texels_per_s) {
     const glm::dvec3 size = extent.high - extent.low;
     const double widest = std::max(size.x, size.y);
-    const auto count = [&](double length, double least, double most) {
+    const auto count = [&](double length, double per_s, double least, double most) {
         return static_cast<int>(
             std::clamp(std::ceil(length / extent.typical_s * per_s), least, most));
     };
-    const int side = count(widest, kMinLightTexels, kMaxLightTexels);
+    const int side = count(widest, texels_per_s, kMinLightTexels, kMaxLightTexels);
     grid.texel = widest / (side - 1);
     grid.cells.x = std::clamp(static_cast<int>(std::ceil(size.x / grid.texel)) + 1, 2, side);
     grid.cells.y = std::clamp(static_cast<int>(std::ceil(size.y / grid.texel)) + 1, 2, side);
-    grid.cells.z = (count(size.z, 8, kMaxLightSlabs) + 7) / 8 * 8;
+    grid.cells.z = (count(size.z, texels_per_s * kSlabsPerTexel, 8, kMaxLightSlabs) + 7) / 8 * 8;
     grid.slab = size.z / (grid.cells.z - 1);
 }
 

@@ -25,6 +25,8 @@ inline constexpr int kMaxLightSlabs = 64;
 // at 1. The finest of these that keeps the work below kMaxLightWork bricks (of 8 x 8 x 8 cells, a
 // particle each), else the coarsest.
 inline constexpr double kTexelsPerS[] = {2, 1.5, 1.2, 1};
+inline constexpr double kSlabsPerTexel =
+    0.67;  // light falls off more smoothly along its way than across
 inline constexpr double kMaxLightWork = 30'000;  // about 15 ms of one llvmpipe core
 
 // Holds every particle out to 4 s. particles is not empty.

@@ -15,6 +15,7 @@ layout(local_size_x = 8) in;
 layout(binding = 0) uniform samplerBuffer particles;
 layout(std430, binding = 1) readonly buffer TileBegin { uint tile_begin[]; };
 layout(std430, binding = 2) readonly buffer TileItems { uint tile_items[]; };
+layout(std430, binding = 4) readonly buffer FilledTiles { uint filled_tiles[]; };
 layout(std430, binding = 3) buffer Volume { vec2 volume[]; };  // plain, with gain
 
 layout(location = 0) uniform ivec3 cells;   // texels u, texels v, slabs
@@ -61,7 +62,8 @@ void put(int u, int v, int slab, Cells c) {
 }
 
 void main() {
-    ivec3 tile = ivec3(gl_WorkGroupID);
+    int list = int(filled_tiles[gl_WorkGroupID.x]);
+    ivec3 tile = ivec3(list % region.z, list / region.z % region.w, list / (region.z * region.w));
     int u = (region.x + tile.x) * 8 + int(gl_LocalInvocationID.x);
     int v = (region.y + tile.y) * 8;
     int slab = tile.z * 8;
@@ -71,7 +73,6 @@ void main() {
     Cells none = Cells(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
     Cells c0 = none, c1 = none, c2 = none, c3 = none, c4 = none, c5 = none, c6 = none, c7 = none;
 
-    int list = (tile.z * region.w + tile.y) * region.z + tile.x;
     uint first = tile_begin[list] + uint(run.x);
     uint end = min(tile_begin[list + 1], first + uint(run.y));
     for (uint i = first; i < end; ++i) {

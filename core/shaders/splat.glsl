@@ -12,13 +12,14 @@ layout(local_size_x = 8) in;
 #include "phase.glsl"
 #include "sky.glsl"
 
-// Six texels a particle. A buffer texture, since llvmpipe fetches a vec4 of it in a tenth of the time that four
+// Five texels a particle. A buffer texture, since llvmpipe fetches a vec4 of it in a tenth of the time that four
 // words of a storage buffer take.
 struct Splat {
     vec4 place;   // centre in the eye's frame (right, up, forward), 1 / (2 s^2)
     vec4 matter;  // albedo * colour * sun irradiance / 4 pi; optical depth through the centre
     vec4 direct;  // sun light that was not scattered: gradient (eye's frame), value at the eye (!)
-    vec4 red, green, blue;  // radiance scattered from all other light, likewise
+    vec4 other;   // radiance scattered from all other light, at the centre; largest factor on it
+    vec4 change;  // factor on `other`: gradient, value at the eye
 };
 layout(binding = 0) uniform samplerBuffer splats;
 layout(std430, binding = 1) readonly buffer TileBegin { uint tile_begin[]; };
@@ -36,12 +37,11 @@ layout(location = 7) uniform float g;
 layout(location = 8) uniform bool is_cornette_shanks;
 layout(location = 9) uniform bool extinguish;  // effect view_extinction
 layout(location = 10) uniform bool opaque;     // the sky behind
-layout(location = 12) uniform ivec3 run;       // first and count of the list entries to blend now; 1 when they are the last
-layout(location = 11) uniform vec3 most;       // radiance that no particle can pass: white, in full light
+layout(location = 11) uniform ivec3 run;       // first and count of the list entries to blend now; 1 when they are the last
 
-// Below this transmittance the rest of the list is skipped: what is behind can add no more than a ten-thousandth of itself,
-// a fifth of a half float's last place.
-const float kOpaque = 1e-4;
+// Below this transmittance the rest of the list is skipped: what is behind adds no more than a thousandth of itself, a
+// quarter of an 8-bit step.
+const float kOpaque = 1e-3;
 
 // Four pixels of a column. Never in an array: an array that a loop indexes lives in memory on llvmpipe.
 struct Pixels {
@@ -53,12 +53,12 @@ struct Pixels {
 // linear in Y along a column: it is expanded about the row nearest to the centre.
 struct Column {
     float X, aside, y0, a, m, along;
-    vec2 direct, red, green, blue;  // at Y: x + y Y
+    vec2 direct, change;  // at Y: x + y Y
 };
 
 Splat fetch(int at) {
     return Splat(texelFetch(splats, at), texelFetch(splats, at + 1), texelFetch(splats, at + 2),
-                 texelFetch(splats, at + 3), texelFetch(splats, at + 4), texelFetch(splats, at + 5));
+                 texelFetch(splats, at + 3), texelFetch(splats, at + 4));
 }
 
 // A linear function of the scene on the rays (X, Y, 1) near Y = y: point t d, t the closest to the centre, slope its change with Y.
@@ -87,9 +87,7 @@ Column on_column(Splat p, float X, float low, float high) {
     t = max(t, 0.0);
 #endif
     k.direct = on_column(p.direct, X, y, t, slope);
-    k.red = on_column(p.red, X, y, t, slope);
-    k.green = on_column(p.green, X, y, t, slope);
-    k.blue = on_column(p.blue, X, y, t, slope);
+    k.change = on_column(p.change, X, y, t, slope);
     return k;
 }
 
@@ -124,10 +122,11 @@ void blend(Splat p, Column k, inout Pixels px) {
     vec4 alpha = one_minus_exp(tau);
     vec4 weight = extinguish ? px.left * alpha : alpha;
     px.left -= px.left * alpha;
-    vec4 direct = clamp(k.direct.x + k.direct.y * px.Y, 0.0, 1.0) * px.phase;
-    px.red += weight * (clamp(k.red.x + k.red.y * px.Y, 0.0, most.x) + direct * p.matter.x);
-    px.green += weight * (clamp(k.green.x + k.green.y * px.Y, 0.0, most.y) + direct * p.matter.y);
-    px.blue += weight * (clamp(k.blue.x + k.blue.y * px.Y, 0.0, most.z) + direct * p.matter.z);
+    vec4 direct = weight * clamp(k.direct.x + k.direct.y * px.Y, 0.0, 1.0) * px.phase;
+    vec4 other = weight * clamp(k.change.x + k.change.y * px.Y, 0.0, p.other.w);
+    px.red += other * p.other.x + direct * p.matter.x;
+    px.green += other * p.other.y + direct * p.matter.y;
+    px.blue += other * p.other.z + direct * p.matter.z;
 }
 
 void put(int at, float X, float Y, float per_d2, float left, vec3 color) {
@@ -179,7 +178,7 @@ void main() {
     uint first = tile_begin[list] + uint(run.x);
     uint end = min(tile_begin[list + 1], first + uint(run.y));
     for (uint i = first; i < end; ++i) {
-        Splat p = fetch(int(tile_items[i]) * 6);
+        Splat p = fetch(int(tile_items[i]) * 5);
         Column k = on_column(p, X, p3.Y.w, p0.Y.x);
         blend(p, k, p0);
         blend(p, k, p1);

@@ -154,17 +154,17 @@ QuadSplats::QuadSplats(const SplatList& list, int width, int height, double tan_
         "layout(binding = 0) uniform samplerBuffer splats; layout(std430, binding = 0) readonly "
         "buffer B { vec4 boxes[]; };"
         "layout(location = 0) uniform vec2 tangent;"
-        "out vec2 slope; flat out vec4 place, matter, direct, red, green, blue;"
-        "void main() { int at = gl_InstanceID * 6; place = texelFetch(splats, at); matter = "
+        "out vec2 slope; flat out vec4 place, matter, direct, other, change;"
+        "void main() { int at = gl_InstanceID * 5; place = texelFetch(splats, at); matter = "
         "texelFetch(splats, at + 1);"
-        " direct = texelFetch(splats, at + 2); red = texelFetch(splats, at + 3); green = "
+        " direct = texelFetch(splats, at + 2); other = texelFetch(splats, at + 3); change = "
         "texelFetch(splats, at + 4);"
-        " blue = texelFetch(splats, at + 5); vec4 b = boxes[gl_InstanceID];"
+        " vec4 b = boxes[gl_InstanceID];"
         " vec2 p = vec2((gl_VertexID & 1) == 0 ? b.x : b.y, (gl_VertexID >> 1) == 0 ? b.z : b.w);"
         " slope = p * tangent; gl_Position = vec4(p, 0.0, 1.0); }",
         shared_text("optics.glsl") + shared_text("phase.glsl") +
             "layout(location = 1) uniform vec3 to_sun; layout(location = 2) uniform float g;"
-            "in vec2 slope; flat in vec4 place, matter, direct, red, green, blue; out vec4 color;"
+            "in vec2 slope; flat in vec4 place, matter, direct, other, change; out vec4 color;"
             "float on_ray(vec4 f, vec3 p) { return f.w + dot(f.xyz, p); }"
             "void main() { vec3 d = vec3(slope, 1.0); float per = 1.0 / dot(d, d); float t = "
             "dot(place.xyz, d) * per;"
@@ -173,8 +173,8 @@ QuadSplats::QuadSplats(const SplatList& list, int width, int height, double tan_
             " float alpha = one_minus_exp(tau); vec3 p = d * t;"
             " float lit = clamp(on_ray(direct, p), 0.0, 1.0) * henyey_greenstein(to_sun, d * "
             "sqrt(per), g);"
-            " vec3 other = max(vec3(on_ray(red, p), on_ray(green, p), on_ray(blue, p)), 0.0);"
-            " color = vec4(alpha * (other + lit * matter.xyz), alpha); }");
+            " vec3 all = other.rgb * clamp(on_ray(change, p), 0.0, other.w);"
+            " color = vec4(alpha * (all + lit * matter.xyz), alpha); }");
     glUseProgram(program_);
     glUniform2f(0, static_cast<float>(tan_x), static_cast<float>(tan_y));
     const glm::vec3 sun(to_sun);
