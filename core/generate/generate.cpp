@@ -1,6 +1,7 @@
 #include "core/generate/generate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 
@@ -78,14 +79,18 @@ std::vector<Piece> cut_into_pieces(const Scene& scene, std::size_t& total) {
 void fill_piece(const Piece& piece, ParticleSet& set) {
     const Cloud& cloud = *piece.cloud;
     const Motion motion{cloud.translate, cloud.scale, exact_sincos_degrees(cloud.rotate_y)};
-    const auto count = static_cast<std::size_t>(piece.last - piece.first);
-    std::vector<FilledParticle> filled(count);
-    fill_cube(*piece.cube, piece.fill, piece.key, piece.first, piece.last, filled.data());
     const auto density = static_cast<float>(piece.density * piece.cube->density);
-    for (std::size_t i = 0; i < count; ++i) {
-        set.center[piece.out + i] = motion(filled[i].center);
-        set.radius[piece.out + i] = static_cast<float>(filled[i].radius * cloud.scale);
-        set.density[piece.out + i] = density;
+    std::array<FilledParticle, 256> filled;  // stays in the first cache
+    std::size_t out = piece.out;
+    for (std::uint64_t first = piece.first; first < piece.last; first += filled.size()) {
+        const std::uint64_t last = std::min(piece.last, first + filled.size());
+        fill_cube(*piece.cube, piece.fill, piece.key, first, last, filled.data());
+        for (std::uint64_t i = first; i < last; ++i, ++out) {
+            const FilledParticle& particle = filled[static_cast<std::size_t>(i - first)];
+            set.center[out] = motion(particle.center);
+            set.radius[out] = static_cast<float>(particle.radius * cloud.scale);
+            set.density[out] = density;
+        }
     }
 }
 

@@ -1,11 +1,14 @@
 #include "core/generate/keyed_random.h"
 
 #include <bit>
+#include <cstring>
 
 namespace awan {
 namespace {
 
-constexpr std::uint32_t reverse_bits(std::uint32_t x) {
+// For one word or for a vector of them.
+template <typename Words>
+constexpr Words reverse_bits(Words x) {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
     x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
@@ -13,18 +16,18 @@ constexpr std::uint32_t reverse_bits(std::uint32_t x) {
     return (x >> 16) | (x << 16);
 }
 
-// Owen scrambling of bit-reversed x: every bit is flipped by a hash of the bits above it (below it,
-// reversed).
-constexpr std::uint32_t laine_karras(std::uint32_t x, std::uint32_t seed) {
+// Owen scrambling of bit-reversed x: every bit is flipped by a hash of the bits above it (below it, reversed).
+template <typename Words>
+Words laine_karras(Words x, Words seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
-    x *= (seed >> 16) | 1;
+    x *= (seed >> 16) | 1u;
     x ^= x * 0x05526c56u;
     x ^= x * 0x53a22864u;
     return x;
 }
 
-using Directions = std::array<std::array<std::uint32_t, 32>, 4>;
+using Directions = std::array<std::array<std::uint32_t, 4>, 32>;  // of 32 bits, four dimensions
 
 // Direction numbers, bit-reversed: v_k of dimension d has its leading bit at position k.
 constexpr Directions make_directions() {
@@ -38,7 +41,7 @@ constexpr Directions make_directions() {
     constexpr std::array<Polynomial, 3> kPolynomials = {
         {{1, 0, {1, 0, 0}}, {2, 1, {1, 3, 0}}, {3, 1, {1, 3, 1}}}};
     Directions reversed{};
-    for (std::size_t k = 0; k < 32; ++k) reversed[0][k] = 1u << k;
+    for (std::size_t k = 0; k < 32; ++k) reversed[k][0] = 1u << k;
     for (std::size_t d = 1; d < 4; ++d) {
         const Polynomial& p = kPolynomials[d - 1];
         const std::size_t s = static_cast<std::size_t>(p.s);
@@ -52,7 +55,7 @@ constexpr Directions make_directions() {
             for (std::size_t i = 1; i < s; ++i)
                 if ((p.a >> (s - 1 - i)) & 1u) v[k] ^= v[k - i];
         }
-        for (std::size_t k = 0; k < 32; ++k) reversed[d][k] = reverse_bits(v[k]);
+        for (std::size_t k = 0; k < 32; ++k) reversed[k][d] = reverse_bits(v[k]);
     }
     return reversed;
 }
@@ -66,19 +69,18 @@ ScrambledSobol::ScrambledSobol(std::uint64_t key, std::uint32_t first)
     for (std::size_t d = 0; d < 4; ++d) {
         scramble_[d] = static_cast<std::uint32_t>(keyed(key, d) >> 32);
         for (std::size_t k = 0; k < 32; ++k)
-            if ((gray >> k) & 1u) state_[d] ^= kDirections[d][k];
+            if ((gray >> k) & 1u) state_[d] ^= kDirections[k][d];
     }
 }
 
 std::array<double, 4> ScrambledSobol::next() {
-    std::array<double, 4> point{};
+    const Lanes bits = reverse_bits(laine_karras(state_, scramble_));
     const auto changed = static_cast<std::size_t>(std::countr_one(index_)) & 31u;
-    for (std::size_t d = 0; d < 4; ++d) {
-        point[d] = unit_open(reverse_bits(laine_karras(state_[d], scramble_[d])));
-        state_[d] ^= kDirections[d][changed];
-    }
+    Lanes direction;
+    std::memcpy(&direction, kDirections[changed].data(), sizeof direction);
+    state_ ^= direction;
     ++index_;
-    return point;
+    return {unit_open(bits[0]), unit_open(bits[1]), unit_open(bits[2]), unit_open(bits[3])};
 }
 
 }  // namespace awan

@@ -38,9 +38,12 @@ class ScrambledSobol {
     std::array<double, 4> next();
 
   private:
+    // One lane a dimension. Integers only, so every width of vector gives the same bits.
+    using Lanes = std::uint32_t __attribute__((vector_size(16)));
+
     std::uint32_t index_;
-    std::array<std::uint32_t, 4> state_;  // bit-reversed, as the scrambling wants it
-    std::array<std::uint32_t, 4> scramble_;
+    Lanes state_;  // bit-reversed, as the scrambling wants it
+    Lanes scramble_;
 };
 
 }  // namespace awan

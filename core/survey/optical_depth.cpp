@@ -27,8 +27,8 @@ double central_depth(const ParticleSet& particles, std::size_t i) {
 
 // Coarsens a raster of `side` lines until the work fits; work(side) = line-particle pairs.
 template <typename Work>
-int affordable_side(int side, const Work& work) {
-    while (side > 8 && work(side) > kMaxRasterWork) side /= 2;
+int affordable_side(int side, double most, const Work& work) {
+    while (side > 8 && work(side) > most) side = side * 3 / 4;
     return side;
 }
 
@@ -56,7 +56,7 @@ double parallel_optical_depth(const ParticleSet& particles, glm::dvec3 direction
         largest = std::max(largest, central_depth(particles, i));  // a line that no raster can miss
     }
     const double extent = std::max({high.x - low.x, high.y - low.y, 1e-300});
-    const int side = affordable_side(kRasterSide, [&](int n) {
+    const int side = affordable_side(kRasterSide, kMaxLineWork, [&](int n) {
         double work = 0;
         for (std::size_t i = 0; i < particles.size(); ++i) {
             const double reach =
@@ -126,7 +126,7 @@ double eye_optical_depth(const ParticleSet& particles, const View& view) {
         const int other = std::clamp(static_cast<int>(std::lround(shorter)), 1, side);
         return view.aspect >= 1 ? glm::ivec2(side, other) : glm::ivec2(other, side);
     };
-    const int side = affordable_side(kRasterSide, [&](int n) {
+    const int side = affordable_side(kRasterSide, kMaxRayWork, [&](int n) {
         const glm::ivec2 size = raster_size(n);
         double work = 0;
         for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -139,6 +139,11 @@ double eye_optical_depth(const ParticleSet& particles, const View& view) {
     Raster raster{size.x, size.y,
                   std::vector<double>(
                       static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), 0.0)};
+    std::vector<glm::dvec3> rays;
+    for (int b = 0; b < size.y; ++b)
+        for (int a = 0; a < size.x; ++a)
+            rays.push_back(glm::normalize(glm::dvec3(((a + 0.5) / size.x * 2 - 1) * tan_x,
+                                                     ((b + 0.5) / size.y * 2 - 1) * tan_y, 1)));
     double largest = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const Box box = box_of(i, size.x, size.y);
@@ -150,12 +155,12 @@ double eye_optical_depth(const ParticleSet& particles, const View& view) {
             largest = std::max(largest, depth * normal_cdf(glm::length(q) / s));
         for (int b = box.y0; b <= box.y1; ++b)
             for (int a = box.x0; a <= box.x1; ++a) {
-                const glm::dvec3 d = glm::normalize(glm::dvec3(
-                    ((a + 0.5) / size.x * 2 - 1) * tan_x, ((b + 0.5) / size.y * 2 - 1) * tan_y, 1));
+                const auto at = static_cast<std::size_t>(b) * static_cast<std::size_t>(size.x) +
+                                static_cast<std::size_t>(a);
+                const glm::dvec3 d = rays[at];
                 const double t = glm::dot(q, d);
                 const glm::dvec3 miss = (q - d * t) / s;
-                raster.depth[static_cast<std::size_t>(b) * static_cast<std::size_t>(size.x) +
-                             static_cast<std::size_t>(a)] +=
+                raster.depth[at] +=
                     depth * std::exp(-0.5 * glm::dot(miss, miss)) * normal_cdf(t / s);
             }
     }

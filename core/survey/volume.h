@@ -9,6 +9,6 @@ namespace awan {
 // one without mass.
 DensityVolume density_volume(const ParticleSet& particles, int max_cells);
 
-inline constexpr double kMaxVolumeWork = 2e7;  // about 10 ms
+inline constexpr double kMaxVolumeWork = 1e7;  // about 10 ms
 
 }  // namespace awan
