@@ -49,6 +49,17 @@ BENCHMARK(FillAgainstPlainRandom)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(31);
 
+// The points alone, into memory that is there already.
+void FillCubeAlone(benchmark::State& state) {
+    const Scene scene = test::valid(one_cube(Fill::kUniform, 50000));
+    std::vector<FilledParticle> out(50000);
+    for (auto _ : state) {
+        fill_cube(scene->clouds[0].cubes[0], Fill::kUniform, 1, 0, 50000, out.data());
+        benchmark::DoNotOptimize(out.data());
+    }
+}
+BENCHMARK(FillCubeAlone)->Unit(benchmark::kMillisecond);
+
 void SurveyOf(benchmark::State& state) {
     SceneDraft draft = test::table_4_4();
     for (Cube& cube : draft.clouds[0].cubes)
