@@ -14,7 +14,7 @@
 namespace awan {
 namespace {
 
-constexpr double kMinReach = 3.5;          // of s; 0.2% of the mass lies beyond
+constexpr double kMinReach = 3.5;     // of s; 0.2% of the mass lies beyond
 constexpr double kFaintDepth = 5e-4;  // optical depth at which a particle is cut
 constexpr double kMinWidthPixels =
     0.6;  // of s: sampled at pixel centres it sums to its whole within 1%
@@ -85,10 +85,13 @@ gl::TileBox tiles_of(const Seen& seen, const View& view, const ImageSettings& im
                                 image.height, kTileHeight, true);
     gl::TileBox box{x.first, y.first, x.last, y.last};
     if (seen.distance <= seen.reach) return box;
-    const double far_side = std::acos(std::clamp(seen.q.z / seen.distance, -1.0, 1.0)) +
-                            std::asin(seen.reach / seen.distance);
-    if (far_side > 1.0) return box;  // e < 1.9
-    const double grow = std::sqrt(2 / (1 + std::cos(far_side) * std::cos(far_side)));
+    // cos(a + b) of the angle a to the centre and b from there to the far side
+    const double cos_a = seen.q.z / seen.distance, sin_b = seen.reach / seen.distance;
+    const double sin_a = std::sqrt(std::max(0.0, 1 - cos_a * cos_a)),
+                 cos_b = std::sqrt(1 - sin_b * sin_b);
+    const double cos_far = cos_a * cos_b - sin_a * sin_b;
+    if (cos_far < 0.54 || cos_a < 0) return box;  // e < 1.9
+    const double grow = std::sqrt(2 / (1 + cos_far * cos_far));
     box.center_x = static_cast<float>(x.center);
     box.center_y = static_cast<float>(y.center);
     box.per_x = static_cast<float>(1 / (grow * x.half));
