@@ -144,8 +144,8 @@ std::optional<FramingError> check_length(RequestHead& head) {
     const bool bodiless = head.method == "GET" || head.method == "HEAD" ||
                           head.method == "OPTIONS" || head.method == "TRACE";
     if (lengths == 0) {
-        if (head.method == "POST" || head.method == "PUT" || head.method == "PATCH")
-            return fail(411, "there is no Content-Length");
+        // No length is no body (RFC 9112, 6.3); only POST has routes that want one, the rest are told so by 405.
+        if (head.method == "POST") return fail(411, "there is no Content-Length");
         return std::nullopt;
     }
     const std::string_view digits = head.header("Content-Length");
