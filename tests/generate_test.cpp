@@ -10,7 +10,7 @@
 #include <random>
 
 #include "core/generate/cubes.h"
-#include "core/generate/exact_math.h"
+#include "core/exact_math.h"
 #include "core/generate/generate.h"
 #include "core/generate/keyed_random.h"
 #include "tests/scenes.h"

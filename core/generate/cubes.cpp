@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/generate/exact_math.h"
+#include "core/exact_math.h"
 #include "core/generate/keyed_random.h"
 
 namespace awan {

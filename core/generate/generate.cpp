@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 
 #include "core/generate/cubes.h"
-#include "core/generate/exact_math.h"
+#include "core/exact_math.h"
 #include "core/generate/keyed_random.h"
 #include "core/parallel.h"
 

@@ -97,19 +97,6 @@ const char* missing_reason(Effect effect) {
     }
 }
 
-bool in_this_version(Effect effect) {
-    switch (effect) {
-        case Effect::kSelfShadow:
-        case Effect::kMultipleScattering:
-        case Effect::kViewExtinction:
-        case Effect::kSkyLight:
-        case Effect::kInterior:
-            return true;
-        default:
-            return false;
-    }
-}
-
 // Forward-scattered light travels with the light pass of self_shadow: one does not run without the
 // other.
 void join_scattering_to_shadow(Plan& plan, const Scene& scene) {

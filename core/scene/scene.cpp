@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 #include <string_view>
+
+#include "core/exact_math.h"
 
 namespace awan {
 namespace {
@@ -21,29 +22,6 @@ constexpr std::array<const char*, kEffectCount> kEffectNames = {
     "interior",        "texture",
 };
 
-struct SineCosine {
-    double sine, cosine;
-};
-
-// Exact at multiples of 90 degrees, where sin(pi) would leave 1.2e-16: a sun at the zenith or on an
-// axis shines along it exactly, and azimuth 360 is azimuth 0.
-SineCosine sine_cosine_degrees(double degrees) {
-    const double quarter = std::nearbyint(degrees / 90.0);
-    const double rest = (degrees - quarter * 90.0) * (std::numbers::pi / 180.0);
-    const double s = std::sin(rest);
-    const double c = std::cos(rest);
-    switch (static_cast<int>(std::fmod(quarter, 4.0) + 4.0) % 4) {
-        case 0:
-            return {s, c};
-        case 1:
-            return {c, -s};
-        case 2:
-            return {-s, -c};
-        default:
-            return {-c, s};
-    }
-}
-
 }  // namespace
 
 const char* effect_name(Effect effect) {
@@ -56,6 +34,19 @@ std::optional<Effect> effect_from_name(std::string_view name) {
     return std::nullopt;
 }
 
+bool in_this_version(Effect effect) {
+    switch (effect) {
+        case Effect::kSelfShadow:
+        case Effect::kMultipleScattering:
+        case Effect::kViewExtinction:
+        case Effect::kSkyLight:
+        case Effect::kInterior:
+            return true;
+        default:
+            return false;
+    }
+}
+
 glm::dvec3 sun_direction(const Sun& sun) {
     if (sun.direction) {
         // By the largest component first: the squares of 1e-200 would vanish.
@@ -63,11 +54,11 @@ glm::dvec3 sun_direction(const Sun& sun) {
         const double largest = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
         return glm::normalize(d / largest);
     }
-    const SineCosine elevation = sine_cosine_degrees(sun.elevation);
-    const SineCosine azimuth = sine_cosine_degrees(sun.azimuth);
+    // Exact at multiples of 90 degrees: a sun at the zenith or on an axis shines along it.
+    const SinCos elevation = exact_sincos_degrees(sun.elevation);
+    const SinCos azimuth = exact_sincos_degrees(sun.azimuth);
     // + 0.0: no negative zeros, which print as "-0".
-    return glm::dvec3(elevation.cosine * azimuth.sine, elevation.sine,
-                      elevation.cosine * azimuth.cosine) +
+    return glm::dvec3(elevation.cos * azimuth.sin, elevation.sin, elevation.cos * azimuth.cos) +
            0.0;
 }
 

@@ -127,6 +127,8 @@ enum class Switch { kAuto, kOn, kOff };
 // The name of an effect in documents, e.g. "self_shadow".
 const char* effect_name(Effect effect);
 std::optional<Effect> effect_from_name(std::string_view name);
+// Whether this version can run it; the others are never on, and forcing them is refused.
+bool in_this_version(Effect effect);
 
 // At most one is set; none = the default.
 struct Accuracy {

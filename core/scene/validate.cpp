@@ -331,30 +331,10 @@ Status check_image(const ImageSettings& image) {
 
 // --- what to simulate
 
-bool can_be_forced(Effect effect) {
-    switch (effect) {
-        case Effect::kSelfShadow:
-        case Effect::kMultipleScattering:
-        case Effect::kViewExtinction:
-        case Effect::kSkyLight:
-        case Effect::kInterior:
-            return true;
-        case Effect::kGroundLight:
-        case Effect::kGroundShadow:
-        case Effect::kSunColor:
-        case Effect::kAerialPerspective:
-        case Effect::kLightShafts:
-        case Effect::kDetail:
-        case Effect::kTexture:
-            return false;
-    }
-    return false;
-}
-
 Status check_effects(const SceneDraft& draft) {
     for (int i = 0; i < kEffectCount; ++i) {
         const auto effect = static_cast<Effect>(i);
-        if (draft.effects[i] == Switch::kOn && !can_be_forced(effect))
+        if (draft.effects[i] == Switch::kOn && !in_this_version(effect))
             return unsupported(std::string("/effects/") + effect_name(effect),
                                "is not in this version; give false or \"auto\"");
     }

@@ -1,4 +1,4 @@
-#include "core/generate/exact_math.h"
+#include "core/exact_math.h"
 
 #include <cmath>
 #include <numbers>
