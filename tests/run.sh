@@ -16,6 +16,6 @@ cmake --build "build/$preset"
 if [ ! -d build/node/node_modules/playwright-core ]; then
     mkdir -p build/node
     cp tests/package.json tests/package-lock.json build/node/
-    (cd build/node && npm ci --silent --no-audit --no-fund --ignore-scripts)
+    (cd build/node && npm ci --loglevel=error --no-audit --no-fund --ignore-scripts)
 fi
 ctest --test-dir "build/$preset" --output-on-failure --no-tests=error "$@"
