@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/generate/gaussian.h"
 #include "core/shaders/shared.h"
 #include "core/survey/projection.h"
 
@@ -104,13 +105,12 @@ Seen see(const Scene& scene, const ParticleSet& particles, std::size_t i, const 
     const glm::dvec3 p = particles.center[i] - view.eye;
     seen.q = {glm::dot(p, view.right), glm::dot(p, view.up), glm::dot(p, view.forward)};
     seen.distance = glm::length(seen.q);
-    const double own_s = 0.5 * static_cast<double>(particles.radius[i]);
+    const double own_s = gaussian_s(particles, i);
     const double pixel = 2 * view.tan_half_fov / scene->image.height;
     seen.s = std::max({own_s, kMinWidthPixels * pixel * std::max(0.0, seen.q.z), 1e-12});
     seen.widened = seen.s > own_s;
     const double thinned = (own_s / seen.s) * (own_s / seen.s);
-    seen.tau = thinned * static_cast<double>(particles.density[i]) * own_s *
-               std::sqrt(2 * std::numbers::pi);
+    seen.tau = thinned * central_depth(particles, i);
     if (!(seen.tau > 0)) return seen;
     const double cut =
         std::max(kMinReach, std::sqrt(2 * std::log(std::max(1.0, seen.tau / kFaintDepth))));

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/generate/gaussian.h"
 #include "core/gl/programs.h"
 #include "core/gl/tile_lists.h"
 #include "core/light/light_grid.h"
@@ -50,9 +51,7 @@ GainCurve gain_curve(double gain, double whole) {
 
 OnGrid put_on_grid(const ParticleSet& particles, std::size_t i, const LightGrid& grid,
                    double gain) {
-    const double s = 0.5 * static_cast<double>(particles.radius[i]);
-    const double tau =
-        static_cast<double>(particles.density[i]) * s * std::sqrt(2 * std::numbers::pi);
+    const double s = gaussian_s(particles, i), tau = central_depth(particles, i);
     const glm::dvec3 place = grid.place(particles.center[i]);
     const double across = std::max(s / grid.texel, 0.6), along = std::max(s / grid.slab, 0.4);
     const double narrowing = s / grid.texel / across;

@@ -28,17 +28,19 @@ struct Lighting {
     std::vector<ParticleLight> particles;
 };
 
+// Half angles within which forward-scattered light counts as going on, radians. The sources leave them open: the sun's is
+// chosen by eye between 45 and 90 degrees, the sky's is the hemisphere it shines from.
+inline constexpr double kSunGathering = std::numbers::pi / 3;
+inline constexpr double kSkyGathering = std::numbers::pi / 2;
+
 // The classic recurrence (document 000, eq. 3.12; Harris 2001) from the sun and from the zenith, by
-// the compute passes light_columns and light_samples. Skipped when the plan has no self_shadow.
+// the compute passes light_columns, light_sums and light_samples. Skipped when the plan has no self_shadow.
 //
 // Forward gain: the part of a particle's scattered light that travels on with the light, albedo
 // times the phase function's true fraction (gathering_fraction) within kSunGathering of the beam
 // or, since the sky's light comes from a whole hemisphere, kSkyGathering. Sunlight gained so has
 // been scattered; it is kept apart from the direct beam, because it no longer has the beam's
 // direction. Errors: kOverDeadline, kCancelled, kInternal.
-inline constexpr double kSunGathering =
-    std::numbers::pi / 3;  // the sources leave it open; between 45 and 90 degrees by eye
-inline constexpr double kSkyGathering = std::numbers::pi / 2;
 Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const Plan& plan,
                        Device& device, const Deadline& deadline);
 

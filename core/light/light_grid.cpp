@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/generate/gaussian.h"
 #include "core/survey/projection.h"
 
 namespace awan {
@@ -26,7 +27,7 @@ Extent extent_of(const ParticleSet& particles, const LightGrid& grid) {
     Extent extent{particles.center[0], glm::dvec3(0), glm::dvec3(0), 0};
     double sum_s2 = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
-        const double s = 0.5 * static_cast<double>(particles.radius[i]);
+        const double s = gaussian_s(particles, i);
         const glm::dvec3 p = particles.center[i] - extent.base;
         const glm::dvec3 q(glm::dot(p, grid.u), glm::dot(p, grid.v), glm::dot(p, grid.w));
         extent.low = i == 0 ? q - 4 * s : glm::min(extent.low, q - 4 * s);

@@ -5,8 +5,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
-#include <numbers>
 
+#include "core/generate/gaussian.h"
 #include "core/survey/gauss.h"
 #include "core/survey/projection.h"
 
@@ -14,16 +14,6 @@ namespace awan {
 namespace {
 
 constexpr double kCut = 4;
-
-double radius_s(const ParticleSet& particles, std::size_t i) {
-    return 0.5 * static_cast<double>(particles.radius[i]);
-}
-
-// Optical depth of the whole line through a particle's centre.
-double central_depth(const ParticleSet& particles, std::size_t i) {
-    return static_cast<double>(particles.density[i]) * radius_s(particles, i) *
-           std::sqrt(2 * std::numbers::pi);
-}
 
 // Coarsens a raster of `side` lines until the work fits; work(side) = line-particle pairs.
 template <typename Work>
@@ -60,7 +50,7 @@ double parallel_optical_depth(const ParticleSet& particles, glm::dvec3 direction
         double work = 0;
         for (std::size_t i = 0; i < particles.size(); ++i) {
             const double reach =
-                std::min<double>(n, 2 * kCut * radius_s(particles, i) / extent * n + 1);
+                std::min<double>(n, 2 * kCut * gaussian_s(particles, i) / extent * n + 1);
             work += reach * reach;
         }
         return work;
@@ -71,7 +61,7 @@ double parallel_optical_depth(const ParticleSet& particles, glm::dvec3 direction
         std::vector<double>(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0.0)};
     std::vector<double> along_x(static_cast<std::size_t>(side));
     for (std::size_t i = 0; i < particles.size(); ++i) {
-        const double s = radius_s(particles, i), depth = central_depth(particles, i);
+        const double s = gaussian_s(particles, i), depth = central_depth(particles, i);
         const glm::dvec3 p = particles.center[i] - origin;
         const double x = (glm::dot(p, axes.u) - low.x) / step - 0.5,
                      y = (glm::dot(p, axes.v) - low.y) / step - 0.5;
@@ -105,7 +95,7 @@ double eye_optical_depth(const ParticleSet& particles, const View& view) {
                 0,
                 -1,
                 {glm::dot(p, view.right), glm::dot(p, view.up), glm::dot(p, view.forward)}};
-        const double reach = kCut * radius_s(particles, i);
+        const double reach = kCut * gaussian_s(particles, i);
         const Interval x = disc_slopes(box.q.x, box.q.z, reach),
                        y = disc_slopes(box.q.y, box.q.z, reach);
         const auto column = [&](double slope) {
@@ -147,7 +137,7 @@ double eye_optical_depth(const ParticleSet& particles, const View& view) {
     double largest = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const Box box = box_of(i, size.x, size.y);
-        const double s = radius_s(particles, i), depth = central_depth(particles, i);
+        const double s = gaussian_s(particles, i), depth = central_depth(particles, i);
         const glm::dvec3 q = box.q;
         // The ray through a particle's own centre, when it is in the picture: no raster can miss
         // it.

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 
+#include "core/generate/gaussian.h"
 #include "core/parallel.h"
 #include "core/survey/optical_depth.h"
 #include "core/survey/volume.h"
@@ -21,7 +21,7 @@ void measure_projection(const ParticleSet& particles, int image_height, Survey& 
     const double px_per_slope = image_height / (2 * view.tan_half_fov);
     survey.min_projected_px = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < particles.size(); ++i) {
-        const double s = 0.5 * static_cast<double>(particles.radius[i]);
+        const double s = gaussian_s(particles, i);
         const double distance = glm::length(particles.center[i] - view.eye);
         if (distance <= kInsideReach * s) survey.eye_inside = true;
         const double px =
@@ -33,10 +33,10 @@ void measure_projection(const ParticleSet& particles, int image_height, Survey& 
 
 void measure_matter(const ParticleSet& particles, Survey& survey) {
     for (std::size_t i = 0; i < particles.size(); ++i) {
-        const double s = 0.5 * static_cast<double>(particles.radius[i]);
-        const auto density = static_cast<double>(particles.density[i]);
-        survey.max_sigma_s = std::max(survey.max_sigma_s, density * s);
-        survey.total_mass += density * std::pow(2 * std::numbers::pi, 1.5) * s * s * s;
+        survey.max_sigma_s =
+            std::max(survey.max_sigma_s,
+                     static_cast<double>(particles.density[i]) * gaussian_s(particles, i));
+        survey.total_mass += gaussian_mass(particles, i);
     }
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <numbers>
 
+#include "core/generate/gaussian.h"
 #include "core/survey/gauss.h"
 
 namespace awan {
@@ -52,7 +52,7 @@ DensityVolume density_volume(const ParticleSet& particles, int max_cells) {
     if (particles.size() == 0) return volume;
     glm::dvec3 low(particles.center[0]), high(low);
     for (std::size_t i = 0; i < particles.size(); ++i) {
-        const glm::dvec3 reach(kCut * 0.5 * static_cast<double>(particles.radius[i]));
+        const glm::dvec3 reach(kCut * gaussian_s(particles, i));
         low = glm::min(low, particles.center[i] - reach);
         high = glm::max(high, particles.center[i] + reach);
     }
@@ -76,9 +76,7 @@ DensityVolume density_volume(const ParticleSet& particles, int max_cells) {
     std::vector<float> wx(static_cast<std::size_t>(n.x)), wy(static_cast<std::size_t>(n.y)),
         wz(static_cast<std::size_t>(n.z));
     for (std::size_t i = 0; i < particles.size(); ++i) {
-        const double s = 0.5 * static_cast<double>(particles.radius[i]);
-        const double mass = static_cast<double>(particles.density[i]) *
-                            std::pow(2 * std::numbers::pi, 1.5) * s * s * s;
+        const double s = gaussian_s(particles, i), mass = gaussian_mass(particles, i);
         if (!(mass > 0)) continue;
         const glm::dvec3 c = particles.center[i];
         const Span x = cells_of(c.x, kCut * s, volume.origin.x, volume.cell, n.x);
