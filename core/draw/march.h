@@ -1,0 +1,18 @@
+// Pass 2 of the transport rungs: exact optical depth along every pixel's ray, light from the grid. No GL.
+#pragma once
+
+#include "core/draw/image.h"
+#include "core/light/transport.h"
+
+namespace awan {
+
+struct MarchSettings {
+    double step_error = 0.01;  // about the share of a pixel's radiance that the steps may cost
+};
+
+// Threads do not show in the result. Errors: kOverDeadline, kCancelled.
+Result<Image> march(const Scene& scene, const ParticleSet& particles, const View& view,
+                    const TransportLight& light, const MarchSettings& settings, int threads,
+                    const Deadline& deadline);
+
+}  // namespace awan

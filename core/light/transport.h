@@ -1,0 +1,77 @@
+// Pass 1 of the transport rungs: all orders of scattering by discrete ordinates on a grid. No GL.
+//
+// The sun's beam and the light scattered from it only within the phase function's forward peak are not on the
+// grid: the eye pass (core/draw/march.h) has them exactly, from SunDepth. The grid holds the rest: light
+// scattered out of the peak at least once before it meets its last particle, and all of the sky's.
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+#include "core/deadline.h"
+#include "core/generate/particle_set.h"
+#include "core/scene/scene.h"
+#include "core/survey/survey.h"
+
+namespace awan {
+
+// Optical depth from the sun (all extinction, the peak's too) at the nodes of a lattice that faces it.
+// Node (i, j, k) stands at origin + cell * (i u + j v + k w). Between nodes: trilinear. Outside: the
+// nearest node's (the lattice holds the cloud, so depth is 0 before it and constant after it along w).
+struct SunDepth {
+    glm::dvec3 origin{0};                           // scene units
+    glm::dvec3 u{1, 0, 0}, v{0, 1, 0}, w{0, 0, 1};  // orthonormal; w is the way the light goes
+    double cell = 0;                                // scene units
+    glm::ivec3 nodes{0};
+    std::vector<float> depth;  // i fastest, then j, then k
+};
+
+// Real spherical harmonics up to l = 3, in the order l^2 + l + m, normalised so that the integral of
+// each one's square over the sphere is 1 (core/light/harmonics.h).
+inline constexpr int kHarmonics = 16;
+
+// One part of the light: its colour, and its shape in space and angle.
+struct LightBand {
+    glm::vec3 color{
+        1};  // r g b of this part; what a pixel gets is the sum over bands of color * radiance
+    // Source function of each cell (x fastest, then y, then z), radiance per unit optical depth of ALL extinction:
+    // toward direction o (from the cell, unit, the way the light goes) it is sum_i moments[cell][i] * Y_i(o).
+    std::vector<std::array<float, kHarmonics>> moments;
+};
+
+// View-independent: kept while the camera moves.
+struct TransportLight {
+    glm::dvec3 origin{
+        0};  // corner of cell 0, scene units; light at a point: trilinear between cell centres, clamped outside
+    double cell = 0;  // side of a cubic cell, scene units; 0: there is no grid (rung `single`)
+    glm::ivec3 cells{0};
+    std::vector<LightBand> bands;
+    std::vector<glm::vec3> albedo;  // of each cell, for the beam; EMPTY: medium.albedo everywhere
+    SunDepth sun;
+    int peak_from = 4;  // L + 1: the peak holds the orders from here on
+    double peak_share =
+        0;  // f = g^(L+1): the share of scattering that is taken as the forward peak. Radiance from
+            // `bands` is dimmed towards the eye by exp(-(1 - albedo f) tau), not exp(-tau)
+    int sweeps = 0;       // transport sweeps it took, all bands
+    double residual = 0;  // of the solve, relative; largest of the bands
+
+    std::size_t bytes() const;  // memory it holds
+};
+
+struct TransportSettings {
+    int cells = 32;      // along the longest side of the matter; 0: no grid, the sun's depth only
+    int sun_cells = 96;  // of SunDepth, along its longest side
+    double tolerance = 1e-3;  // of the solve, relative to its source
+    int max_sweeps = 40;      // a band; each is one walk through all cells and directions
+    bool sky = true;          // whether the sky's light is wanted
+};
+
+// Errors: kOverDeadline, kCancelled. The same bytes for every number of threads. Time: cells^3 and particles; memory: see
+// transport_bytes.
+Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& particles,
+                                       const Survey& survey, const TransportSettings& settings,
+                                       int threads, const Deadline& deadline);
+
+}  // namespace awan

@@ -1,0 +1,47 @@
+// The truth to measure against: an unbiased path tracer. Slow, and shares no lighting or sampling
+// code with core/light and core/draw.
+#pragma once
+
+#include <cstdint>
+
+#include "core/deadline.h"
+#include "core/draw/image.h"
+#include "core/generate/particle_set.h"
+#include "core/progress.h"
+#include "core/scene/scene.h"
+#include "core/survey/survey.h"
+
+namespace awan {
+
+enum class SkySampling {
+    kEscape,     // paths that leave the cloud bring the sky's radiance from where they go
+    kNextEvent,  // the sky is looked for at every scattering, escaping paths bring nothing
+};
+
+struct TruthOptions {
+    std::uint32_t samples = 64;    // paths a pixel, both halves together; even, >= 2
+    std::uint32_t max_orders = 0;  // scatterings a path may have; 0 = no end but the albedo's and
+                                   // the limit kMaxOrders
+    SkySampling sky = SkySampling::kEscape;
+    std::uint64_t seed = 1;
+    int threads = 1;
+};
+
+// Two independent pictures of half the samples each: their difference is the noise, and (x - a)(x -
+// b) is an estimate of the squared error of x that noise does not inflate.
+struct TruthImage {
+    Image half_a, half_b;
+    double scatterings = 0;  // a path that met the cloud, mean
+};
+
+// Linear radiance as core/draw gives it: premultiplied, alpha = 1 - transmittance (exact, by
+// line_optical_depth, no noise), over the sky and the ground or over nothing as the scene's background says.
+// A picture depends on scene, samples and seed, not on threads. Errors: kOverDeadline, kCancelled.
+Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles, const View& view,
+                               const TruthOptions& options, const Progress& progress,
+                               const Deadline& deadline);
+
+// (a + b) / 2: what is shown.
+Image mean_of(const TruthImage& truth);
+
+}  // namespace awan
