@@ -82,11 +82,10 @@ inline AccuracyReport fake_report(const std::vector<FakeRung>& rungs, int width 
 }
 
 inline std::vector<FakeRung> whole_ladder() {
-    return {{"additive", 3, 2},           {"harris", 48, 0.62},
-            {"single", 95, 0.71},         {"transport-16", 190, 0.11},
-            {"transport-24", 260, 0.07},  {"transport-32", 420, 0.042},
-            {"transport-48", 1400, 0.02}, {"transport-64", 3900, 0.012},
-            {"truth", 60'000, 0.002}};
+    return {
+        {"additive", 3, 2},           {"harris", 48, 0.62},          {"single", 95, 0.71},
+        {"transport-16", 190, 0.11},  {"transport-24", 260, 0.07},   {"transport-32", 420, 0.042},
+        {"transport-48", 1400, 0.02}, {"transport-64", 3900, 0.012}, {"truth", 60'000, 0.002}};
 }
 
 }  // namespace awan::test
