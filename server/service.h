@@ -18,8 +18,9 @@
 namespace awan {
 
 struct Request {
-    std::string method;  // upper case
-    std::string path;    // decoded, without the query
+    std::string method;                                      // upper case
+    std::string path;                                        // decoded, without the query
+    std::vector<std::pair<std::string, std::string>> query;  // decoded names and values
     std::vector<std::pair<std::string, std::string>> headers;
     std::string body;
     std::string id;     // X-Request-Id: the client's if it is 1..128 of [A-Za-z0-9._-], else made
