@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/light/dot_product.h"
+
 namespace awan {
 namespace {
 
@@ -10,22 +12,6 @@ namespace {
 constexpr float kStreaming = 0.75F;
 
 using Vector = std::vector<float>;
-
-__attribute__((target_clones("avx512f", "avx2", "default"))) double dot(const float* a,
-                                                                        const float* b,
-                                                                        std::size_t count) {
-    double sum = 0;
-    for (std::size_t block = 0; block < count; block += 1024) {
-        float lanes[16] = {};
-        const std::size_t end = std::min(block + 1024, count);
-        std::size_t i = block;
-        for (; i + 16 <= end; i += 16)
-            for (std::size_t l = 0; l < 16; ++l) lanes[l] += a[i + l] * b[i + l];
-        for (; i < end; ++i) lanes[0] += a[i] * b[i];
-        for (const float lane : lanes) sum += static_cast<double>(lane);
-    }
-    return sum;
-}
 
 // to = operator from. The vectors have one layer of zeros before and after, so that no neighbour is out of bounds;
 // conductances are 0 across the sides.
@@ -109,21 +95,21 @@ void solve_diffusion(const Diffusion& diffusion, std::span<const float> source, 
     Vector residual(source.begin(), source.end()), scaled(count), product(count), inverse(count);
     Vector direction(count + layer);  // zeros beyond the end
     for (std::size_t i = 0; i < count; ++i) inverse[i] = 1 / diffusion.diagonal[i];
-    const double goal = tolerance * tolerance * dot(source.data(), source.data(), count);
+    const double goal = tolerance * tolerance * dot_product(source.data(), source.data(), count);
     if (!(goal > 0)) return;
     multiply(residual.data(), inverse.data(), scaled.data(), count);
     std::copy(scaled.begin(), scaled.end(), direction.begin());
-    double rz = dot(residual.data(), scaled.data(), count);
+    double rz = dot_product(residual.data(), scaled.data(), count);
     for (int i = 0; i < kMaxDiffusionSteps; ++i) {
         apply(diffusion.diagonal.data(), diffusion.across[0].data(), diffusion.across[1].data(),
               diffusion.across[2].data(), row, layer, direction.data(), count, product.data());
-        const double curvature = dot(direction.data(), product.data(), count);
+        const double curvature = dot_product(direction.data(), product.data(), count);
         if (!(curvature > 0)) return;
         step(static_cast<float>(rz / curvature), direction.data(), product.data(), value.data(),
              residual.data(), count);
-        if (dot(residual.data(), residual.data(), count) <= goal) return;
+        if (dot_product(residual.data(), residual.data(), count) <= goal) return;
         multiply(residual.data(), inverse.data(), scaled.data(), count);
-        const double next = dot(residual.data(), scaled.data(), count);
+        const double next = dot_product(residual.data(), scaled.data(), count);
         turn(static_cast<float>(next / rz), scaled.data(), direction.data(), count);
         rz = next;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/light/dot_product.h"
 #include "core/parallel.h"
 
 namespace awan {
@@ -14,20 +15,6 @@ using Vector = std::vector<float>;
 
 std::size_t blocks_of(std::size_t size) {
     return (size + kBlock - 1) / kBlock;
-}
-
-// Sixteen partial sums, so that the compiler may use vectors; the order is fixed.
-__attribute__((target_clones("avx512f", "avx2", "default"))) double dot_block(const float* a,
-                                                                              const float* b,
-                                                                              std::size_t count) {
-    float lanes[16] = {};
-    std::size_t i = 0;
-    for (; i + 16 <= count; i += 16)
-        for (std::size_t l = 0; l < 16; ++l) lanes[l] += a[i + l] * b[i + l];
-    double sum = 0;
-    for (const float lane : lanes) sum += static_cast<double>(lane);
-    for (; i < count; ++i) sum += static_cast<double>(a[i] * b[i]);
-    return sum;
 }
 
 __attribute__((target_clones("avx512f", "avx2", "default"))) void add_block(float* to,
@@ -46,8 +33,8 @@ std::vector<double> dots(const std::vector<Vector>& basis, std::size_t count, co
         const std::size_t at = block * kBlock, n = std::min(kBlock, w.size() - at);
         double* to = parts.data() + block * (count + 1);
         for (std::size_t v = 0; v < count; ++v)
-            to[v] = dot_block(basis[v].data() + at, w.data() + at, n);
-        to[count] = dot_block(w.data() + at, w.data() + at, n);
+            to[v] = dot_product(basis[v].data() + at, w.data() + at, n);
+        to[count] = dot_product(w.data() + at, w.data() + at, n);
     });
     std::vector<double> sums(count + 1);
     for (std::size_t block = 0; block < blocks; ++block)

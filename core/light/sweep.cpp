@@ -85,7 +85,10 @@ inline __attribute__((always_inline)) void walk_octant(const Task& task) {
                 const Lanes ty = (ay + 3 * cy) * (ax * az) * inverse;
                 const Lanes tz = (az + 3 * cz) * (ax * ay) * inverse;
                 const Lanes wx = cx * tx, wy = cy * ty, wz = cz * tz;
-                const Lanes psi = (q + wx * psi_x + wy * psi_y + wz * psi_z) / (s + wx + wy + wz);
+                // psi_x comes from the cell before: all else is ready by then.
+                const Lanes share = 1 / (s + wx + wy + wz);
+                const Lanes others = q + wy * psi_y + wz * psi_z;
+                const Lanes psi = (others + wx * psi_x) * share;
                 psi_x += (psi - psi_x) * tx;
                 psi_y += (psi - psi_y) * ty;
                 psi_z += (psi - psi_z) * tz;
@@ -123,27 +126,36 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) void walk_1(const T
 }
 
 constexpr std::size_t kGroups = 4;
+static_assert(std::tuple_size_v<decltype(SweepSpace::sums)> == kGroups);
+
+__attribute__((target_clones("avx512f", "avx2", "default"))) void add_groups(
+    const SweepSpace& space, std::size_t at, std::size_t count, float* to) {
+    const float *a = space.sums[0].data() + at, *b = space.sums[1].data() + at,
+                *c = space.sums[2].data() + at, *d = space.sums[3].data() + at;
+    for (std::size_t i = 0; i < count; ++i) to[i] = (a[i] + b[i]) + (c[i] + d[i]);
+}
 
 }  // namespace
 
 void sweep(const SweepGrid& grid, const Ordinates& ordinates, std::span<const float> source,
-           const Inflow& inflow, int threads, std::span<float> moments) {
+           const Inflow& inflow, int threads, SweepSpace& space, std::span<float> moments) {
     const auto harmonics = static_cast<std::size_t>(grid.harmonics);
     assert(harmonics == 1 || harmonics == 16);
     assert(source.size() == harmonics * grid.size() && moments.size() == source.size());
-    std::array<std::vector<float>, kGroups> sums;
     parallel_for(threads, kGroups, [&](std::size_t group) {
-        sums[group].assign(moments.size(), 0.F);
-        std::vector<float> row(static_cast<std::size_t>(grid.cells.x) * kDirections);
-        std::vector<float> layer(row.size() * static_cast<std::size_t>(grid.cells.y));
+        std::vector<float>&sums = space.sums[group], &row = space.rows[group],
+        &layer = space.layers[group];
+        sums.assign(moments.size(), 0.F);
+        row.resize(static_cast<std::size_t>(grid.cells.x) * kDirections);
+        layer.resize(row.size() * static_cast<std::size_t>(grid.cells.y));
         for (std::size_t o = group; o < kOctants; o += kGroups) {
             const Ordinates::Octant& octant = ordinates.octants[o];
             alignas(64) std::array<float, kDirections> in{};
             if (inflow)
                 for (std::size_t d = 0; d < kDirections; ++d)
                     in[d] = static_cast<float>(inflow(octant.direction[d]));
-            const Task task{grid,      ordinates,          octant,     source.data(),
-                            in.data(), sums[group].data(), row.data(), layer.data()};
+            const Task task{grid,      ordinates,   octant,     source.data(),
+                            in.data(), sums.data(), row.data(), layer.data()};
             if (harmonics == 16)
                 walk_16(task);
             else
@@ -152,9 +164,8 @@ void sweep(const SweepGrid& grid, const Ordinates& ordinates, std::span<const fl
     });
     constexpr std::size_t kBlock = 1u << 14;
     parallel_for(threads, (moments.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
-        const std::size_t end = std::min((block + 1) * kBlock, moments.size());
-        for (std::size_t i = block * kBlock; i < end; ++i)
-            moments[i] = (sums[0][i] + sums[1][i]) + (sums[2][i] + sums[3][i]);
+        const std::size_t at = block * kBlock, n = std::min(kBlock, moments.size() - at);
+        add_groups(space, at, n, moments.data() + at);
     });
 }
 

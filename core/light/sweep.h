@@ -26,12 +26,17 @@ inline constexpr float kMaxCellDepth = 30;
 // Radiance that enters the grid, travelling along `direction` (unit).
 using Inflow = std::function<double(const glm::dvec3& direction)>;
 
+// Memory that sweeps of one grid reuse.
+struct SweepSpace {
+    std::array<std::vector<float>, 4> sums, rows, layers;
+};
+
 // Solves direction . grad psi + sigma psi = source for given sources, and gives the moments of psi.
 // source, moments: harmonics floats a cell, times the cell's side (dimensionless source: emission per unit length x side).
 // inflow: empty for vacuum. Linear weighted diamond differences, theta = (3 + tau) / (6 + tau), tau the depth of the
 // cell along the direction (positive where diamond is not, second order where cells are thin).
 // Four octants' sums are kept apart and added in a fixed order: the same bytes for every number of threads.
 void sweep(const SweepGrid& grid, const Ordinates& ordinates, std::span<const float> source,
-           const Inflow& inflow, int threads, std::span<float> moments);
+           const Inflow& inflow, int threads, SweepSpace& space, std::span<float> moments);
 
 }  // namespace awan

@@ -120,8 +120,9 @@ Result<std::vector<float>> solve(const Matter& matter, const Ordinates& ordinate
         inflow = [&](const glm::dvec3& direction) {
             return sky_radiance(-direction.y, shine.zenith, shine.horizon);
         };
+    SweepSpace space;
     std::vector<float> right(source.size());
-    sweep(matter.grid, ordinates, source, inflow, threads, right);
+    sweep(matter.grid, ordinates, source, inflow, threads, space, right);
 
     std::array<float, kHarmonics> moment{};
     for (std::size_t m = 0; m < harmonics_count; ++m)
@@ -132,7 +133,7 @@ Result<std::vector<float>> solve(const Matter& matter, const Ordinates& ordinate
             for (std::size_t m = 0; m < harmonics_count; ++m)
                 source[i * harmonics_count + m] =
                     matter.scattered[i] * moment[m] * from[i * harmonics_count + m];
-        sweep(matter.grid, ordinates, source, {}, threads, to);
+        sweep(matter.grid, ordinates, source, {}, threads, space, to);
         for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i] - to[i];
         return std::nullopt;
     };
@@ -224,8 +225,8 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
     light.peak_from = kOrders;
     const double kept = 1 - albedo * f;
 
-    const double deepest =
-        std::max({survey.optical_depth_sun, survey.optical_depth_zenith, survey.optical_depth_eye});
+    // Of the lights' lines only: the eye's would tie the light to a camera.
+    const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
     const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     const double rest = kLeftOut * std::min(1.0, deepest);
     Lattice coarse = lattice_around_matter(particles, x, y, z, rest, settings.cells, threads);
