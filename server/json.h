@@ -25,8 +25,9 @@ void append_particles_json(const ParticleSet& particles, std::size_t first, std:
                            std::string& out);
 std::string particles_json_tail();
 
-// Plan answer: {"survey":{...},"effects":[{"name","on","available","reason"}],"rung",
-// "predicted":{"error":null,"time_ms":null}} - nothing is predicted until rungs are calibrated.
+// Plan answer: {"survey":{...},"effects":[{"name","on","available","reason"}],"rung","rung_reason",
+// "predicted":{"error","time_ms"},"rungs":[{"rung","simulates","error","time_ms","memory_bytes"}]},
+// the rungs in the ladder's order. null where nothing can be predicted.
 std::string plan_to_json(const Survey& survey, const Plan& plan);
 
 // RFC 9457. `pointer` is left out when empty and status is not 422.

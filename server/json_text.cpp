@@ -85,4 +85,40 @@ void append_json_vector(const glm::vec3& v, std::string& out) {
     append_vector(v, out);
 }
 
+namespace json_text {
+
+void name(const char* field, std::string& out) {
+    if (out.empty() || (out.back() != '{' && out.back() != '[')) out += ',';
+    out += '"';
+    out += field;
+    out += "\":";
+}
+
+void member(const char* field, double value, std::string& out) {
+    name(field, out);
+    append_json_number(value, out);
+}
+
+void member(const char* field, std::uint64_t value, std::string& out) {
+    name(field, out);
+    out += std::to_string(value);
+}
+
+void member(const char* field, int value, std::string& out) {
+    name(field, out);
+    out += std::to_string(value);
+}
+
+void member(const char* field, std::string_view value, std::string& out) {
+    name(field, out);
+    append_json_string(value, out);
+}
+
+void member(const char* field, bool value, std::string& out) {
+    name(field, out);
+    out += value ? "true" : "false";
+}
+
+}  // namespace json_text
+
 }  // namespace awan

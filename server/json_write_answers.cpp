@@ -1,37 +1,14 @@
 // Values -> answers. Written piece by piece: an answer may be a million particles long.
+#include <limits>
+
 #include "server/json.h"
 #include "server/json_text.h"
 
 namespace awan {
 namespace {
 
-// `,"name":` - or without the comma at the start of an object.
-void name(const char* field, std::string& out) {
-    if (out.empty() || (out.back() != '{' && out.back() != '[')) out += ',';
-    out += '"';
-    out += field;
-    out += "\":";
-}
-
-void member(const char* field, double value, std::string& out) {
-    name(field, out);
-    append_json_number(value, out);
-}
-
-void member(const char* field, std::uint64_t value, std::string& out) {
-    name(field, out);
-    out += std::to_string(value);
-}
-
-void member(const char* field, std::string_view value, std::string& out) {
-    name(field, out);
-    append_json_string(value, out);
-}
-
-void member(const char* field, bool value, std::string& out) {
-    name(field, out);
-    out += value ? "true" : "false";
-}
+using json_text::member;
+using json_text::name;
 
 void bounds(const Bounds& box, std::string& out) {
     name("bounds", out);
@@ -120,7 +97,27 @@ std::string plan_to_json(const Survey& survey, const Plan& plan) {
     }
     out += ']';
     member("rung", std::string_view(plan.rung), out);
-    out += ",\"predicted\":{\"error\":null,\"time_ms\":null}}\n";
+    member("rung_reason", std::string_view(plan.rung_reason), out);
+    name("predicted", out);
+    out += '{';
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    const bool predicted = plan.predicted.rung != nullptr;
+    member("error", predicted ? plan.predicted.error : unknown, out);
+    member("time_ms", predicted ? plan.predicted.time_ms : unknown, out);
+    out += '}';
+    name("rungs", out);
+    out += '[';
+    for (const RungForecast& forecast : plan.forecasts) {
+        if (out.back() != '[') out += ',';
+        out += '{';
+        member("rung", std::string_view(forecast.rung->name), out);
+        member("simulates", std::string_view(forecast.rung->simulates), out);
+        member("error", forecast.error, out);
+        member("time_ms", forecast.time_ms, out);
+        member("memory_bytes", forecast.bytes, out);
+        out += '}';
+    }
+    out += "]}\n";
     return out;
 }
 

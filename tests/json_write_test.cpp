@@ -203,6 +203,10 @@ TEST(PlanToJson, IsFiniteJsonWithTheFieldsThatScriptsRead) {
         plan.effects[static_cast<std::size_t>(i)] = {static_cast<Effect>(i), i % 2 == 0, i < 5,
                                                      "because \"3 > 2\""};
     plan.rung = "harris";
+    plan.rung_reason = "cheapest under 50%";
+    for (const Rung& rung : ladder()) plan.forecasts.push_back({&rung, 0.25, 12.5, 4096});
+    plan.forecasts.back().time_ms = std::numeric_limits<double>::infinity();
+    plan.predicted = plan.forecasts[1];
     const json answer = json::parse(plan_to_json(survey, plan));
     const json& figures = answer["survey"];
     EXPECT_EQ(figures["particles"], 3);
@@ -219,7 +223,19 @@ TEST(PlanToJson, IsFiniteJsonWithTheFieldsThatScriptsRead) {
                                           {"available", true},
                                           {"reason", "because \"3 > 2\""}}));
     EXPECT_EQ(answer["rung"], "harris");
-    EXPECT_EQ(answer["predicted"], json({{"error", nullptr}, {"time_ms", nullptr}}));
+    EXPECT_EQ(answer["rung_reason"], "cheapest under 50%");
+    EXPECT_EQ(answer["predicted"], json({{"error", 0.25}, {"time_ms", 12.5}}));
+    ASSERT_EQ(answer["rungs"].size(), ladder().size());
+    EXPECT_EQ(answer["rungs"][1], json({{"rung", "harris"},
+                                        {"simulates", find_rung("harris")->simulates},
+                                        {"error", 0.25},
+                                        {"time_ms", 12.5},
+                                        {"memory_bytes", 4096}}));
+    EXPECT_EQ(answer["rungs"].back()["time_ms"], nullptr) << "JSON cannot say infinite";
+    plan.predicted = {};
+    EXPECT_EQ(json::parse(plan_to_json(survey, plan))["predicted"],
+              json({{"error", nullptr}, {"time_ms", nullptr}}))
+        << "nothing is predicted of no rung";
 }
 
 TEST(ProblemToJson, SaysAPointerWhereThereIsOne) {

@@ -30,6 +30,8 @@ struct Ball {
     glm::vec3 color{1};
 };
 
+// The rung is harris in both: their tests are of the two passes of splats, whatever a plan would choose.
+
 // Ready particles, a black sky, a sun of irradiance 1 overhead-right, the eye on the +z axis
 // looking at the origin.
 inline SceneDraft balls(const std::vector<Ball>& list) {
@@ -54,6 +56,7 @@ inline SceneDraft balls(const std::vector<Ball>& list) {
     draft.image.width = 64;
     draft.image.height = 48;
     draft.medium.albedo = 1;
+    draft.accuracy.rung = "harris";
     return draft;
 }
 
@@ -65,6 +68,7 @@ inline SceneDraft table_4_4() {
         {100, {4.99599, 1.30149, 2.33467}, {1.1, -0.899999, 0}, 3, 1, {}},
         {110, {3.02839, 1.58117, 3.05433}, {-3.8, -0.499999, 0}, 3, 1, {}},
         {50, {2.36429, 1.50285, 2.29693}, {4.6, -3, 0}, 2.2345, 1, {}}};
+    draft.accuracy.rung = "harris";
     return draft;
 }
 

@@ -14,7 +14,7 @@ namespace awan::test {
 
 inline constexpr const char* kScene =
     R"({"cubes":[{"particles":20,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],"seed":7,)"
-    R"("image":{"width":16,"height":8}})";
+    R"("image":{"width":16,"height":8},"accuracy":{"rung":"harris"}})";
 
 using Headers = std::vector<std::pair<std::string, std::string>>;
 

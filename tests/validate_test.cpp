@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/plan/ladder.h"
 #include "core/scene/limits.h"
 #include "core/scene/validate.h"
 #include "server/json.h"
@@ -150,6 +151,29 @@ TEST(SceneJson, RejectsAccuraciesThatAreNotPositive) {
     expect_invalid(scene_with(R"("accuracy": {"time_ms": -1})"), "/accuracy/time_ms", {"> 0"});
 }
 
+TEST(SceneJson, TakesEveryRungAndNamesThemToWhoAsksForAnother) {
+    for (const Rung& rung : ladder())
+        EXPECT_TRUE(
+            read(scene_with(R"("accuracy": {"rung": ")" + std::string(rung.name) + "\"}")).ok())
+            << rung.name;
+    expect_invalid(scene_with(R"("accuracy": {"rung": "perfect"})"), "/accuracy/rung",
+                   {"\"additive\"", "\"harris\"", "\"truth\""});
+    EXPECT_TRUE(read(scene_with(R"("accuracy": {"error": 0.05})")).ok());
+    EXPECT_TRUE(read(scene_with(R"("accuracy": {"time_ms": 50})")).ok());
+}
+
+TEST(SceneJson, AGroundIsInRungTruthOnly) {
+    const std::string ground = R"("ground": {"height": -1, "albedo": 0.5}, "accuracy": )";
+    EXPECT_TRUE(read(scene_with(ground + R"({"rung": "truth"})")).ok());
+    for (const char* const other : {R"({"rung": "harris"})", R"({"error": 0.1})"})
+        expect_unsupported(scene_with(ground + other), "/ground", {"rung truth"});
+}
+
+TEST(Fingerprint, NoAccuracyIsTheDefaultAccuracy) {
+    EXPECT_EQ(fingerprint(*read(scene_with(R"("seed": 1)"))),
+              fingerprint(*read(scene_with(R"("accuracy": {"error": 0.1})"))));
+}
+
 // --- of the contract, but not of this version
 
 TEST(SceneJson, RefusesWhatThisVersionLacksAsUnsupported) {
@@ -158,7 +182,7 @@ TEST(SceneJson, RefusesWhatThisVersionLacksAsUnsupported) {
                            "/clouds/0/model", {"\"cubes\"", "\"particles\""});
     expect_unsupported(cube_with(R"("texture": "puff")"), "/cubes/0/texture");
     expect_unsupported(scene_with(R"("sun": {"color": "auto"})"), "/sun/color");
-    expect_unsupported(scene_with(R"("ground": {})"), "/ground", {"none"});
+    expect_unsupported(scene_with(R"("ground": {})"), "/ground", {"rung truth"});
     expect_unsupported(scene_with(R"("ground": {"height": -1, "albedo": 0.5})"), "/ground");
     expect_unsupported(scene_with(R"("ground": {"albedo": [0.1, 0.2, 0.3]})"), "/ground");
     expect_invalid(scene_with(R"("ground": {"albedo": [0.1, 0.2, 1.3]})"), "/ground/albedo/2");
@@ -172,11 +196,6 @@ TEST(SceneJson, RefusesWhatThisVersionLacksAsUnsupported) {
     for (const char* const effect :
          {"self_shadow", "multiple_scattering", "view_extinction", "sky_light", "interior"})
         EXPECT_TRUE(read(scene_with(std::string(R"("effects": {")") + effect + "\": true}")).ok());
-    expect_unsupported(scene_with(R"("accuracy": {"error": 0.05})"), "/accuracy/error", {"harris"});
-    expect_unsupported(scene_with(R"("accuracy": {"time_ms": 50})"), "/accuracy/time_ms",
-                       {"harris"});
-    expect_unsupported(scene_with(R"("accuracy": {"rung": "truth"})"), "/accuracy/rung",
-                       {"harris"});
 }
 
 // --- drafts from C++

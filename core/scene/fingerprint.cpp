@@ -137,9 +137,11 @@ void add_picture(Hasher& hash, const SceneDraft& scene) {
     hash.choice(scene.image.precision);
     hash.optional(scene.image.exposure, [&](double stops) { hash.number(stops); });
     for (const Switch effect : scene.effects) hash.choice(effect);
-    hash.optional(scene.accuracy.error, [&](double error) { hash.number(error); });
-    hash.optional(scene.accuracy.time_ms, [&](double time_ms) { hash.number(time_ms); });
-    hash.optional(scene.accuracy.rung, [&](const std::string& rung) { hash.text(rung); });
+    const Accuracy& accuracy = scene.accuracy;
+    const bool none = !accuracy.error && !accuracy.time_ms && !accuracy.rung;
+    hash.optional(none ? kDefaultError : accuracy.error, [&](double error) { hash.number(error); });
+    hash.optional(accuracy.time_ms, [&](double time_ms) { hash.number(time_ms); });
+    hash.optional(accuracy.rung, [&](const std::string& rung) { hash.text(rung); });
 }
 
 }  // namespace

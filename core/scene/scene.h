@@ -130,11 +130,12 @@ std::optional<Effect> effect_from_name(std::string_view name);
 // Whether this version can run it; the others are never on, and forcing them is refused.
 bool in_this_version(Effect effect);
 
-// At most one is set; none = the default.
+// At most one is set; none = error kDefaultError.
+inline constexpr double kDefaultError = 0.1;
 struct Accuracy {
     std::optional<double> error;      // relative, > 0
     std::optional<double> time_ms;    // > 0
-    std::optional<std::string> rung;  // by name
+    std::optional<std::string> rung;  // by name (core/plan/ladder.h)
 };
 
 struct SceneDraft {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include "core/plan/ladder.h"
 #include "core/scene/limits.h"
 
 namespace awan {
@@ -283,12 +284,10 @@ Status check_sky(const Sky& sky) {
 }
 
 Status check_ground(const Ground& ground) {
-    // Its own fields first, so that a typo names itself.
     if (Status wrong = in_range(ground.height, -limits::kMaxCoordinate, limits::kMaxCoordinate,
                                 "/ground/height"))
         return wrong;
-    if (Status wrong = all_in_range(ground.albedo, 0, 1, "/ground/albedo")) return wrong;
-    return unsupported("/ground", "a ground is not in this version; leave it out or give \"none\"");
+    return all_in_range(ground.albedo, 0, 1, "/ground/albedo");
 }
 
 // --- picture
@@ -353,11 +352,24 @@ Status check_accuracy(const Accuracy& accuracy) {
     if (accuracy.time_ms && !(*accuracy.time_ms >= kSmallest && *accuracy.time_ms <= kLargest))
         return invalid("/accuracy/time_ms",
                        "must be milliseconds > 0, not " + to_text(*accuracy.time_ms));
-    const char* const only =
-        "the accuracy ladder is not in this version; {\"rung\": \"harris\"} is what there is";
-    if (accuracy.error) return unsupported("/accuracy/error", only);
-    if (accuracy.time_ms) return unsupported("/accuracy/time_ms", only);
-    if (accuracy.rung && *accuracy.rung != "harris") return unsupported("/accuracy/rung", only);
+    if (accuracy.rung && !find_rung(*accuracy.rung)) {
+        std::string names;
+        for (const Rung& rung : ladder())
+            names += (names.empty() ? "\"" : ", \"") + std::string(rung.name) + '"';
+        return invalid("/accuracy/rung", "must be one of " + names);
+    }
+    return std::nullopt;
+}
+
+// What one value allows only together with another. Last, so that a typo names itself.
+Status check_together(const SceneDraft& draft) {
+    // Light from a ground is in the path tracer and nowhere else yet: any other rung would leave it
+    // out without a word.
+    const Rung* const rung = draft.accuracy.rung ? find_rung(*draft.accuracy.rung) : nullptr;
+    if (draft.ground && !(rung && rung->method == Method::kPaths))
+        return unsupported("/ground",
+                           "a ground is only in rung truth in this version; give "
+                           "\"accuracy\": {\"rung\": \"truth\"}, or leave the ground out");
     return std::nullopt;
 }
 
@@ -374,6 +386,7 @@ Result<Scene> validate(SceneDraft draft) {
     if (Status wrong = check_image(draft.image)) return *wrong;
     if (Status wrong = check_effects(draft)) return *wrong;
     if (Status wrong = check_accuracy(draft.accuracy)) return *wrong;
+    if (Status wrong = check_together(draft)) return *wrong;
     return Scene(std::move(draft));
 }
 

@@ -7,7 +7,7 @@ namespace awan {
 
 // Checks every range of core/scene/limits.h and every rule between fields. The error of the first
 // value that fails carries its JSON pointer and says what was allowed. What the contract has but
-// this version lacks (a ground, "auto" sun colour, effects and rungs of later versions) is refused
+// this version lacks ("auto" sun colour, later effects, a ground in any rung but truth) is refused
 // with kUnsupported.
 Result<Scene> validate(SceneDraft draft);
 

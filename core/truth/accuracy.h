@@ -15,12 +15,15 @@ struct RungCost {
     std::string rung;
     double time_ms = 0;                // median of whole renders at the scene's own size
     double light_ms = 0, draw_ms = 0;  // of the median run
+    int runs = 0;                      // renders that the median is of
     PictureError error;                // against the reference, at its size
     double flip = 0;                   // of the PNGs, sky behind, at the reference's size; 0..1
     double predicted_error = 0, predicted_time_ms = 0;  // what the plan says
-    double memory_bytes = 0;  // resident set it added at its peak, estimate of the plan or measured
-    bool pareto = false;      // no other rung is both faster and better
-    Image picture;            // at the reference's size, with the scene's background
+    double memory_bytes = 0;        // at its peak, beside the scene's particles: what the plan says
+    bool pareto = false;            // no other rung is both faster and better
+    Image picture;                  // at the reference's size, with the scene's background
+    std::vector<float> difference;  // of its pixels to the truth: luminance, relative to the
+                                    // truth's mean over cloud pixels
 };
 
 struct AccuracyReport {
@@ -33,19 +36,33 @@ struct AccuracyReport {
         Image picture;
     } reference;
     std::vector<RungCost> rungs;  // cheapest first
+    struct LeftOut {
+        std::string rung, reason;
+    };
+    std::vector<LeftOut> left_out;  // rungs that AccuracyOptions::time_ms had no room for
+    double exposure = 0;            // stops: what brings the pictures to the screen
 };
 
 struct AccuracyOptions {
     int threads = 1;
-    int runs = 3;                    // timed renders of each rung; the first of each is not counted
+    int runs = 4;  // timed renders of each rung; the first of each is not counted, unless it is the
+                   // only one or takes so long that it has to be
     int reference_side = 128;        // pixels of the reference's longer side, at most the scene's
     std::uint32_t samples = 1024;    // paths a pixel of the reference
     std::vector<std::string> rungs;  // EMPTY: all but truth, which is the reference
+    // About how long all of it may take; 0: as long as it takes. Half of it goes to the reference,
+    // which gets as many of the samples as fit; rungs that are then too slow are left out.
+    double time_ms = 0;
+    std::function<void(const std::string&)> on_step;  // told what is done now; may be empty
 };
 
-// Renders a scene as it says; the caller has the renderer. May be called from this thread only.
+// Renders a scene as it says, nothing kept from an earlier render; the caller has the renderer. Is
+// called from the thread that measures.
 using RenderScene = std::function<Result<Rendered>(const Scene&, const Deadline&)>;
 
+// The errors are measured with the reference's own rays, the times at the scene's own size.
+// Errors: of `render` and of trace_truth; kUnsupported for a scene with a ground, which no rung but
+// the reference has; kInvalidScene at /accuracy/rung for a name that is no rung's.
 Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOptions& options,
                                         const RenderScene& render, const Progress& progress,
                                         const Deadline& deadline);

@@ -1,0 +1,378 @@
+#include "core/truth/accuracy.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "core/plan/ladder.h"
+#include "core/scene/validate.h"
+#include "core/truth/accuracy_pictures.h"
+
+namespace awan {
+namespace {
+
+using Clock = Deadline::Clock;
+
+constexpr std::uint32_t kPilotSamples = 4;    // enough to know what a sample takes
+constexpr std::uint32_t kFewestSamples = 16;  // below, the noise is all there is to see
+constexpr double kReferenceShare = 0.5;       // of the time allowed
+constexpr double kLongRunMs =
+    2000;  // a first run this long is counted: what warms up is under 0.2 s
+
+// Not the seed of rung truth: noise of one picture must not look like that of the other.
+constexpr std::uint64_t kReferenceSeed = 0x7275746872656621;
+
+double ms_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Of all threads of this process: what a render beside it takes counts too.
+double processor_ms() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+std::string seconds_text(double ms) {
+    std::array<char, 32> text{};
+    const int length = std::snprintf(text.data(), text.size(), "%.2g s", ms / 1000);
+    return {text.data(), static_cast<std::size_t>(length)};
+}
+
+// Progress of a whole that is made of weighted steps; weights in the milliseconds they are expected
+// to take, so that the bar moves about evenly.
+class Steps {
+  public:
+    Steps(const Progress& progress, const std::function<void(const std::string&)>& on_step)
+        : progress_(progress), on_step_(on_step) {}
+
+    void expect(double weight) { total_ += weight; }
+    void begin(const std::string& what, double weight) {
+        done_ += std::exchange(weight_, weight);
+        if (on_step_) on_step_(what);
+        tell(0);
+    }
+    // Of the step that was begun last.
+    void tell(double share) const {
+        if (progress_ && total_ > 0) progress_(std::min(1.0, (done_ + share * weight_) / total_));
+    }
+    void end() const {
+        if (progress_) progress_(1);
+    }
+
+  private:
+    const Progress& progress_;
+    const std::function<void(const std::string&)>& on_step_;
+    double total_ = 0, done_ = 0, weight_ = 0;
+};
+
+Result<Scene> with_rung(const Scene& scene, const std::string& rung) {
+    SceneDraft draft = *scene;
+    draft.accuracy.error.reset();
+    draft.accuracy.time_ms.reset();
+    draft.accuracy.rung.emplace(rung);
+    return validate(std::move(draft));
+}
+
+// The same rays as the reference has, over nothing.
+Result<Scene> reference_sized(const Scene& scene, PictureSize size) {
+    SceneDraft draft = *scene;
+    draft.image.width = size.width;
+    draft.image.height = size.height;
+    draft.image.background = Background::kTransparent;
+    return validate(std::move(draft));
+}
+
+Result<std::vector<const Rung*>> chosen_rungs(const AccuracyOptions& options) {
+    std::vector<const Rung*> rungs;
+    if (options.rungs.empty()) {
+        for (const Rung& rung : ladder())
+            if (rung.method != Method::kPaths) rungs.push_back(&rung);
+        return rungs;
+    }
+    for (const std::string& name : options.rungs) {
+        const Rung* const rung = find_rung(name);
+        if (rung == nullptr)
+            return Error{ErrorCode::kInvalidScene, "/accuracy/rung",
+                         "there is no rung \"" + name + "\""};
+        if (std::find(rungs.begin(), rungs.end(), rung) == rungs.end()) rungs.push_back(rung);
+    }
+    // In the ladder's order, so that where time runs out it is the dearest that are missing.
+    std::sort(rungs.begin(), rungs.end());
+    return rungs;
+}
+
+const RungForecast* forecast_of(const Plan& plan, const Rung& rung) {
+    for (const RungForecast& forecast : plan.forecasts)
+        if (forecast.rung == &rung) return &forecast;
+    return nullptr;
+}
+
+double whole_ms(const StageTimes& times) {
+    return times.generate_ms + times.survey_ms + times.light_ms + times.draw_ms;
+}
+
+// --- the reference
+
+struct Reference {
+    TruthImage truth;
+    Scene scene;  // of its size, over nothing
+    View view;
+    Image mean;                       // of `truth`
+    std::vector<std::uint8_t> shown;  // the samples of its PNG, over the sky
+};
+
+// How many samples fit into `allowed_ms`, from what a few take.
+Result<std::uint32_t> fitting_samples(const Reference& reference, const ParticleSet& particles,
+                                      TruthOptions options, double allowed_ms, double& expected_ms,
+                                      const Deadline& deadline) {
+    const std::uint32_t wanted = options.samples;
+    options.samples = kPilotSamples;
+    const auto start = Clock::now();
+    auto pilot =
+        trace_truth(reference.scene, particles, reference.view, options, Progress{}, deadline);
+    if (!pilot) return pilot.error();
+    const double sample_ms = std::max(ms_since(start), 1e-3) / kPilotSamples;
+    const double fitting = std::clamp(allowed_ms / sample_ms, double{kFewestSamples}, 4e9);
+    const std::uint32_t samples = std::min(wanted, static_cast<std::uint32_t>(fitting) / 2 * 2);
+    expected_ms = sample_ms * samples;
+    return samples;
+}
+
+// --- one rung
+
+struct Timed {
+    double whole_ms = 0;
+    StageTimes stages;
+};
+
+Status time_rung(const Scene& scene, int runs, const RenderScene& render, const Steps& steps,
+                 double share_before, const Deadline& deadline, RungCost& cost) {
+    std::vector<Timed> timed;
+    for (int i = 0; i < std::max(runs, 1); ++i) {
+        auto rendered = render(scene, deadline);
+        if (!rendered) return rendered.error();
+        timed.push_back({whole_ms(rendered->times), rendered->times});
+        steps.tell(share_before + (1 - share_before) * (i + 1) / std::max(runs, 1));
+        if (i == 0 && timed[0].whole_ms > kLongRunMs) break;
+    }
+    if (timed.size() > 1) timed.erase(timed.begin());
+    std::sort(timed.begin(), timed.end(),
+              [](const Timed& a, const Timed& b) { return a.whole_ms < b.whole_ms; });
+    const Timed& upper = timed[timed.size() / 2];
+    const Timed& lower = timed[(timed.size() - 1) / 2];
+    cost.runs = static_cast<int>(timed.size());
+    cost.time_ms = (lower.whole_ms + upper.whole_ms) / 2;
+    cost.light_ms = lower.stages.light_ms;
+    cost.draw_ms = lower.stages.draw_ms;
+    return std::nullopt;
+}
+
+// Luminance of each pixel less the truth's, relative to the truth's mean over the cloud's pixels (as
+// picture_error has them).
+std::vector<float> relative_difference(const Image& x, const Image& truth) {
+    const auto luminance = [](const float* p) {
+        return 0.2126F * p[0] + 0.7152F * p[1] + 0.0722F * p[2];  // Rec. 709
+    };
+    const std::size_t pixels = truth.pixel_count();
+    float densest = 0;
+    for (std::size_t i = 0; i < pixels; ++i) densest = std::max(densest, truth.pixels[4 * i + 3]);
+    double sum = 0;
+    std::size_t cloud = 0;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const float* const p = truth.pixels.data() + 4 * i;
+        if (densest <= 0 || p[3] < 0.05F * densest) continue;
+        sum += static_cast<double>(luminance(p));
+        ++cloud;
+    }
+    const float scale =
+        sum > 0 ? static_cast<float>(static_cast<double>(cloud) / sum) : 0.0F;  // 0: no light
+    std::vector<float> difference(pixels);
+    for (std::size_t i = 0; i < pixels; ++i)
+        difference[i] =
+            scale * (luminance(x.pixels.data() + 4 * i) - luminance(truth.pixels.data() + 4 * i));
+    return difference;
+}
+
+// Times come out of `render`; errors and pictures out of its image at the reference's size.
+Result<RungCost> measure_rung(const Scene& scene, const Rung& rung, const Reference& reference,
+                              double exposure, const AccuracyOptions& options,
+                              const RenderScene& render, const Steps& steps,
+                              const Deadline& deadline) {
+    RungCost cost;
+    cost.rung = rung.name;
+    const auto own = with_rung(scene, rung.name);
+    if (!own) return own.error();
+    const auto small = with_rung(reference.scene, rung.name);
+    if (!small) return small.error();
+
+    auto rendered = render(*small, deadline);
+    if (!rendered) return rendered.error();
+    const Image& picture = rendered->image;
+    if (picture.width != reference.truth.half_a.width ||
+        picture.height != reference.truth.half_a.height)
+        return Error{ErrorCode::kInternal, "", "a render has not the size that was asked for"};
+    cost.error = picture_error(picture, reference.truth);
+    const Image seen = over_sky(picture, scene, reference.view);
+    cost.flip =
+        flip(reference.shown, display_bytes(seen, exposure), picture.width, picture.height).mean;
+    cost.difference = relative_difference(picture, reference.mean);
+    cost.picture = scene->image.background == Background::kSky ? seen : picture;
+    const double small_share = 1.0 / (1 + std::max(options.runs, 1));
+    steps.tell(small_share);
+    if (const Status failed =
+            time_rung(*own, options.runs, render, steps, small_share, deadline, cost))
+        return *failed;
+    return cost;
+}
+
+// About what measuring a rung takes.
+double expected_ms(const RungForecast* forecast, const Scene& scene, PictureSize small, int runs) {
+    constexpr double kUnknownMs = 200;  // of a render that nobody predicts
+    const double one =
+        forecast != nullptr && std::isfinite(forecast->time_ms) && forecast->time_ms > 0
+            ? forecast->time_ms
+            : kUnknownMs;
+    const double pixels = static_cast<double>(scene->image.width) * scene->image.height;
+    const double small_pixels = static_cast<double>(small.width) * small.height;
+    // Light is the same for either size, drawing goes with the pixels: half each.
+    const double small_render = one * (0.5 + 0.5 * small_pixels / pixels);
+    return small_render + one * (one > kLongRunMs ? 1 : std::max(runs, 1));
+}
+
+bool beats(const RungCost& a, const RungCost& b) {
+    return a.time_ms <= b.time_ms && a.error.nrmse <= b.error.nrmse &&
+           (a.time_ms < b.time_ms || a.error.nrmse < b.error.nrmse);
+}
+
+void mark_pareto(std::vector<RungCost>& rungs) {
+    for (RungCost& rung : rungs)
+        rung.pareto = std::none_of(rungs.begin(), rungs.end(),
+                                   [&](const RungCost& other) { return beats(other, rung); });
+}
+
+}  // namespace
+
+Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOptions& options,
+                                        const RenderScene& render, const Progress& progress,
+                                        const Deadline& deadline) {
+    const auto start = Clock::now();
+    if (scene->ground)
+        return Error{ErrorCode::kUnsupported, "/ground",
+                     "what accuracy costs is measured without a ground in this version: no rung "
+                     "but truth has one; leave it out"};
+    const auto rungs = chosen_rungs(options);
+    if (!rungs) return rungs.error();
+    Steps steps(progress, options.on_step);
+    AccuracyReport report;
+    report.width = scene->image.width;
+    report.height = scene->image.height;
+    report.exposure = exposure_of(scene);
+
+    steps.begin("planning", 0);
+    auto planned = plan_scene(scene, options.threads, deadline);
+    if (!planned) return planned.error();
+    const PictureSize size =
+        fitted_size(report.width, report.height, std::max(options.reference_side, 1));
+    auto small = reference_sized(scene, size);
+    if (!small) return small.error();
+    const View view = resolve_view((*small)->camera, (*small)->image, planned->survey.bounds);
+    Reference reference{{}, *small, view, {}, {}};
+
+    // The reference.
+    TruthOptions truth_options;
+    truth_options.samples = std::max(options.samples / 2 * 2, 2u);
+    truth_options.threads = options.threads;
+    truth_options.seed = kReferenceSeed;
+    steps.begin("sizing the reference", 0);
+    double reference_ms = 0;
+    if (truth_options.samples > 2 * kPilotSamples) {
+        const double allowed_ms = options.time_ms > 0
+                                      ? kReferenceShare * options.time_ms - ms_since(start)
+                                      : std::numeric_limits<double>::infinity();
+        const auto samples = fitting_samples(reference, planned->particles, truth_options,
+                                             allowed_ms, reference_ms, deadline);
+        if (!samples) return samples.error();
+        truth_options.samples = *samples;
+    }
+    steps.expect(reference_ms);
+    std::vector<double> expected;
+    for (const Rung* const rung : *rungs) {
+        expected.push_back(
+            expected_ms(forecast_of(planned->plan, *rung), scene, size, options.runs));
+        steps.expect(expected.back());
+    }
+    steps.begin("tracing the reference", reference_ms);
+    const auto reference_start = Clock::now();
+    const double reference_cpu = processor_ms();
+    auto truth = trace_truth(
+        reference.scene, planned->particles, view, truth_options,
+        [&](double done) { steps.tell(done); }, deadline);
+    if (!truth) return truth.error();
+    report.reference.time_ms = ms_since(reference_start);
+    report.reference.cpu_ms = processor_ms() - reference_cpu;
+    reference.truth = *std::move(truth);
+    planned->particles = {};
+
+    reference.mean = mean_of(reference.truth);
+    const Image seen = over_sky(reference.mean, scene, view);
+    reference.shown = display_bytes(seen, report.exposure);
+    report.reference.width = size.width;
+    report.reference.height = size.height;
+    report.reference.samples = truth_options.samples;
+    report.reference.noise = picture_error(reference.mean, reference.truth).truth_noise;
+    report.reference.picture = scene->image.background == Background::kSky ? seen : reference.mean;
+
+    // Every rung.
+    Deadline slice = deadline;
+    if (options.time_ms > 0)
+        slice.until =
+            std::min(slice.until, start + std::chrono::microseconds(static_cast<std::int64_t>(
+                                              std::min(options.time_ms, 1e12) * 1e3)));
+    for (std::size_t i = 0; i < rungs->size(); ++i) {
+        const Rung& rung = *(*rungs)[i];
+        if (auto over = deadline.over()) return *over;
+        steps.begin("measuring " + std::string(rung.name), expected[i]);
+        const RungForecast* const forecast = forecast_of(planned->plan, rung);
+        const double left_ms = options.time_ms - ms_since(start);
+        if (options.time_ms > 0 && expected[i] > left_ms) {
+            report.left_out.push_back(
+                {rung.name, "measuring it would take about " + seconds_text(expected[i]) + ", " +
+                                seconds_text(std::max(left_ms, 0.0)) + " were left"});
+            continue;
+        }
+        auto cost =
+            measure_rung(scene, rung, reference, report.exposure, options, render, steps, slice);
+        if (!cost) {
+            if (cost.error().code == ErrorCode::kOverDeadline && !deadline.over()) {
+                report.left_out.push_back({rung.name, "it was not done in the " +
+                                                          seconds_text(std::max(left_ms, 0.0)) +
+                                                          " that were left"});
+                continue;
+            }
+            return cost.error();
+        }
+        if (forecast != nullptr) {
+            cost->predicted_error = forecast->error;
+            cost->predicted_time_ms = forecast->time_ms;
+            cost->memory_bytes = forecast->bytes;
+        } else {  // not "nothing": unknown
+            cost->predicted_error = cost->predicted_time_ms = cost->memory_bytes =
+                std::numeric_limits<double>::quiet_NaN();
+        }
+        report.rungs.push_back(*std::move(cost));
+    }
+    std::stable_sort(report.rungs.begin(), report.rungs.end(),
+                     [](const RungCost& a, const RungCost& b) { return a.time_ms < b.time_ms; });
+    mark_pareto(report.rungs);
+    steps.end();
+    return report;
+}
+
+}  // namespace awan

@@ -1,0 +1,29 @@
+// Pictures as a person sees them: the sky behind, on a screen.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/draw/image.h"
+#include "core/scene/scene.h"
+#include "core/survey/survey.h"
+
+namespace awan {
+
+// A picture over nothing, laid over the scene's sky.
+Image over_sky(const Image& transparent, const Scene& scene, const View& view);
+
+// The samples of its PNG: 3 bytes a pixel, sRGB after exposure (stops) and the tone curve. What is
+// transparent is black.
+std::vector<std::uint8_t> display_bytes(const Image& image, double exposure);
+
+// Of a scene whose document leaves it open, too (core/formats/image_file.h).
+double exposure_of(const Scene& scene);
+
+// The size of a picture with the shape of `width` x `height` and a longer side of at most `side`.
+struct PictureSize {
+    int width = 1, height = 1;
+};
+PictureSize fitted_size(int width, int height, int side);
+
+}  // namespace awan
