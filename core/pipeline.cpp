@@ -4,8 +4,12 @@
 #include <utility>
 
 #include "core/draw/draw.h"
+#include "core/draw/march.h"
 #include "core/generate/generate.h"
 #include "core/light/light.h"
+#include "core/light/transport.h"
+#include "core/truth/error_measures.h"
+#include "core/truth/path_tracer.h"
 
 namespace awan {
 namespace {
@@ -20,9 +24,80 @@ auto timed(double& milliseconds, const Stage& stage) {
     return result;
 }
 
+// The two passes of splats on the renderer.
+Status render_splats(const Scene& scene, const Planned& planned, const Tools& tools,
+                     const Deadline& deadline, Rendered& rendered) {
+    if (tools.device == nullptr)
+        return Error{ErrorCode::kNoRenderer, "",
+                     std::string("rung ") + planned.plan.rung + " needs a renderer"};
+    auto lighting = timed(rendered.times.light_ms, [&] {
+        return light(scene, planned.particles, planned.plan, *tools.device, deadline);
+    });
+    if (!lighting.ok()) return lighting.error();
+    auto image = timed(rendered.times.draw_ms, [&] {
+        return draw(scene, planned.particles, planned.survey.view, planned.plan, *lighting,
+                    *tools.device, deadline);
+    });
+    if (!image.ok()) return image.error();
+    rendered.image = *std::move(image);
+    return std::nullopt;
+}
+
+using SharedLight = std::shared_ptr<const TransportLight>;
+
+Result<SharedLight> kept_or_solved(const Scene& scene, const Planned& planned, const Tools& tools,
+                                   const Deadline& deadline, bool& was_kept) {
+    const TransportSettings& settings = planned.plan.transport;
+    const std::string key = tools.lights ? light_key(scene, settings) : std::string();
+    if (tools.lights)
+        if (SharedLight light = tools.lights->find(key)) {
+            was_kept = true;
+            return light;
+        }
+    auto solved = transport_light(scene, planned.particles, planned.survey, settings, tools.threads,
+                                  deadline);
+    if (!solved.ok()) return solved.error();
+    SharedLight light = std::make_shared<const TransportLight>(*std::move(solved));
+    if (tools.lights) tools.lights->keep(key, light);
+    return light;
+}
+
+// Transport on a grid, then the march.
+Status render_march(const Scene& scene, const Planned& planned, const Tools& tools,
+                    const Deadline& deadline, Rendered& rendered) {
+    auto light = timed(rendered.times.light_ms, [&] {
+        return kept_or_solved(scene, planned, tools, deadline, rendered.light_was_kept);
+    });
+    if (!light.ok()) return light.error();
+    auto image = timed(rendered.times.draw_ms, [&] {
+        return march(scene, planned.particles, planned.survey.view, **light, MarchSettings{},
+                     tools.threads, deadline);
+    });
+    if (!image.ok()) return image.error();
+    rendered.image = *std::move(image);
+    return std::nullopt;
+}
+
+// Every path of light.
+Status render_paths(const Scene& scene, const Planned& planned, const Tools& tools,
+                    const Deadline& deadline, Rendered& rendered) {
+    TruthOptions options;
+    options.samples = planned.plan.samples;
+    options.threads = tools.threads;
+    auto truth = timed(rendered.times.draw_ms, [&] {
+        return trace_truth(scene, planned.particles, planned.survey.view, options, tools.progress,
+                           deadline);
+    });
+    if (!truth.ok()) return truth.error();
+    rendered.image = mean_of(*truth);
+    rendered.noise = picture_error(rendered.image, *truth).truth_noise;
+    return std::nullopt;
+}
+
 }  // namespace
 
-Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& deadline) {
+Result<Planned> plan_scene(const Scene& scene, int threads, const MachineSpeed& speed,
+                           const Deadline& deadline) {
     Planned planned;
     auto particles =
         timed(planned.times.generate_ms, [&] { return generate(scene, threads, deadline); });
@@ -32,32 +107,37 @@ Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& dead
                           [&] { return survey(scene, planned.particles, threads, deadline); });
     if (!surveyed.ok()) return surveyed.error();
     planned.survey = *std::move(surveyed);
-    planned.plan = plan(scene, planned.survey);
+    planned.plan = plan(scene, planned.survey, threads, speed);
     return planned;
 }
 
-Result<Rendered> render_planned(const Scene& scene, Planned planned, Device& device,
+Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools& tools,
                                 const Deadline& deadline) {
-    Rendered rendered{std::move(planned.survey), std::move(planned.plan), {}, planned.times};
-    auto lighting = timed(rendered.times.light_ms, [&] {
-        return light(scene, planned.particles, rendered.plan, device, deadline);
-    });
-    if (!lighting.ok()) return lighting.error();
-    auto image = timed(rendered.times.draw_ms, [&] {
-        return draw(scene, planned.particles, rendered.survey.view, rendered.plan, *lighting,
-                    device, deadline);
-    });
-    if (!image.ok()) return image.error();
-    rendered.image = *std::move(image);
+    Rendered rendered;
+    rendered.times = planned.times;
+    Status failed;
+    switch (planned.plan.predicted.rung->method) {
+        case Method::kSplats:
+            failed = render_splats(scene, planned, tools, deadline, rendered);
+            break;
+        case Method::kMarch:
+            failed = render_march(scene, planned, tools, deadline, rendered);
+            break;
+        case Method::kPaths:
+            failed = render_paths(scene, planned, tools, deadline, rendered);
+            break;
+    }
+    if (failed) return *failed;
+    rendered.survey = std::move(planned.survey);
     rendered.survey.volume.extinction = {};
+    rendered.plan = std::move(planned.plan);
     return rendered;
 }
 
-Result<Rendered> render_scene(const Scene& scene, Device& device, int threads,
-                              const Deadline& deadline) {
-    auto planned = plan_scene(scene, threads, deadline);
+Result<Rendered> render_scene(const Scene& scene, const Tools& tools, const Deadline& deadline) {
+    auto planned = plan_scene(scene, tools.threads, tools.speed, deadline);
     if (!planned.ok()) return planned.error();
-    return render_planned(scene, *std::move(planned), device, deadline);
+    return render_planned(scene, *std::move(planned), tools, deadline);
 }
 
 const char* engine_version() {

@@ -7,7 +7,9 @@
 #include "core/draw/image.h"
 #include "core/generate/particle_set.h"
 #include "core/gl/device.h"
+#include "core/light/light_cache.h"
 #include "core/plan/plan.h"
+#include "core/progress.h"
 #include "core/survey/survey.h"
 
 namespace awan {
@@ -28,18 +30,30 @@ struct Rendered {
     Plan plan;
     Image image;
     StageTimes times;
+    bool light_was_kept = false;  // it came from the cache
+    double noise = 0;             // rung truth: rms noise of a pixel, relative to the cloud's mean
 };
 
-// Everything that needs no renderer. threads >= 1.
-Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& deadline);
+// What rendering works with. The splat rungs need the device, on the thread that owns it; the others run on
+// `threads` threads and do without.
+struct Tools {
+    Device* device = nullptr;      // null: splat rungs fail with kNoRenderer
+    int threads = 1;               // >= 1
+    LightCache* lights = nullptr;  // null: nothing is kept
+    Progress progress;             // of rung truth, the only one that takes long
+    MachineSpeed speed;
+};
 
-// The two passes over what was planned, on the thread that owns `device`.
-Result<Rendered> render_planned(const Scene& scene, Planned planned, Device& device,
+// Generates, surveys and plans. threads >= 1.
+Result<Planned> plan_scene(const Scene& scene, int threads, const MachineSpeed& speed,
+                           const Deadline& deadline);
+
+// Light and picture of what was planned.
+Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools& tools,
                                 const Deadline& deadline);
 
 // Both, in turn.
-Result<Rendered> render_scene(const Scene& scene, Device& device, int threads,
-                              const Deadline& deadline);
+Result<Rendered> render_scene(const Scene& scene, const Tools& tools, const Deadline& deadline);
 
 // Engine version, e.g. "0.1.0"; part of every ETag.
 const char* engine_version();

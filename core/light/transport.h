@@ -12,6 +12,7 @@
 
 #include "core/deadline.h"
 #include "core/generate/particle_set.h"
+#include "core/plan/transport_settings.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
 
@@ -58,14 +59,6 @@ struct TransportLight {
     double residual = 0;  // of the solve, relative; largest of the bands
 
     std::size_t bytes() const;  // memory it holds
-};
-
-struct TransportSettings {
-    int cells = 32;      // along the longest side of the matter; 0: no grid, the sun's depth only
-    int sun_cells = 96;  // of SunDepth, along its longest side
-    double tolerance = 1e-3;  // of the solve, relative to its source
-    int max_sweeps = 40;      // a band; each is one walk through all cells and directions
-    bool sky = true;          // whether the sky's light is wanted
 };
 
 // Errors: kOverDeadline, kCancelled. The same bytes for every number of threads. Time: cells^3 and particles; memory: see

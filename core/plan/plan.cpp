@@ -16,6 +16,9 @@ constexpr double kViewDepth = 0.03;
 constexpr double kScatterDepthIsotropic = 0.04;  // g = 0
 constexpr double kScatterDepthForward = 0.02;    // |g| >= .5; linear in between
 
+constexpr double kDefaultError = 0.1;  // where a scene asks for nothing
+constexpr double kTruthNoise = 0.05;   // of a pixel, when rung truth is asked for by name
+
 std::string sentence(const char* format, double a, double b) {
     std::array<char, 200> text{};
     const int length = std::snprintf(text.data(), text.size(), format, a, b);
@@ -115,9 +118,126 @@ void join_scattering_to_shadow(Plan& plan, const Scene& scene) {
 
 }  // namespace
 
-Plan plan(const Scene& scene, const Survey& survey) {
+namespace {
+
+std::string percent(double error) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g%%", 100 * error);
+    return text.data();
+}
+
+std::string milliseconds(double ms) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), ms < 10000 ? "%.3g ms" : "%.0f ms", ms);
+    return text.data();
+}
+
+// An effect that is switched off can only be left out by the splats: the other rungs follow all light there is.
+bool wants_splats(const Scene& scene) {
+    for (const Effect effect :
+         {Effect::kSelfShadow, Effect::kMultipleScattering, Effect::kViewExtinction})
+        if (scene->effects[static_cast<int>(effect)] == Switch::kOff) return true;
+    return false;
+}
+
+struct Choice {
+    RungForecast forecast;
+    std::string reason;
+};
+
+Choice cheapest_within(double error, const std::vector<RungForecast>& candidates) {
+    const RungForecast* cheapest = nullptr;
+    const RungForecast* best = nullptr;
+    for (const RungForecast& candidate : candidates) {
+        if (!best || candidate.error < best->error) best = &candidate;
+        if (candidate.error <= error && (!cheapest || candidate.time_ms < cheapest->time_ms))
+            cheapest = &candidate;
+    }
+    if (cheapest)
+        return {*cheapest, "the cheapest with a predicted error of at most " + percent(error)};
+    return {*best, "none is predicted to stay under " + percent(error) + "; this comes closest"};
+}
+
+Choice best_in_time(double time_ms, const std::vector<RungForecast>& candidates) {
+    const RungForecast* best = nullptr;
+    const RungForecast* fastest = nullptr;
+    for (const RungForecast& candidate : candidates) {
+        if (!fastest || candidate.time_ms < fastest->time_ms) fastest = &candidate;
+        if (candidate.time_ms <= time_ms && (!best || candidate.error < best->error))
+            best = &candidate;
+    }
+    if (best)
+        return {*best,
+                "the most accurate that is predicted to take at most " + milliseconds(time_ms)};
+    return {*fastest,
+            "none is predicted to take at most " + milliseconds(time_ms) + "; this is the fastest"};
+}
+
+void choose_rung(const Scene& scene, const Survey& survey, int threads, const MachineSpeed& speed,
+                 Plan& plan) {
+    const Accuracy& accuracy = scene->accuracy;
+    const double wanted_error = accuracy.error.value_or(kDefaultError);
+    plan.samples =
+        samples_for(accuracy.rung || accuracy.time_ms ? kTruthNoise : wanted_error, scene, survey);
+    if (accuracy.time_ms) {  // as many paths as fit
+        const Rung& truth = *find_rung("truth");
+        const double one = forecast(truth, scene, survey, 2, threads, speed).time_ms;
+        const double two = forecast(truth, scene, survey, 4, threads, speed).time_ms;
+        const double pairs = two > one ? (*accuracy.time_ms - one) / (two - one) : 1;
+        plan.samples =
+            2 * static_cast<std::uint32_t>(std::clamp(pairs, 1.0, double{kMaxTruthSamples} / 2));
+    }
+    std::vector<RungForecast> candidates;
+    for (const Rung& rung : ladder()) {
+        plan.forecasts.push_back(forecast(rung, scene, survey, plan.samples, threads, speed));
+        if (rung.method == Method::kSplats || !wants_splats(scene))
+            candidates.push_back(plan.forecasts.back());
+    }
+    Choice choice;
+    if (accuracy.rung) {
+        const Rung* named = find_rung(*accuracy.rung);
+        for (const RungForecast& candidate : plan.forecasts)
+            if (candidate.rung == named) choice.forecast = candidate;
+        choice.reason = "asked for by name";
+    } else if (accuracy.time_ms) {
+        choice = best_in_time(*accuracy.time_ms, candidates);
+    } else {
+        choice = cheapest_within(wanted_error, candidates);
+    }
+    if (!accuracy.rung && wants_splats(scene))
+        choice.reason += "; only the splats can leave out an effect that is switched off";
+    plan.predicted = choice.forecast;
+    plan.rung = choice.forecast.rung->name;
+    plan.rung_reason = choice.reason;
+    if (choice.forecast.rung->method == Method::kMarch) {
+        plan.transport = transport_settings(*choice.forecast.rung);
+        plan.transport.sky = scene->effects[static_cast<int>(Effect::kSkyLight)] != Switch::kOff;
+    }
+}
+
+// Rungs simulate a fixed set of these whatever the scene calls for.
+void fit_effects_to_rung(Plan& plan) {
+    const Rung& rung = *plan.predicted.rung;
+    const auto set = [&](Effect effect, bool on) {
+        EffectDecision& decision = plan.effects[static_cast<std::size_t>(effect)];
+        if (decision.on == on) return;
+        decision.on = on;
+        decision.reason = "rung " + plan.rung + (on ? " always has it (" : " goes without (") +
+                          decision.reason + ")";
+    };
+    const bool additive = &rung == find_rung("additive"), harris = &rung == find_rung("harris");
+    if (harris) return;
+    set(Effect::kSelfShadow, !additive);
+    set(Effect::kMultipleScattering,
+        !additive && (rung.cells > 0 || rung.method == Method::kPaths));
+    set(Effect::kViewExtinction, !additive);
+    if (rung.method == Method::kMarch && rung.cells == 0) set(Effect::kSkyLight, false);
+}
+
+}  // namespace
+
+Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSpeed& speed) {
     Plan plan;
-    plan.rung = "harris";
     for (int i = 0; i < kEffectCount; ++i) {
         const auto effect = static_cast<Effect>(i);
         EffectDecision& decision = plan.effects[static_cast<std::size_t>(i)];
@@ -144,6 +264,8 @@ Plan plan(const Scene& scene, const Survey& survey) {
         }
     }
     join_scattering_to_shadow(plan, scene);
+    choose_rung(scene, survey, threads, speed, plan);
+    fit_effects_to_rung(plan);
     return plan;
 }
 

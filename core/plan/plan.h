@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/plan/forecast.h"
 #include "core/plan/ladder.h"
+#include "core/plan/transport_settings.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
 
@@ -19,26 +21,19 @@ struct EffectDecision {
     std::string reason;     // one sentence, with the figure and the threshold
 };
 
-// What a rung would cost this scene and how far it would be from the truth.
-struct RungForecast {
-    const Rung* rung = nullptr;
-    double error =
-        0;  // relative (PictureError::nrmse, core/truth/error_measures.h); measured errors are below it in 95% of scenes
-    double time_ms = 0;  // of all stages but queue and encode, on this machine
-    double bytes = 0;    // memory at its peak, beside the scene's particles and the picture
-};
-
 struct Plan {
     std::array<EffectDecision, kEffectCount> effects;
     std::string rung;                     // chosen
     std::string rung_reason;              // one sentence
     RungForecast predicted;               // of the chosen rung
     std::vector<RungForecast> forecasts;  // of every rung, in the ladder's order
+    TransportSettings transport;          // rungs of Method::kMarch
     std::uint32_t samples = 0;            // rung truth: paths a pixel
 
     bool on(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
 };
 
-Plan plan(const Scene& scene, const Survey& survey);
+// threads: that the rungs of march and paths will have.
+Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSpeed& speed);
 
 }  // namespace awan

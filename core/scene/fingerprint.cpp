@@ -146,6 +146,14 @@ void add_picture(Hasher& hash, const SceneDraft& scene) {
 
 }  // namespace
 
+std::string light_fingerprint(const Scene& scene) {
+    Hasher hash;
+    hash.integer(scene->clouds.size());
+    for (const Cloud& cloud : scene->clouds) add_cloud(hash, *scene, cloud);
+    add_lights(hash, *scene);
+    return hash.hex();
+}
+
 std::string fingerprint(const Scene& scene) {
     Hasher hash;
     hash.integer(scene->seed);  // also where every cloud has its own: answers quote it

@@ -182,4 +182,7 @@ std::uint64_t particle_count(const SceneDraft& scene);
 // equal fingerprints; it is no protection against someone who wants a collision (XXH3).
 std::string fingerprint(const Scene& scene);
 
+// The same over what the light in a cloud depends on: neither camera, picture, effects nor accuracy.
+std::string light_fingerprint(const Scene& scene);
+
 }  // namespace awan

@@ -13,6 +13,7 @@
 namespace awan {
 namespace {
 
+constexpr double kCoveredShare = 0.05;  // of the largest depth: what counts as cloud in a picture
 constexpr double kCut = 4;
 
 // Coarsens a raster of `side` lines until the work fits; work(side) = line-particle pairs.
@@ -82,7 +83,7 @@ double parallel_optical_depth(const ParticleSet& particles, glm::dvec3 direction
     return std::max(largest, raster.largest());
 }
 
-double eye_optical_depth(const ParticleSet& particles, const View& view) {
+EyeDepth eye_optical_depth(const ParticleSet& particles, const View& view) {
     const double tan_x = view.tan_half_fov * view.aspect, tan_y = view.tan_half_fov;
     struct Box {
         int x0, x1, y0, y1;
@@ -134,9 +135,12 @@ double eye_optical_depth(const ParticleSet& particles, const View& view) {
         for (int a = 0; a < size.x; ++a)
             rays.push_back(glm::normalize(glm::dvec3(((a + 0.5) / size.x * 2 - 1) * tan_x,
                                                      ((b + 0.5) / size.y * 2 - 1) * tan_y, 1)));
-    double largest = 0;
+    EyeDepth eye;
+    double& largest = eye.largest;
+    double pairs = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const Box box = box_of(i, size.x, size.y);
+        pairs += std::max(0.0, box.x1 - box.x0 + 1.0) * std::max(0.0, box.y1 - box.y0 + 1.0);
         const double s = gaussian_s(particles, i), depth = central_depth(particles, i);
         const glm::dvec3 q = box.q;
         // The ray through a particle's own centre, when it is in the picture: no raster can miss
@@ -154,7 +158,18 @@ double eye_optical_depth(const ParticleSet& particles, const View& view) {
                     depth * std::exp(-0.5 * glm::dot(miss, miss)) * normal_cdf(t / s);
             }
     }
-    return std::max(largest, raster.largest());
+    largest = std::max(largest, raster.largest());
+    const double lines = static_cast<double>(raster.depth.size());
+    eye.particles_per_pixel = pairs / lines;
+    double sum = 0, covered = 0;
+    for (const double depth : raster.depth)
+        if (depth > kCoveredShare * largest) {
+            covered += 1;
+            sum += depth;
+        }
+    eye.covered = covered / lines;
+    eye.mean = covered > 0 ? sum / covered : largest;
+    return eye;
 }
 
 }  // namespace awan

@@ -31,12 +31,31 @@ void measure_projection(const ParticleSet& particles, int image_height, Survey& 
     }
 }
 
+void measure_picture(const ParticleSet& particles, Survey& survey) {
+    const EyeDepth eye = eye_optical_depth(particles, survey.view);
+    survey.optical_depth_eye = eye.largest;
+    survey.mean_depth_eye = eye.mean;
+    survey.covered = eye.covered;
+    survey.particles_per_pixel = eye.particles_per_pixel;
+}
+
+double sun_cosine(const Scene& scene, const Survey& survey) {
+    const glm::dvec3 to_eye = survey.view.eye - 0.5 * (survey.bounds.min + survey.bounds.max);
+    const double distance = glm::length(to_eye);
+    return distance > 0 ? -glm::dot(sun_direction(scene->sun), to_eye) / distance : 0;
+}
+
 void measure_matter(const ParticleSet& particles, Survey& survey) {
     for (std::size_t i = 0; i < particles.size(); ++i) {
         survey.max_sigma_s =
             std::max(survey.max_sigma_s,
                      static_cast<double>(particles.density[i]) * gaussian_s(particles, i));
         survey.total_mass += gaussian_mass(particles, i);
+        double power = 1;
+        for (double& sum : survey.s_sums) {
+            sum += power;
+            power *= gaussian_s(particles, i);
+        }
     }
 }
 
@@ -48,6 +67,7 @@ Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int thre
     survey.particles = particles.size();
     survey.bounds = bounds_of(particles);
     survey.view = resolve_view(scene->camera, scene->image, survey.bounds);
+    survey.sun_cosine = sun_cosine(scene, survey);
     if (particles.size() == 0) return survey;
 
     // Each figure is one thread's work from start to end, so the result does not depend on their
@@ -58,7 +78,7 @@ Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int thre
                 survey.volume = density_volume(particles, kVolumeCells);
                 break;
             case 1:
-                survey.optical_depth_eye = eye_optical_depth(particles, survey.view);
+                measure_picture(particles, survey);
                 break;
             case 2:
                 survey.optical_depth_sun =

@@ -1,6 +1,7 @@
 // What a cloud is, measured before anything is decided about it.
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -38,10 +39,17 @@ struct Survey {
     double optical_depth_sun = 0;     // largest over parallel lines towards the sun
     double optical_depth_zenith = 0;  // largest over vertical lines
     double optical_depth_eye = 0;     // largest over the picture's rays, from the eye outward
-    double max_sigma_s = 0;           // largest density * s of one particle (dimensionless)
-    double min_projected_px = 0;      // smallest and largest projected s in the picture, pixels;
-    double max_projected_px = 0;      //   infinite for a particle that holds the eye
-    bool eye_inside = false;          // the eye is within 4 s of a particle
+    double mean_depth_eye = 0;  // of the rays that meet cloud (at least 5% of the largest depth)
+    double covered = 0;         // share of the picture's rays that do
+    double particles_per_pixel = 0;  // that a ray passes within 4 s, mean over the picture
+    double sun_cosine =
+        0;  // between the way sunlight goes and from the cloud's middle to the eye: 1
+            //   looks into the sun
+    std::array<double, 4> s_sums{};  // sums over particles of s^0, s^1, s^2, s^3, unit^k
+    double max_sigma_s = 0;          // largest density * s of one particle (dimensionless)
+    double min_projected_px = 0;     // smallest and largest projected s in the picture, pixels;
+    double max_projected_px = 0;     //   infinite for a particle that holds the eye
+    bool eye_inside = false;         // the eye is within 4 s of a particle
 };
 
 // Optical depths are sampled on a raster of 64 x 64 lines over the cloud or the picture, and on the lines through every

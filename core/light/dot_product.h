@@ -1,0 +1,11 @@
+#pragma once
+
+#include <cstddef>
+
+namespace awan {
+
+// Sum of a[i] b[i]. float32 within runs of 1024, double between them: relative error < 1e-5 of the sum of sizes. The order is
+// fixed: the same bytes on every machine.
+double dot_product(const float* a, const float* b, std::size_t count);
+
+}  // namespace awan

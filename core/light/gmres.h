@@ -1,0 +1,42 @@
+// Linear systems by GMRES (Saad & Schultz 1986), restarted, for operators that are only known by what they do.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/result.h"
+
+namespace awan {
+
+struct GmresSettings {
+    double tolerance = 1e-3;  // |b - A x| / |b|
+    int max_products = 40;    // of A with a vector
+    int restart = 16;         // vectors kept
+};
+
+struct GmresOutcome {
+    int products = 0;
+    double residual = 0;  // |b - A x| / |b|; 0 when b is 0
+};
+
+// A: to = A from. May fail (deadline); the failure is passed on.
+using Product = std::function<Status(std::span<const float> from, std::span<float> to)>;
+
+// What a preconditioner adds to a vector: one number for every `every` floats, to the first of each group. It may
+// differ from call to call (an inner iteration): it is kept, as flexible GMRES does (Saad 1993).
+struct Preconditioner {
+    std::size_t every = 1;
+    std::function<void(std::span<const float> vector, std::span<float> addition)>
+        add;  // empty: none
+};
+
+// Solves A x = b from x = 0. The residual never grows from product to product, so whatever stops it leaves the best x so
+// far. Sums are made in blocks of fixed size: the same bytes for every number of threads.
+// Memory: (restart + 3) vectors and as many additions.
+Result<GmresOutcome> gmres(const Product& product, const Preconditioner& preconditioner,
+                           std::span<const float> b, const GmresSettings& settings, int threads,
+                           std::span<float> x);
+
+}  // namespace awan

@@ -1,0 +1,49 @@
+#include "core/light/light_cache.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "core/scene/validate.h"
+
+namespace awan {
+
+std::shared_ptr<const TransportLight> LightCache::find(const std::string& key) {
+    const std::lock_guard lock(mutex_);
+    const auto at = std::find_if(entries_.begin(), entries_.end(),
+                                 [&](const Entry& entry) { return entry.key == key; });
+    if (at == entries_.end()) return nullptr;
+    entries_.splice(entries_.begin(), entries_, at);
+    return at->light;
+}
+
+void LightCache::keep(const std::string& key, std::shared_ptr<const TransportLight> light) {
+    const std::size_t size = light->bytes();
+    const std::lock_guard lock(mutex_);
+    if (size > bytes_) return;
+    const auto at = std::find_if(entries_.begin(), entries_.end(),
+                                 [&](const Entry& entry) { return entry.key == key; });
+    if (at != entries_.end()) {  // two requests made it at once
+        used_ -= at->light->bytes();
+        entries_.erase(at);
+    }
+    while (used_ + size > bytes_) {
+        used_ -= entries_.back().light->bytes();
+        entries_.pop_back();
+    }
+    used_ += size;
+    entries_.push_front({key, std::move(light)});
+}
+
+std::size_t LightCache::bytes_in_use() const {
+    const std::lock_guard lock(mutex_);
+    return used_;
+}
+
+std::string light_key(const Scene& scene, const TransportSettings& settings) {
+    char text[96];
+    std::snprintf(text, sizeof text, ":%d:%d:%a:%d:%d", settings.cells, settings.sun_cells,
+                  settings.tolerance, settings.max_sweeps, settings.sky ? 1 : 0);
+    return light_fingerprint(scene) + text;
+}
+
+}  // namespace awan

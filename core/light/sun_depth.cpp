@@ -1,0 +1,76 @@
+#include "core/light/sun_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/survey/lattice.h"
+
+namespace awan {
+namespace {
+
+constexpr double kLeftOut = 0.01;  // optical depth of what the lattice may leave out
+
+// Two axes across `w` (unit): Duff et al. 2017, "Building an orthonormal basis, revisited".
+void axes_across(const glm::dvec3& w, glm::dvec3& u, glm::dvec3& v) {
+    const double sign = std::copysign(1.0, w.z);
+    const double a = -1 / (sign + w.z), b = w.x * w.y * a;
+    u = {1 + sign * w.x * w.x * a, sign * b, -sign * w.x};
+    v = {b, sign + w.y * w.y * a, -w.y};
+}
+
+}  // namespace
+
+SunDepth sun_depth(const ParticleSet& particles, const glm::dvec3& towards_sun, int cells,
+                   int threads) {
+    SunDepth sun;
+    sun.w = -towards_sun;
+    axes_across(sun.w, sun.u, sun.v);
+    Lattice lattice =
+        lattice_around_matter(particles, sun.u, sun.v, sun.w, kLeftOut, cells, threads);
+    while (cells > 8 && lattice_work(particles, lattice.cell, lattice.cells) > kMaxSunWork) {
+        cells = cells * 3 / 4;
+        lattice = lattice_around_matter(particles, sun.u, sun.v, sun.w, kLeftOut, cells, threads);
+    }
+    const std::vector<float> extinction = extinction_in(particles, lattice, threads);
+    sun.cell = lattice.cell;
+    // Nodes stand in the middle of the columns and on the faces between their cells.
+    sun.origin = lattice.origin + 0.5 * sun.cell * (sun.u + sun.v);
+    sun.nodes = lattice.cells + glm::ivec3(0, 0, 1);
+    const std::size_t layer =
+        static_cast<std::size_t>(sun.nodes.x) * static_cast<std::size_t>(sun.nodes.y);
+    sun.depth.assign(layer * static_cast<std::size_t>(sun.nodes.z), 0.F);
+    const auto cell = static_cast<float>(sun.cell);
+    for (std::size_t i = 0; i < extinction.size(); ++i)
+        sun.depth[layer + i] = sun.depth[i] + extinction[i] * cell;
+    return sun;
+}
+
+double depth_at(const SunDepth& sun, const glm::dvec3& point) {
+    if (sun.depth.empty()) return 0;
+    const glm::dvec3 apart = point - sun.origin;
+    const glm::dvec3 at = glm::clamp(
+        glm::dvec3(glm::dot(apart, sun.u), glm::dot(apart, sun.v), glm::dot(apart, sun.w)) /
+            sun.cell,
+        glm::dvec3(0), glm::dvec3(sun.nodes - 1));
+    const glm::ivec3 low = glm::min(glm::ivec3(at), glm::max(sun.nodes - 2, glm::ivec3(0)));
+    const glm::ivec3 high = glm::min(low + 1, sun.nodes - 1);
+    const glm::dvec3 t = at - glm::dvec3(low);
+    const auto node = [&](int i, int j, int k) {
+        return static_cast<double>(
+            sun.depth[(static_cast<std::size_t>(k) * static_cast<std::size_t>(sun.nodes.y) +
+                       static_cast<std::size_t>(j)) *
+                          static_cast<std::size_t>(sun.nodes.x) +
+                      static_cast<std::size_t>(i)]);
+    };
+    const auto along_u = [&](int j, int k) {
+        return glm::mix(node(low.x, j, k), node(high.x, j, k), t.x);
+    };
+    const auto along_v = [&](int k) {
+        return glm::mix(along_u(low.y, k), along_u(high.y, k), t.y);
+    };
+    return glm::mix(along_v(low.z), along_v(high.z), t.z);
+}
+
+}  // namespace awan

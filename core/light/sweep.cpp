@@ -1,0 +1,172 @@
+#include "core/light/sweep.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+#include "core/parallel.h"
+
+namespace awan {
+namespace {
+
+// 16 directions of an octant, a lane each.
+using Lanes = float __attribute__((vector_size(64)));
+static_assert(kDirections == 16);
+
+// By reference: passed by value, a Lanes would change the ABI between the clones below.
+inline __attribute__((always_inline)) void load(Lanes& to, const float* from) {
+    std::memcpy(&to, from, sizeof to);
+}
+inline __attribute__((always_inline)) void store(float* to, const Lanes& from) {
+    std::memcpy(to, &from, sizeof from);
+}
+
+// Cells along one axis in the order in which the light meets them.
+struct Walk {
+    int begin, end, step;
+    Walk(int count, int sign)
+        : begin(sign > 0 ? 0 : count - 1), end(sign > 0 ? count : -1), step(sign) {}
+};
+
+struct Task {
+    const SweepGrid& grid;
+    const Ordinates& ordinates;
+    const Ordinates::Octant& octant;
+    const float* source;
+    const float* inflow;  // 16 directions
+    float* moments;       // added to
+    float* row;           // radiance into the next cell along y: 16 floats a cell of a row
+    float* layer;         // into the next along z: 16 floats a cell of a layer
+};
+
+inline __attribute__((always_inline)) void fill(float* to, std::size_t count, const Lanes& value) {
+    for (std::size_t i = 0; i < count; ++i) store(to + i * kDirections, value);
+}
+
+// kHarmonics: 1 or 16.
+template <int kHarmonics>
+inline __attribute__((always_inline)) void walk_octant(const Task& task) {
+    const glm::ivec3 n = task.grid.cells;
+    Lanes cx, cy, cz, in;
+    load(cx, task.ordinates.cosine[0].data());
+    load(cy, task.ordinates.cosine[1].data());
+    load(cz, task.ordinates.cosine[2].data());
+    load(in, task.inflow);
+    Lanes value[kHarmonics];
+    for (std::size_t m = 0; m < kHarmonics; ++m) load(value[m], task.octant.value[m].data());
+    const auto nx = static_cast<std::size_t>(n.x), ny = static_cast<std::size_t>(n.y);
+    fill(task.layer, nx * ny, in);
+    const Walk walk_x(n.x, task.octant.sign.x), walk_y(n.y, task.octant.sign.y),
+        walk_z(n.z, task.octant.sign.z);
+    for (int k = walk_z.begin; k != walk_z.end; k += walk_z.step) {
+        fill(task.row, nx, in);
+        for (int j = walk_y.begin; j != walk_y.end; j += walk_y.step) {
+            Lanes psi_x = in;
+            const std::size_t across = static_cast<std::size_t>(j) * nx;
+            const std::size_t line = static_cast<std::size_t>(k) * ny * nx + across;
+            for (int i = walk_x.begin; i != walk_x.end; i += walk_x.step) {
+                const auto column = static_cast<std::size_t>(i);
+                const std::size_t cell = line + column;
+                float* const row = task.row + column * kDirections;
+                float* const layer = task.layer + (across + column) * kDirections;
+                Lanes psi_y, psi_z;
+                load(psi_y, row);
+                load(psi_z, layer);
+
+                const float* from = task.source + cell * kHarmonics;
+                Lanes q = from[0] * value[0];
+                for (std::size_t m = 1; m < kHarmonics; ++m) q += from[m] * value[m];
+
+                // theta = (3 + tau) / (6 + tau), tau = depth / |cosine|: 1 / theta = (6c + s) / (3c + s).
+                const float s = task.grid.depth[cell];
+                const Lanes ax = 3 * cx + s, ay = 3 * cy + s, az = 3 * cz + s;
+                const Lanes inverse = 1 / (ax * ay * az);
+                const Lanes tx = (ax + 3 * cx) * (ay * az) * inverse;
+                const Lanes ty = (ay + 3 * cy) * (ax * az) * inverse;
+                const Lanes tz = (az + 3 * cz) * (ax * ay) * inverse;
+                const Lanes wx = cx * tx, wy = cy * ty, wz = cz * tz;
+                // psi_x comes from the cell before: all else is ready by then.
+                const Lanes share = 1 / (s + wx + wy + wz);
+                const Lanes others = q + wy * psi_y + wz * psi_z;
+                const Lanes psi = (others + wx * psi_x) * share;
+                psi_x += (psi - psi_x) * tx;
+                psi_y += (psi - psi_y) * ty;
+                psi_z += (psi - psi_z) * tz;
+                store(row, psi_y);
+                store(layer, psi_z);
+
+                float* const to = task.moments + cell * kHarmonics;
+                alignas(64) float out[kDirections];
+                store(out, psi);
+                if constexpr (kHarmonics == 16) {
+                    Lanes sum;
+                    load(sum, to);
+                    for (std::size_t d = 0; d < kDirections; ++d) {
+                        Lanes weighted;
+                        load(weighted, task.octant.weighted[d].data());
+                        sum += out[d] * weighted;
+                    }
+                    store(to, sum);
+                } else {
+                    float sum = 0;
+                    for (std::size_t d = 0; d < kDirections; ++d)
+                        sum += out[d] * task.octant.weighted[d][0];
+                    to[0] += sum;
+                }
+            }
+        }
+    }
+}
+
+__attribute__((target_clones("avx512f", "avx2", "default"))) void walk_16(const Task& task) {
+    walk_octant<16>(task);
+}
+__attribute__((target_clones("avx512f", "avx2", "default"))) void walk_1(const Task& task) {
+    walk_octant<1>(task);
+}
+
+constexpr std::size_t kGroups = 4;
+static_assert(std::tuple_size_v<decltype(SweepSpace::sums)> == kGroups);
+
+__attribute__((target_clones("avx512f", "avx2", "default"))) void add_groups(
+    const SweepSpace& space, std::size_t at, std::size_t count, float* to) {
+    const float *a = space.sums[0].data() + at, *b = space.sums[1].data() + at,
+                *c = space.sums[2].data() + at, *d = space.sums[3].data() + at;
+    for (std::size_t i = 0; i < count; ++i) to[i] = (a[i] + b[i]) + (c[i] + d[i]);
+}
+
+}  // namespace
+
+void sweep(const SweepGrid& grid, const Ordinates& ordinates, std::span<const float> source,
+           const Inflow& inflow, int threads, SweepSpace& space, std::span<float> moments) {
+    const auto harmonics = static_cast<std::size_t>(grid.harmonics);
+    assert(harmonics == 1 || harmonics == 16);
+    assert(source.size() == harmonics * grid.size() && moments.size() == source.size());
+    parallel_for(threads, kGroups, [&](std::size_t group) {
+        std::vector<float>&sums = space.sums[group], &row = space.rows[group],
+        &layer = space.layers[group];
+        sums.assign(moments.size(), 0.F);
+        row.resize(static_cast<std::size_t>(grid.cells.x) * kDirections);
+        layer.resize(row.size() * static_cast<std::size_t>(grid.cells.y));
+        for (std::size_t o = group; o < kOctants; o += kGroups) {
+            const Ordinates::Octant& octant = ordinates.octants[o];
+            alignas(64) std::array<float, kDirections> in{};
+            if (inflow)
+                for (std::size_t d = 0; d < kDirections; ++d)
+                    in[d] = static_cast<float>(inflow(octant.direction[d]));
+            const Task task{grid,      ordinates,   octant,     source.data(),
+                            in.data(), sums.data(), row.data(), layer.data()};
+            if (harmonics == 16)
+                walk_16(task);
+            else
+                walk_1(task);
+        }
+    });
+    constexpr std::size_t kBlock = 1u << 14;
+    parallel_for(threads, (moments.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
+        const std::size_t at = block * kBlock, n = std::min(kBlock, moments.size() - at);
+        add_groups(space, at, n, moments.data() + at);
+    });
+}
+
+}  // namespace awan

@@ -1,0 +1,304 @@
+// Discrete ordinates with delta-M scaling (Wiscombe 1977), weighted diamond differences (sweep.h) and GMRES.
+#include "core/light/transport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/light/diffusion.h"
+#include "core/light/gmres.h"
+#include "core/light/legendre.h"
+#include "core/light/sun_depth.h"
+#include "core/light/sweep.h"
+#include "core/parallel.h"
+#include "core/shaders/shared.h"
+#include "core/survey/lattice.h"
+
+namespace awan {
+namespace {
+
+constexpr int kOrders = 4;  // l = 0..3
+constexpr double kLeftOut =
+    0.02;  // optical depth that the grid may leave out, relative to the cloud's if that is < 1
+constexpr double kDiffusionTolerance = 0.05;  // of the preconditioner's own solve
+constexpr int kBasis = 12;                    // vectors that GMRES keeps
+constexpr double kMaxFineWork =
+    3e8;  // cell updates of the density from which the beam's source is averaged
+
+// What one solve needs to know; all colours share it unless particles are coloured.
+struct Matter {
+    SweepGrid grid;
+    std::vector<float> scattered;          // of each cell: depth x albedo of what is not the peak
+    std::vector<float> albedo;             // of each cell, true
+    std::array<double, kOrders> moment{};  // chi_l of the phase function without its peak
+};
+
+// What shines on it.
+struct Shine {
+    bool beam = false;               // the sun, irradiance 1
+    double zenith = 0, horizon = 0;  // the sky's two colours
+    glm::vec3 color{1};
+};
+
+double sky_radiance(double up, double zenith, double horizon) {
+    const auto one = [](double v) { return shader::vec3(static_cast<float>(v)); };
+    return static_cast<double>(
+        shader::sky_radiance(static_cast<float>(up), one(zenith), one(horizon)).x);
+}
+
+// Means over blocks of sub^3 cells.
+std::vector<float> block_means(const std::vector<float>& fine, const glm::ivec3& cells, int sub) {
+    std::vector<float> means(fine.size() / static_cast<std::size_t>(sub * sub * sub));
+    const auto nx = static_cast<std::size_t>(cells.x), ny = static_cast<std::size_t>(cells.y);
+    const auto s = static_cast<std::size_t>(sub);
+    for (std::size_t i = 0; i < fine.size(); ++i) {
+        const std::size_t x = i % (nx * s), y = i / (nx * s) % (ny * s), z = i / (nx * s * ny * s);
+        means[((z / s) * ny + y / s) * nx + x / s] += fine[i];
+    }
+    const auto scale = static_cast<float>(1.0 / (sub * sub * sub));
+    for (float& mean : means) mean *= scale;
+    return means;
+}
+
+// Light that the beam leaves in each cell: extinction (all of it) x side x exp(-scaled depth from the sun), averaged
+// over the cell. A sub-cell's mean is taken along the beam, so that a thick one does not leave more than there is.
+std::vector<float> beam_source(const Lattice& coarse, const Lattice& fine_lattice,
+                               const std::vector<float>& fine, int sub, const SunDepth& sun,
+                               double kept, int threads, const Deadline& deadline) {
+    std::vector<float> source(coarse.size());
+    const glm::ivec3 n = fine_lattice.cells;
+    parallel_for(threads, static_cast<std::size_t>(coarse.cells.z), [&](std::size_t layer) {
+        if (deadline.over()) return;
+        for (int k = static_cast<int>(layer) * sub; k < (static_cast<int>(layer) + 1) * sub; ++k)
+            for (int j = 0; j < n.y; ++j)
+                for (int i = 0; i < n.x; ++i) {
+                    const auto extinction = static_cast<double>(
+                        fine[(static_cast<std::size_t>(k) * static_cast<std::size_t>(n.y) +
+                              static_cast<std::size_t>(j)) *
+                                 static_cast<std::size_t>(n.x) +
+                             static_cast<std::size_t>(i)]);
+                    if (!(extinction > 0)) continue;
+                    const glm::dvec3 middle = fine_lattice.at(glm::dvec3(i, j, k) + 0.5);
+                    const double across = kept * extinction * fine_lattice.cell;
+                    const double entry = std::max(kept * depth_at(sun, middle) - 0.5 * across, 0.0);
+                    const double left = -std::expm1(-across) * std::exp(-entry) / kept;
+                    source[(layer * static_cast<std::size_t>(coarse.cells.y) +
+                            static_cast<std::size_t>(j / sub)) *
+                               static_cast<std::size_t>(coarse.cells.x) +
+                           static_cast<std::size_t>(i / sub)] +=
+                        static_cast<float>(left / (sub * sub));
+                }
+    });
+    return source;
+}
+
+// The moments of the light in each cell, harmonics floats each.
+Result<std::vector<float>> solve(const Matter& matter, const Ordinates& ordinates,
+                                 const std::vector<float>& beam, const glm::dvec3& beam_direction,
+                                 const Shine& shine, double peak_kept,
+                                 const TransportSettings& settings, int threads,
+                                 const Deadline& deadline, TransportLight& light) {
+    const auto harmonics_count = static_cast<std::size_t>(matter.grid.harmonics);
+    const std::size_t cells = matter.grid.size();
+    // Order of each harmonic.
+    std::array<std::size_t, kHarmonics> order{};
+    for (std::size_t l = 0, m = 0; l < kOrders; ++l)
+        for (; m < (l + 1) * (l + 1); ++m) order[m] = l;
+
+    std::vector<float> source(cells * harmonics_count);
+    if (shine.beam) {
+        const std::array<double, kHarmonics> y = harmonics(beam_direction);
+        for (std::size_t i = 0; i < cells; ++i)
+            for (std::size_t m = 0; m < harmonics_count; ++m)
+                source[i * harmonics_count + m] =
+                    beam[i] * matter.albedo[i] *
+                    static_cast<float>(peak_kept * matter.moment[order[m]] * y[m]);
+    }
+    Inflow inflow;
+    if (shine.zenith > 0 || shine.horizon > 0)
+        inflow = [&](const glm::dvec3& direction) {
+            return sky_radiance(-direction.y, shine.zenith, shine.horizon);
+        };
+    SweepSpace space;
+    std::vector<float> right(source.size());
+    sweep(matter.grid, ordinates, source, inflow, threads, space, right);
+
+    std::array<float, kHarmonics> moment{};
+    for (std::size_t m = 0; m < harmonics_count; ++m)
+        moment[m] = static_cast<float>(matter.moment[order[m]]);
+    const Product product = [&](std::span<const float> from, std::span<float> to) -> Status {
+        if (auto error = deadline.over()) return error;
+        for (std::size_t i = 0; i < cells; ++i)
+            for (std::size_t m = 0; m < harmonics_count; ++m)
+                source[i * harmonics_count + m] =
+                    matter.scattered[i] * moment[m] * from[i * harmonics_count + m];
+        sweep(matter.grid, ordinates, source, {}, threads, space, to);
+        for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i] - to[i];
+        return std::nullopt;
+    };
+    std::vector<float> moments(source.size());
+    const Diffusion diffusion =
+        make_diffusion(matter.grid.cells, matter.grid.depth, matter.scattered, matter.moment[1]);
+    std::vector<float> unsettled(cells);
+    const auto diffuse = [&](std::span<const float> vector, std::span<float> addition) {
+        for (std::size_t i = 0; i < cells; ++i)
+            unsettled[i] = matter.scattered[i] * vector[i * harmonics_count];
+        solve_diffusion(diffusion, unsettled, kDiffusionTolerance, addition);
+    };
+    const auto outcome = gmres(product, {harmonics_count, diffuse}, right,
+                               {settings.tolerance, settings.max_sweeps, kBasis}, threads, moments);
+    if (!outcome.ok()) return outcome.error();
+    light.sweeps += outcome->products + 1;
+    light.residual = std::max(light.residual, outcome->residual);
+    return moments;
+}
+
+bool proportional(const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::length(glm::cross(a, b)) <= 1e-6 * glm::length(a) * glm::length(b);
+}
+
+double largest(const glm::dvec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+// The parts of the light, each with one shape in space: in grey matter the sun, the zenith's share of the sky and the
+// horizon's; where particles have colours, one for each colour channel.
+std::vector<Shine> parts_of(const Scene& scene, bool colored, bool with_sky) {
+    const glm::dvec3 sun = scene->sun.color * scene->sun.intensity;
+    const bool sky = with_sky && !scene->sky.none;
+    const glm::dvec3 zenith = sky ? scene->sky.zenith * scene->sky.intensity : glm::dvec3(0);
+    const glm::dvec3 horizon = sky ? scene->sky.horizon * scene->sky.intensity : glm::dvec3(0);
+    std::vector<Shine> parts;
+    if (colored) {
+        for (int c = 0; c < 3; ++c) {
+            glm::vec3 color(0);
+            color[c] = 1;
+            // The beam comes with irradiance 1; the sky is measured by it, for one solve to do both.
+            if (sun[c] > 0) {
+                color[c] = static_cast<float>(sun[c]);
+                parts.push_back({true, zenith[c] / sun[c], horizon[c] / sun[c], color});
+            } else if (zenith[c] > 0 || horizon[c] > 0) {
+                parts.push_back({false, zenith[c], horizon[c], color});
+            }
+        }
+        return parts;
+    }
+    if (largest(sun) > 0) parts.push_back({true, 0, 0, glm::vec3(sun)});
+    if (largest(zenith) > 0 && largest(horizon) > 0 && proportional(zenith, horizon)) {
+        parts.push_back({false, largest(zenith) / largest(horizon), 1, glm::vec3(horizon)});
+    } else {
+        if (largest(zenith) > 0) parts.push_back({false, 1, 0, glm::vec3(zenith)});
+        if (largest(horizon) > 0) parts.push_back({false, 0, 1, glm::vec3(horizon)});
+    }
+    return parts;
+}
+
+int channel_of(const Shine& shine) {
+    return shine.color.x > 0 ? 0 : shine.color.y > 0 ? 1 : 2;
+}
+
+}  // namespace
+
+std::size_t TransportLight::bytes() const {
+    std::size_t bytes =
+        sizeof *this + sun.depth.capacity() * sizeof(float) + albedo.capacity() * sizeof(glm::vec3);
+    for (const LightBand& band : bands) bytes += band.moments.capacity() * sizeof(band.moments[0]);
+    return bytes;
+}
+
+Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& particles,
+                                       const Survey& survey, const TransportSettings& settings,
+                                       int threads, const Deadline& deadline) {
+    TransportLight light;
+    if (auto error = deadline.over()) return *error;
+    if (particles.size() == 0 || !(survey.total_mass > 0)) return light;
+    const glm::dvec3 towards_sun = sun_direction(scene->sun);
+    light.sun = sun_depth(particles, towards_sun, settings.sun_cells, threads);
+    if (settings.cells == 0) return light;
+
+    const std::vector<double> chi = legendre_moments(scene->medium, kOrders);
+    const double g = scene->medium.g, albedo = scene->medium.albedo;
+    // A backward peak is no light that goes on; it stays in the moments.
+    const double f = g > 0 ? chi[kOrders] : 0;
+    light.peak_share = f;
+    light.peak_from = kOrders;
+    const double kept = 1 - albedo * f;
+
+    // Of the lights' lines only: the eye's would tie the light to a camera.
+    const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
+    const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    const double rest = kLeftOut * std::min(1.0, deepest);
+    Lattice coarse = lattice_around_matter(particles, x, y, z, rest, settings.cells, threads);
+    int sub = settings.cells <= 32 ? 3 : 2;
+    while (sub > 1 && lattice_work(particles, coarse.cell / sub, coarse.cells * sub) > kMaxFineWork)
+        --sub;
+    Lattice fine_lattice = coarse;
+    fine_lattice.cell = coarse.cell / sub;
+    fine_lattice.cells = coarse.cells * sub;
+    const std::vector<float> fine = extinction_in(particles, fine_lattice, threads);
+    const std::vector<float> mean = block_means(fine, coarse.cells, sub);
+    light.origin = coarse.origin;
+    light.cell = coarse.cell;
+    light.cells = coarse.cells;
+    if (auto error = deadline.over()) return *error;
+
+    const bool colored = !particles.color.empty();
+    const std::vector<Shine> parts = parts_of(scene, colored, settings.sky);
+    std::vector<float> beam;
+    if (std::any_of(parts.begin(), parts.end(), [](const Shine& shine) { return shine.beam; }))
+        beam = beam_source(coarse, fine_lattice, fine, sub, light.sun, kept, threads, deadline);
+
+    Matter matter;
+    matter.grid.cells = coarse.cells;
+    matter.grid.harmonics =
+        g == 0 && scene->medium.phase == PhaseFunction::kHenyeyGreenstein ? 1 : kHarmonics;
+    for (std::size_t l = 0; l < kOrders; ++l) matter.moment[l] = (chi[l] - f) / (1 - f);
+    matter.grid.depth.resize(mean.size());
+    matter.scattered.resize(mean.size());
+    matter.albedo.resize(mean.size());
+    std::array<std::vector<float>, 3> tinted;
+    if (colored) {
+        light.albedo.resize(mean.size());
+        for (int c = 0; c < 3; ++c)
+            tinted[static_cast<std::size_t>(c)] =
+                colored_extinction_in(particles, coarse, c, threads);
+        for (std::size_t i = 0; i < mean.size(); ++i)
+            for (int c = 0; c < 3; ++c) {
+                const float tint =
+                    mean[i] > 0 ? tinted[static_cast<std::size_t>(c)][i] / mean[i] : 1.F;
+                light.albedo[i][c] = static_cast<float>(albedo) * std::clamp(tint, 0.F, 1.F);
+            }
+    }
+    const Ordinates ordinates = make_ordinates();
+    for (const Shine& shine : parts) {
+        for (std::size_t i = 0; i < mean.size(); ++i) {
+            const double a =
+                colored ? static_cast<double>(light.albedo[i][channel_of(shine)]) : albedo;
+            const double depth = std::min(static_cast<double>(mean[i]) * coarse.cell * (1 - a * f),
+                                          static_cast<double>(kMaxCellDepth));
+            matter.grid.depth[i] = static_cast<float>(depth);
+            matter.albedo[i] = static_cast<float>(a);
+            matter.scattered[i] = static_cast<float>(depth * a * (1 - f) / (1 - a * f));
+        }
+        auto moments = solve(matter, ordinates, beam, -towards_sun, shine, 1 - f, settings, threads,
+                             deadline, light);
+        if (!moments.ok()) return moments.error();
+        LightBand band;
+        band.color = shine.color;
+        band.moments.resize(mean.size());
+        const auto count = static_cast<std::size_t>(matter.grid.harmonics);
+        for (std::size_t i = 0; i < mean.size(); ++i) {
+            band.moments[i].fill(0);
+            for (std::size_t l = 0, m = 0; l < kOrders; ++l)
+                for (; m < (l + 1) * (l + 1) && m < count; ++m)
+                    band.moments[i][m] = matter.albedo[i] *
+                                         static_cast<float>((1 - f) * matter.moment[l]) *
+                                         (*moments)[i * count + m];
+        }
+        light.bands.push_back(std::move(band));
+    }
+    return light;
+}
+
+}  // namespace awan

@@ -1,0 +1,93 @@
+#include "core/plan/forecast.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/plan/forecast_tables.h"
+
+namespace awan {
+namespace {
+
+constexpr double kSmallestError = 1e-3;  // nothing below was measured
+constexpr double kLargestError = 20;
+
+double predicted_error(const ErrorModel& model, const ErrorFigures& figures) {
+    const double log_error =
+        std::inner_product(figures.begin(), figures.end(), model.coefficient.begin(), 0.0);
+    return std::exp(std::clamp(log_error, std::log(kSmallestError), std::log(kLargestError)));
+}
+
+double predicted_ms(const TimeModel& model, const TimeFigures& figures) {
+    return std::inner_product(figures.begin(), figures.end(), model.coefficient.begin(), 0.0);
+}
+
+// At its peak, beside particles and picture: the transport solve's vectors, or the light grid and lists of the splats.
+double predicted_bytes(const Rung& rung, const TimeFigures& figures) {
+    constexpr double kVectors =
+        2 * 12 + 8;  // of GMRES (core/light/transport.cpp) and the sweeps, 16 floats a cell
+    const double pairs = figures[3], particles = figures[2];
+    switch (rung.method) {
+        case Method::kSplats:
+            return 160 * particles + 8 * pairs / 128;
+        case Method::kMarch:
+            return std::pow(rung.cells, 3) * 64 * kVectors *
+                       std::min(1.0, figures[5] / std::max(std::pow(rung.cells, 3), 1.0)) +
+                   8e6 + 64 * particles;
+        case Method::kPaths:
+            break;
+    }
+    return 32e6 + 64 * particles + 32 * figures[4];
+}
+
+const ErrorModel& error_model(const Rung& rung) {
+    switch (rung.method) {
+        case Method::kSplats:
+            return find_rung("additive") == &rung ? kAdditiveError : kHarrisError;
+        case Method::kMarch:
+            return rung.cells == 0 ? kSingleError : kTransportError;
+        case Method::kPaths:
+            break;
+    }
+    return kPathNoise;
+}
+
+}  // namespace
+
+RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey,
+                      std::uint32_t samples, int threads, const MachineSpeed& speed) {
+    RungForecast forecast;
+    forecast.rung = &rung;
+    const ErrorFigures errors = error_figures(rung, scene, survey);
+    const TimeFigures times = time_figures(rung, scene, survey, samples);
+    const bool empty = survey.particles == 0 || !(survey.total_mass > 0);
+    if (!empty) forecast.error = predicted_error(error_model(rung), errors);
+    double ms = predicted_ms(kPrepareTime, times);
+    switch (rung.method) {
+        case Method::kSplats:
+            ms += predicted_ms(kSplatTime, times);
+            break;
+        case Method::kMarch: {
+            // Most of it runs on all threads.
+            const double spread = kSerialShare + (1 - kSerialShare) / std::max(threads, 1);
+            ms += predicted_ms(kMarchTime, times) * spread;
+            break;
+        }
+        case Method::kPaths:
+            forecast.error /= std::sqrt(std::max(samples, 1U));
+            ms += predicted_ms(kPathTime, times) / std::max(threads, 1);
+            break;
+    }
+    forecast.time_ms = ms * speed.slowness;
+    forecast.bytes = predicted_bytes(rung, times);
+    return forecast;
+}
+
+std::uint32_t samples_for(double error, const Scene& scene, const Survey& survey) {
+    const Rung& truth = *find_rung("truth");
+    const double noise = forecast(truth, scene, survey, 1, 1, {}).error;
+    const double samples = std::ceil(noise * noise / (error * error) / 2) * 2;
+    return static_cast<std::uint32_t>(std::clamp(samples, 2.0, double{kMaxTruthSamples}));
+}
+
+}  // namespace awan

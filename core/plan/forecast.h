@@ -1,0 +1,34 @@
+// What a rung will cost and how wrong it will be, from the survey's figures.
+#pragma once
+
+#include <cstdint>
+
+#include "core/plan/ladder.h"
+#include "core/scene/scene.h"
+#include "core/survey/survey.h"
+
+namespace awan {
+
+// How much slower this machine is than the one on which times were calibrated: 1 is the same.
+struct MachineSpeed {
+    double slowness = 1;
+};
+
+// What a rung would cost this scene and how far it would be from the truth.
+struct RungForecast {
+    const Rung* rung = nullptr;
+    double error =
+        0;  // relative (PictureError::nrmse, core/truth/error_measures.h); measured errors are below it in 95% of scenes
+    double time_ms = 0;  // of all stages but queue and encode, on this machine
+    double bytes = 0;    // memory at its peak, beside the scene's particles and the picture
+};
+
+// Of one rung; `samples`: paths a pixel, for rung truth only. threads: of the march and the paths.
+RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey,
+                      std::uint32_t samples, int threads, const MachineSpeed& speed);
+
+// Paths a pixel with which rung truth is predicted to have the noise `error`; even, 2..kMaxTruthSamples.
+std::uint32_t samples_for(double error, const Scene& scene, const Survey& survey);
+inline constexpr std::uint32_t kMaxTruthSamples = 1u << 20;
+
+}  // namespace awan

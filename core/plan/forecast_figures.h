@@ -1,0 +1,32 @@
+// What forecasts are made from: a few bounded numbers of a scene, the same for fitting and for use.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/plan/ladder.h"
+#include "core/scene/scene.h"
+#include "core/survey/survey.h"
+
+namespace awan {
+
+inline constexpr std::size_t kErrorFigureCount = 12;
+using ErrorFigures = std::array<double, kErrorFigureCount>;
+// 1; log of depth / (1 + depth) and log(1 + depth) towards the eye; log(1 + scaled depth of the densest cell); |g|; g^2;
+// how far one looks into the sun (cosine^2, 0 when it is behind); that times g^2; log2 of cell over mean s; eye inside;
+// the sun's share of the light; log10 of what is absorbed.
+ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& survey);
+inline constexpr std::array<const char*, kErrorFigureCount> kErrorFigureNames = {
+    "one",     "thin",       "thick",      "cell_depth", "g",         "g2",
+    "backlit", "g2_backlit", "coarseness", "inside",     "sun_share", "absorbed"};
+
+inline constexpr std::size_t kTimeFigureCount = 8;
+using TimeFigures = std::array<double, kTimeFigureCount>;
+// 1; pixels that meet cloud; particles; pixel-particle pairs; pixels; cells x bands x harmonics of the transport grid;
+// cell updates of its lattices; paths x (1 + scatterings).
+TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& survey,
+                         std::uint32_t samples);
+inline constexpr std::array<const char*, kTimeFigureCount> kTimeFigureNames = {
+    "one", "covered", "particles", "pairs", "pixels", "unknowns", "updates", "scatterings"};
+
+}  // namespace awan

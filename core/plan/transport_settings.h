@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/plan/ladder.h"
+
+namespace awan {
+
+// How finely the transport rungs (core/light/transport.h) solve.
+struct TransportSettings {
+    int cells = 32;      // along the longest side of the matter; 0: no grid, the sun's depth only
+    int sun_cells = 96;  // of SunDepth, along its longest side
+    double tolerance = 1e-3;  // of the solve, relative to its source
+    int max_sweeps = 40;      // a band; each is one walk through all cells and directions
+    bool sky = true;          // whether the sky's light is wanted
+};
+
+// Of a rung of Method::kMarch.
+TransportSettings transport_settings(const Rung& rung);
+
+}  // namespace awan

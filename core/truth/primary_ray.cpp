@@ -1,0 +1,113 @@
+#include "core/truth/primary_ray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace awan::truth {
+namespace {
+
+constexpr double kStep = 0.7;       // cells
+constexpr double kStepDepth = 0.1;  // optical depth a step
+constexpr double kDark = 30;        // optical depth: e^-30 of the light comes from behind it
+
+// A listed particle that the ray meets, and where.
+struct Met {
+    const Matter::Listed* one;
+    double from, to;
+};
+
+std::vector<Met> listed_along(const Matter& m, const glm::dvec3& o, const glm::dvec3& d) {
+    std::vector<Met> met;
+    for (const Matter::Listed& one : m.listed) {
+        const glm::dvec3 v = one.center - o;
+        const double along = glm::dot(v, d);
+        const glm::dvec3 aside = v - along * d;
+        const double b2 = glm::dot(aside, aside);
+        if (b2 >= one.reach2) continue;
+        const double half = std::sqrt(one.reach2 - b2);
+        met.push_back({&one, along - half, along + half});
+    }
+    return met;
+}
+
+}  // namespace
+
+PrimaryRay::PrimaryRay(const Matter& m, const glm::dvec3& o, const glm::dvec3& d, double end) {
+    if (m.empty) return;
+    double t = 0;
+    for (int a = 0; a < 3; ++a) {
+        const double slope = std::abs(d[a]) < 1e-30 ? std::copysign(1e-30, d[a]) : d[a];
+        const double u = -o[a] / slope, v = (m.top[a] - o[a]) / slope;
+        t = std::max(t, std::min(u, v));
+        end = std::min(end, std::max(u, v));
+    }
+    if (!(t < end)) return;
+    const std::vector<Met> met = listed_along(m, o, d);
+    const auto on_lattice = [&](double at) {
+        if (m.extinction.empty()) return 0.0;
+        const glm::dvec3 p = o + at * d;
+        return static_cast<double>(interpolated(m.extinction.data(), m.nodes, p.x, p.y, p.z));
+    };
+    double depth = 0, here = on_lattice(t), step = kStep;
+    t_.push_back(t);
+    depth_.push_back(0);
+    while (t < end && depth < kDark) {
+        double next, there, more;
+        for (;;) {
+            next = std::min(t + step, end);
+            there = on_lattice(next);
+            more = 0.5 * (here + there) * (next - t);
+            for (const Met& one : met)
+                if (one.from < next && one.to > t) more += listed_depth(*one.one, o, d, t, next);
+            // A step below rounding cannot be split any more.
+            if (more <= kStepDepth || !(t + 0.25 * (next - t) > t) || step < 1e-9) break;
+            step *= 0.5;
+        }
+        t = next;
+        here = there;
+        depth += more;
+        step = std::min(2 * step, kStep);
+        if (more > 0 || t_.size() > 1) {
+            t_.push_back(t);
+            depth_.push_back(depth);
+        } else {
+            t_.back() = t;
+        }
+    }
+}
+
+double PrimaryRay::first_meeting(double share) const {
+    // share = (1 - e^-depth) / (1 - e^-all)
+    const double depth = -std::log1p(share * std::expm1(-depth_.back()));
+    const auto above = std::upper_bound(depth_.begin(), depth_.end() - 1, depth);
+    const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - depth_.begin(), 1));
+    const double rise = depth_[i] - depth_[i - 1];
+    const double part = rise > 0 ? std::clamp((depth - depth_[i - 1]) / rise, 0.0, 1.0) : 0.5;
+    return t_[i - 1] + part * (t_[i] - t_[i - 1]);
+}
+
+ParticleSet particles_near(const ParticleSet& particles, const glm::dvec3& eye,
+                           const glm::dvec3& corner, const glm::dvec3& opposite) {
+    const glm::dvec3 axis = glm::normalize(corner + opposite);
+    // In the plane through the axis: a particle's distance from a cone, its angle being that of
+    // the corners, with room for the two other corners of a tile seen at a slant.
+    const double half =
+        std::min(1.5 * std::asin(std::min(0.5 * glm::length(corner - opposite), 1.0)) + 1e-6, 3.2);
+    ParticleSet near;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        const glm::dvec3 v = particles.center[i] - eye;
+        const double distance = glm::length(v);
+        const double reach = 9 * 0.5 * static_cast<double>(particles.radius[i]);
+        if (distance > reach) {
+            const double angle = std::atan2(glm::length(glm::cross(axis, v)), glm::dot(axis, v));
+            if (angle > half + std::asin(reach / distance)) continue;
+        }
+        near.center.push_back(particles.center[i]);
+        near.radius.push_back(particles.radius[i]);
+        near.density.push_back(particles.density[i]);
+    }
+    return near;
+}
+
+}  // namespace awan::truth

@@ -1,0 +1,31 @@
+// A pixel's ray before its first scattering: where it meets matter, known beforehand instead of walked.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "core/generate/particle_set.h"
+#include "core/truth/matter.h"
+
+namespace awan::truth {
+
+// Optical depth along o + t d (cells), t from 0 to `end` (may be infinite), tabulated at steps of at most .7 cell and .1 of
+// depth as far as a depth of 30.
+class PrimaryRay {
+  public:
+    PrimaryRay(const Matter& matter, const glm::dvec3& o, const glm::dvec3& d, double end);
+
+    bool meets() const { return !depth_.empty() && depth_.back() > 0; }
+    // t of the first scattering of light that has one; share in (0, 1): of such light, met before t.
+    double first_meeting(double share) const;
+
+  private:
+    std::vector<double> t_, depth_;  // as long as each other, rising
+};
+
+// Those particles that a ray from the eye may meet whose direction is within the cone about two opposite corners' directions
+// (unit); farther than 9 s they do not count. No colours.
+ParticleSet particles_near(const ParticleSet& particles, const glm::dvec3& eye,
+                           const glm::dvec3& corner, const glm::dvec3& opposite);
+
+}  // namespace awan::truth
