@@ -1,8 +1,9 @@
 // awan accuracy: what accuracy costs, of one scene or several.
 #include <algorithm>
-#include <cmath>
+#include <optional>
 
 #include "core/formats/plot.h"
+#include "core/light/machine_speed.h"
 #include "core/pipeline.h"
 #include "server/accuracy_text.h"
 #include "server/cli_files.h"
@@ -44,17 +45,22 @@ Result<std::string> written(const std::string& format, const std::vector<NamedAc
 Result<std::vector<NamedAccuracy>> measured(const std::vector<Scene>& scenes,
                                             const AccuracyCommand& command, std::string& subject) {
     ProgressLine line;
-    line.say("opening the renderer");
-    auto device = Device::open(command.device);
-    if (!device) return device.error();
-    const RenderScene render = [&](const Scene& scene, const Deadline& deadline) {
-        return render_scene(scene, *device, command.threads, deadline);
+    const MachineSpeed speed = measure_speed();
+    std::optional<Device> device;  // opened when the first rung needs it
+    const RenderScene render = [&](const Scene& scene,
+                                   const Deadline& deadline) -> Result<Rendered> {
+        auto planned = plan_scene(scene, command.threads, deadline, speed);
+        if (!planned) return planned.error();
+        if (const Status failed = open_for(planned->plan, command.device, device)) return *failed;
+        const Tools tools{device ? &*device : nullptr, command.threads, nullptr, {}, speed};
+        return render_planned(scene, *std::move(planned), tools, deadline);
     };
     std::vector<NamedAccuracy> reports;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         subject = command.scenes[i];
         const std::string name = name_of_scene(subject);
         AccuracyOptions options = options_of(command);
+        options.speed = speed;
         options.on_step = [&](const std::string& step) {
             line.say(name.empty() ? step : name + ": " + step);
         };

@@ -4,6 +4,7 @@
 #include "core/formats/image_file.h"
 #include "core/formats/particle_files.h"
 #include "core/generate/generate.h"
+#include "core/light/machine_speed.h"
 #include "core/pipeline.h"
 #include "core/scene/validate.h"
 #include "server/cli.h"
@@ -40,11 +41,17 @@ Status write_particles(const std::string& path, const std::string& format,
 
 Result<std::string> render_bytes(const Scene& scene, const RenderCommand& command) {
     ProgressLine progress;
+    progress.say("planning");
+    const MachineSpeed speed = measure_speed();
+    auto planned = plan_scene(scene, command.threads, Deadline{}, speed);
+    if (!planned) return planned.error();
+    std::optional<Device> device;
     progress.say("opening the renderer");
-    auto device = Device::open(command.device);
-    if (!device) return device.error();
-    progress.say("rendering");
-    auto rendered = render_scene(scene, *device, command.threads, Deadline{});
+    if (const Status failed = open_for(planned->plan, command.device, device)) return *failed;
+    progress.say("rendering, rung " + planned->plan.rung);
+    const Tools tools{device ? &*device : nullptr, command.threads, nullptr,
+                      [&](double share) { progress.done(share); }, speed};
+    auto rendered = render_planned(scene, *std::move(planned), tools, Deadline{});
     if (!rendered) return rendered.error();
     progress.say("encoding");
     const ImageSettings& image = scene->image;
@@ -106,7 +113,7 @@ int run_particles(const ParticlesCommand& command) {
 int run_plan(const PlanCommand& command) {
     auto scene = read_valid_scene(command.scene);
     if (!scene) return report_error(command.scene, scene.error());
-    auto planned = plan_scene(*scene, command.threads, Deadline{});
+    auto planned = plan_scene(*scene, command.threads, Deadline{}, measure_speed());
     if (!planned) return report_error(command.scene, planned.error());
     if (const Status failed =
             write_output(command.output, plan_to_json(planned->survey, planned->plan)))

@@ -71,6 +71,15 @@ bool binary_to_terminal(const std::string& output) {
     return output == "-" && isatty(STDOUT_FILENO) == 1;
 }
 
+Status open_for(const Plan& plan, DeviceChoice choice, std::optional<Device>& device) {
+    const Rung* const rung = find_rung(plan.rung);
+    if (device || rung == nullptr || rung->method != Method::kSplats) return std::nullopt;
+    auto opened = Device::open(choice);
+    if (!opened) return opened.error();
+    device.emplace(*std::move(opened));
+    return std::nullopt;
+}
+
 Result<Scene> read_valid_scene(const std::string& path) {
     auto draft = read_scene_file(path);
     if (!draft) return draft.error();

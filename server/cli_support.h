@@ -2,9 +2,12 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/gl/device.h"
+#include "core/plan/plan.h"
 #include "core/scene/scene.h"
 #include "server/cli.h"
 
@@ -40,6 +43,9 @@ Result<std::string> output_format(const std::string& output, const std::string& 
                                   const std::string& otherwise);
 
 bool binary_to_terminal(const std::string& output);
+
+// Opens a device if there is none yet and the plan's rung needs one.
+Status open_for(const Plan& plan, DeviceChoice choice, std::optional<Device>& device);
 
 Result<Scene> read_valid_scene(const std::string& path);
 

@@ -74,6 +74,7 @@ std::vector<std::string> rung_names() {
 Run add_serve(CLI::App& app) {
     auto command = std::make_shared<ServeCommand>();
     command->working = static_cast<std::size_t>(processors());
+    command->threads = processors();
     auto listen = std::make_shared<std::string>("127.0.0.1:8080");
     CLI::App* serve = app.add_subcommand("serve", "answer HTTP");
     serve->fallthrough();  // --config is the program's, and may stand after `serve`

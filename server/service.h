@@ -44,7 +44,8 @@ struct Response {
 };
 
 struct ServiceOptions {
-    int threads = 1;          // for generate and survey of one request
+    int threads = 1;          // for one request: generate, survey, and the rungs without a device
+    MachineSpeed speed;       // for what is predicted
     std::size_t working = 2;  // requests that generate, survey or encode at once; more wait
     std::size_t work_bytes = limits::kWorkBytes;  // server/work_budget.h
 };

@@ -103,12 +103,18 @@ Result<RenderThread::Place> wait_for_place(RenderThread& renderer, const Deadlin
     }
 }
 
-// One render of a sweep. It holds its place in the queue no longer than it has to, so that other
-// requests are served between two of them.
+// One render of a sweep, with nothing kept from another. What needs no device is rendered here. What
+// does holds its place in the queue no longer than it has to, so that other requests are served
+// between two of them.
 Result<Rendered> render_one(Service::State& state, const Scene& scene, const Deadline& deadline,
                             double& queue_ms) {
-    auto planned = plan_scene(scene, state.options.threads, deadline);
+    const ServiceOptions& options = state.options;
+    auto planned = plan_scene(scene, options.threads, deadline, options.speed);
     if (!planned) return planned.error();
+    const Rung* const rung = find_rung(planned->plan.rung);
+    if (rung != nullptr && rung->method != Method::kSplats)
+        return render_planned(scene, *std::move(planned),
+                              {nullptr, options.threads, nullptr, {}, options.speed}, deadline);
     const auto start = Clock::now();
     const auto place = wait_for_place(state.renderer, deadline);
     if (!place) return place.error();
@@ -145,6 +151,7 @@ Response answer_accuracy(Service::State& state, const Request& request, const Sc
 
     AccuracyOptions& options = query->options;
     options.threads = state.options.threads;
+    options.speed = state.options.speed;
     const double left_ms =
         request.deadline.until == Clock::time_point::max()
             ? std::chrono::duration<double, std::milli>(limits::kRequestDeadline).count()

@@ -61,6 +61,11 @@ Response ok(std::string_view content_type, std::string_view etag) {
     return response;
 }
 
+// Predicted times, and what is chosen by time, are of this machine.
+std::string speed_text(const Service::State& state) {
+    return std::to_string(state.options.speed.slowness);
+}
+
 // --- /v1/particles
 
 // A particle answer in pieces: the memory of its text is one piece, however long it is.
@@ -127,12 +132,13 @@ Response answer_particles(Service::State& state, const Request& request, const S
 // --- /v1/plan
 
 Response answer_plan(Service::State& state, const Request& request, const Scene& scene) {
-    const std::string etag = make_etag({"plan", fingerprint(scene), engine_version()});
+    const std::string etag =
+        make_etag({"plan", fingerprint(scene), engine_version(), speed_text(state)});
     if (none_match_names(joined_header(request, "If-None-Match"), etag))
         return not_modified(etag, true);
     const WorkBudget::Lease lease = state.budget.take(work_bytes(*scene, false));
     if (!lease) return busy(state, request, "other requests use the memory this one needs");
-    auto planned = plan_scene(scene, state.options.threads, request.deadline);
+    auto planned = plan_scene(scene, state.options.threads, request.deadline, state.options.speed);
     if (!planned) return fail(planned.error(), request);
     state.metrics.stage_done("generate", planned->times.generate_ms);
     state.metrics.stage_done("survey", planned->times.survey_ms);
@@ -226,8 +232,9 @@ Response answer_render(Service::State& state, const Request& request, const Scen
     const RenderThread::Info info = state.renderer.info();
     if (info.state == RenderThread::Info::State::kNoRenderer)
         return problem(503, "there is no renderer here: " + info.reason, "", request.id);
-    const std::string etag = make_etag({"render", fingerprint(scene), engine_version(),
-                                        info.device.renderer, info.device.version, type});
+    const std::string etag =
+        make_etag({"render", fingerprint(scene), engine_version(), info.device.renderer,
+                   info.device.version, type, scene->accuracy.time_ms ? speed_text(state) : ""});
     if (none_match_names(joined_header(request, "If-None-Match"), etag))
         return not_modified(etag, true);
 
@@ -237,7 +244,7 @@ Response answer_render(Service::State& state, const Request& request, const Scen
     if (!lease) return busy(state, request, "other requests use the memory this one needs");
 
     Timing timing;
-    auto planned = plan_scene(scene, state.options.threads, request.deadline);
+    auto planned = plan_scene(scene, state.options.threads, request.deadline, state.options.speed);
     if (!planned) return fail(planned.error(), request);
     if (const auto reason = hopeless(planned->plan, request.deadline))
         return problem(504, *reason, "", request.id);

@@ -45,6 +45,7 @@ struct AccuracyReport {
 
 struct AccuracyOptions {
     int threads = 1;
+    MachineSpeed speed;  // for what is predicted
     int runs = 4;  // timed renders of each rung; the first of each is not counted, unless it is the
                    // only one or takes so long that it has to be
     int reference_side = 128;        // pixels of the reference's longer side, at most the scene's
