@@ -106,7 +106,7 @@ Result<std::string> render_bytes(const Scene& scene, const RenderCommand& comman
     auto device = Device::open(command.device);
     if (!device) return device.error();
     progress.say("rendering");
-    auto rendered = render_scene(scene, *device, command.threads, Deadline{});
+    auto rendered = render_scene(scene, {&*device, command.threads, nullptr, {}, {}}, Deadline{});
     if (!rendered) return rendered.error();
     progress.say("encoding");
     const ImageSettings& image = scene->image;
