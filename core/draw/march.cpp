@@ -1,0 +1,176 @@
+#include "core/draw/march.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <mutex>
+
+#include "core/draw/march_block.h"
+#include "core/parallel.h"
+#include "core/shaders/shared.h"
+
+namespace awan {
+namespace {
+
+constexpr double kStepDepth = 0.7;  // scaled optical depth of a step that costs 1% (march_test)
+
+// Rooms for blocks: as many as threads ask for at a time.
+class Rooms {
+  public:
+    BlockRoomPtr take() {
+        const std::lock_guard lock(mutex_);
+        if (free_.empty()) return make_block_room();
+        BlockRoomPtr room = std::move(free_.back());
+        free_.pop_back();
+        return room;
+    }
+    void give(BlockRoomPtr room) {
+        const std::lock_guard lock(mutex_);
+        free_.push_back(std::move(room));
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<BlockRoomPtr> free_;
+};
+
+// Longest step where nothing is deep: a few to a cell of the light, or to the smallest lattice of the sun's depth.
+double longest_step(const TransportLight& light, const std::vector<SeenParticle>& seen) {
+    if (light.cell > 0) return light.cell;
+    const glm::ivec3 n = light.sun.nodes;
+    if (light.sun.cell > 0 && !light.sun.depth.empty())
+        return light.sun.cell * std::max({n.x, n.y, n.z, 1}) / 32;
+    float least = seen.front().s;
+    for (const SeenParticle& one : seen) least = std::min(least, one.s);
+    return static_cast<double>(least);
+}
+
+// Chords between the sun's direction and those of the picture: least and most, over its blocks' corners, less what lies between.
+void chords_of(const MarchScene& scene, double& least, double& most) {
+    least = 2;
+    most = 0;
+    const auto across = static_cast<double>(scene.width), down = static_cast<double>(scene.height);
+    constexpr int kGrid = 16;
+    double gap = 0;
+    for (int j = 0; j <= kGrid; ++j)
+        for (int i = 0; i <= kGrid; ++i) {
+            const glm::dvec3 d = pixel_direction(scene, across * i / kGrid, down * j / kGrid);
+            const double chord = glm::length(d - scene.to_sun);
+            least = std::min(least, chord);
+            most = std::max(most, chord);
+            if (i > 0)
+                gap = std::max(gap, glm::length(d - pixel_direction(scene, across * (i - 1) / kGrid,
+                                                                    down * j / kGrid)));
+            if (j > 0)
+                gap = std::max(gap, glm::length(d - pixel_direction(scene, across * i / kGrid,
+                                                                    down * (j - 1) / kGrid)));
+        }
+    least = std::max(0.0, least - gap);
+    most = std::min(2.0, most + gap);
+}
+
+struct SkyLook {
+    glm::vec3 zenith{0}, horizon{0};
+    bool behind = false;  // drawn behind the cloud
+    bool peak = false;    // seen through the forward peak
+};
+
+// One pixel's ray from what the march found on it.
+void put(const MarchScene& scene, const SkyLook& sky, int x, int y, float depth, glm::vec3 radiance,
+         float* out) {
+    const float left = std::exp(-depth);
+    if (sky.behind || (sky.peak && depth > 0)) {
+        const glm::dvec3 d = pixel_direction(scene, x + 0.5, y + 0.5);
+        const glm::vec3 color =
+            shader::sky_radiance(static_cast<float>(d.y), sky.zenith, sky.horizon);
+        // exp(-k tau) - exp(-tau) without cancellation, k < 1.
+        if (sky.peak)
+            radiance +=
+                std::exp(-scene.scaled * depth) * -std::expm1((scene.scaled - 1) * depth) * color;
+        if (sky.behind) radiance += left * color;
+    }
+    out[0] = radiance.x;
+    out[1] = radiance.y;
+    out[2] = radiance.z;
+    out[3] = sky.behind ? 1.0f : -std::expm1(-depth);
+}
+
+void put_block(const MarchScene& scene, const SkyLook& sky, int block_x, int block_y,
+               const BlockPixels& block, Image& image) {
+    for (int j = 0; j < kBlockSide; ++j)
+        for (int i = 0; i < kBlockSide; ++i) {
+            const int x = block_x * kBlockSide + i, y = block_y * kBlockSide + j;
+            if (x >= image.width || y >= image.height) continue;
+            const auto t = static_cast<std::size_t>(j / kTileSide * 4 + i / kTileSide);
+            const auto lane = static_cast<std::size_t>(j % kTileSide * 4 + i % kTileSide);
+            const glm::vec3 radiance(block.radiance[0][t][lane], block.radiance[1][t][lane],
+                                     block.radiance[2][t][lane]);
+            put(scene, sky, x, y, block.depth[t][lane], radiance,
+                image.pixels.data() +
+                    4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                         static_cast<std::size_t>(x)));
+        }
+}
+
+}  // namespace
+
+Result<Image> march(const Scene& scene, const ParticleSet& particles, const View& view,
+                    const TransportLight& light, const MarchSettings& settings, int threads,
+                    const Deadline& deadline) {
+    if (auto error = deadline.over()) return *error;
+    const bool behind = scene->image.background == Background::kSky;
+    Image image{scene->image.width, scene->image.height, behind, {}};
+    image.pixels.resize(4 * image.pixel_count());
+    const std::vector<SeenParticle> seen =
+        see_particles(particles, view, image.width, image.height, threads);
+
+    MarchScene march;
+    march.view = view;
+    march.width = image.width;
+    march.height = image.height;
+    march.seen = &seen;
+    march.light = source_towards(light, view.eye, threads);
+    march.medium = scene->medium;
+    if (light.cell > 0) march.peak = {light.peak_from, light.peak_share};
+    march.to_sun = sun_direction(scene->sun);
+    march.sun = glm::vec3(scene->sun.color * scene->sun.intensity);
+    march.scaled = static_cast<float>(1 - scene->medium.albedo * march.peak.share);
+    // Steps cost about the square of their length.
+    const double finer = std::sqrt(std::clamp(settings.step_error, 1e-5, 0.1) / 0.01);
+    march.step = seen.empty() ? 1 : longest_step(light, seen) * std::min(finer, 1.5);
+    march.step_depth = static_cast<float>(kStepDepth * finer);
+    double least = 0, most = 2;
+    chords_of(march, least, most);
+    if (!seen.empty()) march.table = peak_table(march.medium, march.peak, least, most);
+
+    SkyLook sky;
+    if (!scene->sky.none) {
+        sky.zenith = glm::vec3(scene->sky.zenith * scene->sky.intensity);
+        sky.horizon = glm::vec3(scene->sky.horizon * scene->sky.intensity);
+        sky.peak = march.peak.share != 0;
+    }
+    sky.behind = behind;
+
+    Rooms rooms;
+    std::atomic<bool> late = false;
+    for_each_block(seen, image.width, image.height, threads,
+                   [&](int x, int y, const std::vector<std::uint32_t>& items) {
+                       if (late || deadline.over()) {
+                           late = true;
+                           return;
+                       }
+                       BlockPixels pixels{};
+                       if (!items.empty()) {
+                           BlockRoomPtr room = rooms.take();
+                           march_block(march, x, y, items, *room, pixels);
+                           rooms.give(std::move(room));
+                       }
+                       put_block(march, sky, x, y, pixels, image);
+                   });
+    if (late)
+        if (auto error = deadline.over()) return *error;
+    return image;
+}
+
+}  // namespace awan

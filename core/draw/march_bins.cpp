@@ -1,0 +1,126 @@
+#include "core/draw/march_bins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/generate/gaussian.h"
+#include "core/parallel.h"
+#include "core/survey/projection.h"
+
+namespace awan {
+namespace {
+
+constexpr double kFaintDepth = 1e-4;
+constexpr double kLeastCut = 3.5, kMostCut = 9;  // of s
+constexpr double kMinWidthPixels = 0.6;          // as in core/draw/splats.h
+constexpr std::size_t kMaxEntries = 1u << 23;    // of the lists, 4 bytes each
+constexpr std::size_t kShare = 4096;             // particles that a thread takes at a time
+
+// Blocks whose pixels' centres see slopes low..high.
+bool blocks_along(Interval slopes, double tangent, int pixels, bool up, std::int16_t& first,
+                  std::int16_t& last) {
+    if (slopes.low > slopes.high) return false;
+    const double sign = up ? -1 : 1;
+    const auto pixel = [&](double slope) {
+        return std::clamp((sign * slope / tangent + 1) / 2 * pixels - 0.5, -1e7, 1e7);
+    };
+    const double a = pixel(up ? slopes.high : slopes.low), b = pixel(up ? slopes.low : slopes.high);
+    const int low = static_cast<int>(std::ceil(std::max(a, 0.0)));
+    const int high = static_cast<int>(std::floor(std::min(b, pixels - 1.0)));
+    if (low > high) return false;
+    first = static_cast<std::int16_t>(low / kBlockSide);
+    last = static_cast<std::int16_t>(high / kBlockSide);
+    return true;
+}
+
+bool see(const ParticleSet& particles, std::size_t i, const View& view, int width, int height,
+         SeenParticle& seen) {
+    const glm::dvec3 p = particles.center[i] - view.eye;
+    seen.q = {glm::dot(p, view.right), glm::dot(p, view.up), glm::dot(p, view.forward)};
+    const double own_s = gaussian_s(particles, i);
+    const double pixel = 2 * view.tan_half_fov / height;
+    const double s = std::max({own_s, kMinWidthPixels * pixel * std::max(0.0, seen.q.z), 1e-12});
+    const double thinned = (own_s / s) * (own_s / s);
+    const double depth = thinned * central_depth(particles, i);
+    if (!(depth > 0)) return false;
+    const double cut = std::clamp(std::sqrt(2 * std::log(std::max(1.0, depth / kFaintDepth))),
+                                  kLeastCut, kMostCut);
+    seen.s = static_cast<float>(s);
+    seen.reach = static_cast<float>(s * cut);
+    seen.nearest = glm::length(seen.q) - s * cut;
+    // Across a line exp(-cut^2 / 2) of the mass lies beyond.
+    seen.extinction = static_cast<float>(static_cast<double>(particles.density[i]) * thinned *
+                                         (own_s / s) / -std::expm1(-cut * cut / 2));
+    const Interval x = disc_slopes(seen.q.x, seen.q.z, s * cut);
+    const Interval y = disc_slopes(seen.q.y, seen.q.z, s * cut);
+    return blocks_along(x, view.tan_half_fov * view.aspect, width, false, seen.blocks.first_x,
+                        seen.blocks.last_x) &&
+           blocks_along(y, view.tan_half_fov, height, true, seen.blocks.first_y,
+                        seen.blocks.last_y);
+}
+
+}  // namespace
+
+std::vector<SeenParticle> see_particles(const ParticleSet& particles, const View& view, int width,
+                                        int height, int threads) {
+    const std::size_t shares = (particles.size() + kShare - 1) / kShare;
+    std::vector<std::vector<SeenParticle>> parts(shares);
+    parallel_for(threads, shares, [&](std::size_t share) {
+        const std::size_t end = std::min(particles.size(), (share + 1) * kShare);
+        for (std::size_t i = share * kShare; i < end; ++i) {
+            SeenParticle seen{};
+            if (see(particles, i, view, width, height, seen)) parts[share].push_back(seen);
+        }
+    });
+    std::vector<SeenParticle> all;
+    for (auto& part : parts) {
+        all.insert(all.end(), part.begin(), part.end());
+        std::vector<SeenParticle>().swap(part);
+    }
+    std::stable_sort(all.begin(), all.end(), [](const SeenParticle& a, const SeenParticle& b) {
+        return a.nearest < b.nearest;
+    });
+    return all;
+}
+
+void for_each_block(const std::vector<SeenParticle>& seen, int width, int height, int threads,
+                    const BlockWork& work) {
+    const int across = (width + kBlockSide - 1) / kBlockSide;
+    const int down = (height + kBlockSide - 1) / kBlockSide;
+    std::vector<std::size_t> of_row(static_cast<std::size_t>(down) + 1);
+    for (const SeenParticle& particle : seen) {  // differences, then sums
+        ++of_row[static_cast<std::size_t>(particle.blocks.first_y)];
+        --of_row[static_cast<std::size_t>(particle.blocks.last_y) + 1];
+    }
+    for (std::size_t y = 1; y < of_row.size(); ++y) of_row[y] += of_row[y - 1];
+
+    for (int top = 0; top < down;) {
+        int end = top;
+        std::vector<std::vector<std::uint32_t>> rows;
+        for (std::size_t entries = 0; end < down; ++end) {
+            const std::size_t more = of_row[static_cast<std::size_t>(end)];
+            if (end > top && entries + more > kMaxEntries) break;
+            entries += more;
+            rows.emplace_back().reserve(more);
+        }
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            const BlockBox& box = seen[i].blocks;
+            for (int y = std::max<int>(top, box.first_y); y <= std::min<int>(end - 1, box.last_y);
+                 ++y)
+                rows[static_cast<std::size_t>(y - top)].push_back(static_cast<std::uint32_t>(i));
+        }
+        const auto count = static_cast<std::size_t>(end - top) * static_cast<std::size_t>(across);
+        parallel_for(threads, count, [&](std::size_t block) {
+            const std::size_t row = block / static_cast<std::size_t>(across);
+            const int x = static_cast<int>(block % static_cast<std::size_t>(across));
+            std::vector<std::uint32_t> items;
+            for (const std::uint32_t i : rows[row])
+                if (seen[i].blocks.first_x <= x && seen[i].blocks.last_x >= x) items.push_back(i);
+            work(x, top + static_cast<int>(row), items);
+        });
+        top = end;
+    }
+}
+
+}  // namespace awan

@@ -1,0 +1,435 @@
+#include "core/draw/march_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/draw/march_kernels.h"
+#include "core/survey/projection.h"
+
+namespace awan {
+
+namespace {
+
+constexpr int kSpacings[] = {16, 8, 4};  // pixels between rays along which light is looked up
+constexpr int kMostCorners = 25;
+constexpr double kMostSamples = 2048;  // about, of a ray
+constexpr double kFinest = 256;        // the longest step over the shortest
+
+// --- the inner loops, once a target; the results are the same bit for bit --------------------------------------------
+AWAN_INLINE void measure_body(const BlockParticles& p, const Floats* ray, const Floats& spread,
+                              ActiveParticle& a) {
+    measure(p, ray, spread, a);
+}
+AWAN_INLINE void deposit_body(const BlockParticles& p, const std::vector<ActiveParticle>& active,
+                              int which, const Chunk& chunk, Tile& tile) {
+    for (auto& sample : tile.profile) sample = Floats{};
+    tile.first = kChunk;
+    tile.last = -1;
+    for (const ActiveParticle& a : active) {
+        const float half = a.half[which];
+        if (half > 0.0f) deposit(p, a, half, chunk, tile);
+    }
+}
+AWAN_INLINE void ratio_body(const BlockParticles& p, float step,
+                            std::vector<ActiveParticle>& active) {
+    for (std::size_t first = 0; first < active.size(); first += kLanes) {
+        const std::size_t count = std::min<std::size_t>(kLanes, active.size() - first);
+        Floats x{};
+        for (std::size_t i = 0; i < count; ++i) {
+            const float h = step / p.s[active[first + i].index];
+            x[static_cast<int>(i)] = -h * h;
+        }
+        x = simd::exp(x);
+        for (std::size_t i = 0; i < count; ++i) active[first + i].ratio = x[static_cast<int>(i)];
+    }
+}
+
+struct Kernels {
+    void (*measure)(const BlockParticles&, const Floats*, const Floats&, ActiveParticle&);
+    void (*ratio)(const BlockParticles&, float, std::vector<ActiveParticle>&);
+    void (*deposit)(const BlockParticles&, const std::vector<ActiveParticle>&, int, const Chunk&,
+                    Tile&);
+    int (*too_deep)(const Tile&, float, float);
+    void (*spread)(const Bilinear&, const LightAt (*)[kChunk + 2], int, int, bool, TileLight&);
+    void (*march)(const Shade&, const TileLight&, int, Tile&);
+};
+
+#define AWAN_KERNELS(name, attribute)                                                    \
+    attribute void measure_##name(const BlockParticles& p, const Floats* ray,            \
+                                  const Floats& spread, ActiveParticle& a) {             \
+        measure_body(p, ray, spread, a);                                                 \
+    }                                                                                    \
+    attribute void ratio_##name(const BlockParticles& p, float step,                     \
+                                std::vector<ActiveParticle>& active) {                   \
+        ratio_body(p, step, active);                                                     \
+    }                                                                                    \
+    attribute void deposit_##name(const BlockParticles& p,                               \
+                                  const std::vector<ActiveParticle>& active, int which,  \
+                                  const Chunk& chunk, Tile& tile) {                      \
+        deposit_body(p, active, which, chunk, tile);                                     \
+    }                                                                                    \
+    attribute int too_deep_##name(const Tile& tile, float scaled, float allowed) {       \
+        return first_too_deep(tile, scaled, allowed);                                    \
+    }                                                                                    \
+    attribute void spread_##name(const Bilinear& b, const LightAt(*corners)[kChunk + 2], \
+                                 int first, int last, bool albedo, TileLight& light) {   \
+        spread_light(b, corners, first, last, albedo, light);                            \
+    }                                                                                    \
+    attribute void march_##name(const Shade& shade, const TileLight& light, int count,   \
+                                Tile& tile) {                                            \
+        march_tile(shade, light, count, tile);                                           \
+    }                                                                                    \
+    constexpr Kernels kKernels_##name{measure_##name,  ratio_##name,  deposit_##name,    \
+                                      too_deep_##name, spread_##name, march_##name};
+
+AWAN_KERNELS(plain, )
+#if defined(__x86_64__)
+AWAN_KERNELS(avx2, [[gnu::target("avx2")]])
+AWAN_KERNELS(avx512, [[gnu::target("avx512f")]])
+#endif
+#undef AWAN_KERNELS
+
+const Kernels& kernels() {
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx512f")) return kKernels_avx512;
+    if (__builtin_cpu_supports("avx2")) return kKernels_avx2;
+#endif
+    return kKernels_plain;
+}
+
+// Of the ray through a point of the picture, in the eye's frame (right, up, forward).
+glm::dvec3 frame_direction(const MarchScene& scene, double x, double y) {
+    const double tan = scene.view.tan_half_fov;
+    return glm::normalize(glm::dvec3((x / scene.width * 2 - 1) * tan * scene.view.aspect,
+                                     (1 - y / scene.height * 2) * tan, 1));
+}
+
+glm::dvec3 to_scene(const View& view, const glm::dvec3& d) {
+    return d.x * view.right + d.y * view.up + d.z * view.forward;
+}
+glm::dvec3 to_frame(const View& view, const glm::dvec3& d) {
+    return {glm::dot(d, view.right), glm::dot(d, view.up), glm::dot(d, view.forward)};
+}
+
+}  // namespace
+
+struct BlockRoom {
+    Tile tiles[kTiles];
+    TileLight light;
+    LightAt corners[kMostCorners][kChunk + 2];
+    Bilinear bilinear[std::size(kSpacings)][kTiles];
+    Floats middle[3], spread;  // of the tiles' rays, a tile a lane
+    BlockParticles particles;
+    std::vector<ActiveParticle> active;
+    std::vector<float> rows;
+};
+
+void BlockRoomDelete::operator()(BlockRoom* room) const {
+    delete room;
+}
+
+BlockRoomPtr make_block_room() {
+    BlockRoomPtr room(new BlockRoom);
+    for (std::size_t s = 0; s < std::size(kSpacings); ++s)
+        for (int t = 0; t < kTiles; ++t) {
+            const int spacing = kSpacings[s], side = kBlockSide / spacing + 1;
+            Bilinear& b = room->bilinear[s][t];
+            const int x = t % 4 * kTileSide, y = t / 4 * kTileSide;
+            const int i = x / spacing, j = y / spacing;
+            for (int c = 0; c < 4; ++c) {
+                b.corner[c] = (j + c / 2) * side + i + c % 2;
+                for (int lane = 0; lane < kLanes; ++lane) {
+                    const float u = (static_cast<float>(x - i * spacing + lane % 4) + 0.5f) /
+                                    static_cast<float>(spacing);
+                    const float v = (static_cast<float>(y - j * spacing + lane / 4) + 0.5f) /
+                                    static_cast<float>(spacing);
+                    b.weight[c][lane] = (c % 2 == 1 ? u : 1 - u) * (c / 2 == 1 ? v : 1 - v);
+                }
+            }
+        }
+    return room;
+}
+
+glm::dvec3 pixel_direction(const MarchScene& scene, double x, double y) {
+    return to_scene(scene.view, frame_direction(scene, x, y));
+}
+
+namespace {
+
+// One block on its way through the cloud.
+class BlockMarch {
+  public:
+    BlockMarch(const MarchScene& scene, int block_x, int block_y, BlockRoom& room)
+        : scene_(scene),
+          room_(room),
+          kernels_(kernels()),
+          left_(block_x * kBlockSide),
+          top_(block_y * kBlockSide) {}
+
+    void run(const std::vector<std::uint32_t>& items) {
+        place_rays();
+        place_particles(items);
+        march();
+    }
+
+  private:
+    void place_rays() {
+        const glm::dvec3 middle =
+            frame_direction(scene_, left_ + kBlockSide / 2, top_ + kBlockSide / 2);
+        const SideAxes side = side_axes(middle);
+        forward_ = middle;
+        right_ = side.u;
+        up_ = side.v;
+        for (int t = 0; t < kTiles; ++t) {
+            Tile& tile = room_.tiles[t];
+            glm::dvec3 center(0);
+            const int x = left_ + t % 4 * kTileSide, y = top_ + t / 4 * kTileSide;
+            set_lane(x + kTileSide / 2, y + kTileSide / 2, t, room_.middle[0], room_.middle[1],
+                     room_.middle[2], center);
+            double spread = 0;
+            for (int lane = 0; lane < kLanes; ++lane) {
+                glm::dvec3 d(0);
+                set_lane(x + lane % 4 + 0.5, y + lane / 4 + 0.5, lane, tile.x, tile.y, tile.z, d);
+                spread = std::max(spread, glm::dot(d - center, d - center));
+            }
+            room_.spread[t] = static_cast<float>(std::sqrt(spread) * 1.001);
+            tile.alive = x < scene_.width && y < scene_.height;
+            tile.started = false;
+            tile.depth = tile.red = tile.green = tile.blue = Floats{};
+            tile.left = tile.scaled_left = simd::all(1.0f);
+        }
+    }
+
+    void set_lane(double x, double y, int lane, Floats& to_x, Floats& to_y, Floats& to_z,
+                  glm::dvec3& direction) const {
+        direction = frame_direction(scene_, x, y);
+        const glm::dvec3 off = direction - forward_;
+        to_x[lane] = static_cast<float>(glm::dot(off, right_));
+        to_y[lane] = static_cast<float>(glm::dot(off, up_));
+        to_z[lane] = static_cast<float>(-0.5 * glm::dot(off, off));  // both are unit
+    }
+
+    void place_particles(const std::vector<std::uint32_t>& items) {
+        const std::vector<SeenParticle>& seen = *scene_.seen;
+        reference_ =
+            std::max(0.0, std::floor(seen[items.front()].nearest / scene_.step) * scene_.step);
+        BlockParticles& p = room_.particles;
+        p.resize(items.size());
+        double length = 0, end = -1e300;
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            const SeenParticle& one = seen[items[i]];
+            const double along = glm::dot(one.q, forward_);
+            p.x[i] = static_cast<float>(glm::dot(one.q, right_));
+            p.y[i] = static_cast<float>(glm::dot(one.q, up_));
+            p.along[i] = static_cast<float>(along);
+            p.place[i] = static_cast<float>(along - reference_);
+            p.near[i] = static_cast<float>(one.nearest - reference_);
+            p.s[i] = one.s;
+            p.extinction[i] = one.extinction;
+            p.reach[i] = one.reach;
+            const double last = one.nearest + 2 * static_cast<double>(one.reach);
+            length += std::max(0.0, last - std::max(end, one.nearest));
+            end = std::max(end, last);
+        }
+        longest_ = scene_.step;
+        while (longest_ * kMostSamples < length) longest_ *= 2;
+        shortest_ = std::max(scene_.step / kFinest, length / kMostSamples);
+    }
+
+    void march() {
+        const BlockParticles& p = room_.particles;
+        std::vector<ActiveParticle>& active = room_.active;
+        active.clear();
+        std::size_t next = 0;
+        double step = longest_, marched = 0;
+        auto at = 0.0;  // whole steps from the reference
+        while (std::any_of(room_.tiles, room_.tiles + kTiles,
+                           [](const Tile& tile) { return tile.alive; })) {
+            double from = at * step;
+            std::erase_if(
+                active, [&](const ActiveParticle& a) { return static_cast<double>(a.end) < from; });
+            if (active.empty()) {
+                if (next == p.s.size()) break;
+                at = std::max(at, std::floor(static_cast<double>(p.near[next]) / step));
+                from = at * step;
+            }
+            for (; next < p.s.size() && static_cast<double>(p.near[next]) < from + kChunk * step;
+                 ++next) {
+                ActiveParticle a;
+                a.index = static_cast<std::uint32_t>(next);
+                kernels_.measure(p, room_.middle, room_.spread, a);
+                if (a.end >= p.place[next] && static_cast<double>(a.end) > from)
+                    active.push_back(a);
+            }
+            kernels_.ratio(p, static_cast<float>(step), active);
+            const Chunk chunk{static_cast<float>(from), static_cast<float>(step),
+                              static_cast<float>(marched), step != marched};
+            int count = kChunk;
+            bool fine = true;  // far finer than it need be
+            const float allowed = scene_.step_depth;
+            for (int t = 0; t < kTiles; ++t) {
+                Tile& tile = room_.tiles[t];
+                if (!tile.alive) continue;
+                kernels_.deposit(p, active, t, chunk, tile);
+                if (step > shortest_)
+                    count = std::min(count, kernels_.too_deep(tile, scene_.scaled, allowed));
+                if (step < longest_ && fine)
+                    fine = kernels_.too_deep(tile, scene_.scaled, allowed * 0.3f) == kChunk;
+            }
+            if (count > 0) {
+                march_tiles(from, step, count);
+                marched = step;
+                at += count;
+            }
+            if (count < kChunk) {
+                step /= 2;
+                at *= 2;
+            } else if (step < longest_ && fine && std::fmod(at, 2) == 0) {
+                step *= 2;
+                at /= 2;
+            }
+        }
+    }
+
+    void march_tiles(double from, double step, int count) {
+        int first = kChunk, last = -1;
+        for (const Tile& tile : room_.tiles) {
+            if (!has_matter(tile, count)) continue;
+            first = std::min(first, tile.first);
+            last = std::max(last, std::min(tile.last, count - 1));
+        }
+        if (first > last) return;
+        const double base = reference_ + from;
+        const int spacing = choose_spacing(base + (last + 1) * step);
+        if (spacing >= 0) look_up_corners(base, step, count, first, last, spacing);
+        for (int t = 0; t < kTiles; ++t) {
+            Tile& tile = room_.tiles[t];
+            if (!has_matter(tile, count)) continue;
+            if (!tile.started) start(t);
+            const int end = std::min(tile.last, count - 1);
+            const bool albedo = !scene_.light.light->albedo.empty();
+            if (spacing >= 0)
+                kernels_.spread(room_.bilinear[spacing][t], room_.corners, tile.first, end, albedo,
+                                room_.light);
+            else
+                look_up_pixels(t, base, step, tile.first, end);
+            kernels_.march(shade(t), room_.light, count, tile);
+        }
+    }
+
+    static bool has_matter(const Tile& tile, int count) {
+        return tile.alive && tile.first <= std::min(tile.last, count - 1);
+    }
+
+    // Widest spacing of looked up rays that takes a sample in each cell; -1: every pixel.
+    int choose_spacing(double distance) const {
+        const double pixel =
+            distance * 2 * scene_.view.tan_half_fov / scene_.height;  // at the middle: the widest
+        const TransportLight& light = *scene_.light.light;
+        double cell = light.cell > 0 ? 0.7 * light.cell : 1e300;
+        if (light.sun.cell > 0) cell = std::min(cell, light.sun.cell);
+        for (int s = 0; s < static_cast<int>(std::size(kSpacings)); ++s)
+            if (kSpacings[s] * pixel <= cell && kSpacings[s] * pixel <= 0.2 * distance) return s;
+        return -1;
+    }
+
+    LightRay ray_of(double x, double y, double base) const {
+        const glm::dvec3 d = pixel_direction(scene_, x, y);
+        return light_ray(scene_.light, scene_.view.eye + base * d, d);
+    }
+
+    void look_up_corners(double base, double step, int count, int first, int last, int spacing) {
+        bool needed[kMostCorners] = {};
+        for (int t = 0; t < kTiles; ++t)
+            if (has_matter(room_.tiles[t], count))
+                for (const int c : room_.bilinear[spacing][t].corner) needed[c] = true;
+        const int apart = kSpacings[spacing], side = kBlockSide / apart + 1;
+        const auto h = static_cast<float>(step);
+        for (int c = 0; c < side * side; ++c) {
+            if (!needed[c]) continue;
+            const LightRay ray = ray_of(left_ + c % side * apart, top_ + c / side * apart, base);
+            light_along(scene_.light, ray, (static_cast<float>(first) - 0.5f) * h, h,
+                        last - first + 3, room_.corners[c] + first);
+        }
+    }
+
+    void look_up_pixels(int t, double base, double step, int first, int last) {
+        const auto h = static_cast<float>(step);
+        LightAt at[kChunk + 2];
+        for (int lane = 0; lane < kLanes; ++lane) {
+            const LightRay ray = ray_of(left_ + t % 4 * kTileSide + lane % 4 + 0.5,
+                                        top_ + t / 4 * kTileSide + lane / 4 + 0.5, base);
+            light_along(scene_.light, ray, (static_cast<float>(first) - 0.5f) * h, h,
+                        last - first + 3, at);
+            TileLight& light = room_.light;
+            for (int k = first; k <= last + 2; ++k) {
+                light.depth[k][lane] = at[k - first].depth;
+                for (int c = 0; c < 3; ++c) {
+                    light.source[c][k][lane] = at[k - first].source[c];
+                    light.albedo[c][k][lane] = at[k - first].albedo[c];
+                }
+            }
+        }
+    }
+
+    void start(int t) {
+        Tile& tile = room_.tiles[t];
+        tile.started = true;
+        const PeakTable& table = scene_.table;
+        const auto columns = static_cast<std::size_t>(table.columns);
+        room_.rows.resize(kTiles * kLanes * columns);
+        const glm::dvec3 sun = to_frame(scene_.view, scene_.to_sun);
+        for (int lane = 0; lane < kLanes; ++lane) {
+            const glm::dvec3 d = frame_direction(scene_, left_ + t % 4 * kTileSide + lane % 4 + 0.5,
+                                                 top_ + t / 4 * kTileSide + lane / 4 + 0.5);
+            const double ahead = glm::length(d - sun), behind = glm::length(d + sun);
+            tile.rest_phase[lane] =
+                static_cast<float>(rest_of_phase(scene_.medium, scene_.peak, ahead, behind));
+            if (columns == 0) continue;
+            const RowAt row = row_at(table, ahead, behind);
+            const float* a = table.values.data() + static_cast<std::size_t>(row.row) * columns;
+            const float* b = a + columns;
+            float* out = room_.rows.data() + static_cast<std::size_t>(t * kLanes + lane) * columns;
+            for (std::size_t k = 0; k < columns; ++k) out[k] = a[k] + row.share * (b[k] - a[k]);
+        }
+    }
+
+    Shade shade(int t) const {
+        const TransportLight& light = *scene_.light.light;
+        const float albedo = light.albedo.empty() ? static_cast<float>(scene_.medium.albedo) : 1.0f;
+        Shade shade{};
+        shade.scaled = scene_.scaled;
+        shade.grid = light.cell > 0 && !light.bands.empty();
+        shade.peak = scene_.table.columns > 0;
+        shade.albedo = !light.albedo.empty();
+        for (int c = 0; c < 3; ++c) shade.beam[c] = albedo * scene_.sun[c];
+        shade.columns = scene_.table.columns;
+        shade.last = scene_.table.last;
+        shade.rows = room_.rows.data() + t * kLanes * shade.columns;
+        return shade;
+    }
+
+    const MarchScene& scene_;
+    BlockRoom& room_;
+    const Kernels& kernels_;
+    int left_, top_;  // pixels
+    glm::dvec3 right_{0}, up_{0}, forward_{0};
+    double reference_ = 0, longest_ = 1, shortest_ = 1;
+};
+
+}  // namespace
+
+void march_block(const MarchScene& scene, int block_x, int block_y,
+                 const std::vector<std::uint32_t>& items, BlockRoom& room, BlockPixels& out) {
+    BlockMarch(scene, block_x, block_y, room).run(items);
+    for (std::size_t t = 0; t < kTiles; ++t) {
+        const Tile& tile = room.tiles[t];
+        std::memcpy(out.depth[t].data(), &tile.depth, sizeof tile.depth);
+        std::memcpy(out.radiance[0][t].data(), &tile.red, sizeof tile.red);
+        std::memcpy(out.radiance[1][t].data(), &tile.green, sizeof tile.green);
+        std::memcpy(out.radiance[2][t].data(), &tile.blue, sizeof tile.blue);
+    }
+}
+
+}  // namespace awan

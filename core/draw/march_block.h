@@ -1,0 +1,57 @@
+// One block of 16 x 16 pixels, marched front to back as 16 tiles of 4 x 4 pixels, a pixel a lane.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "core/draw/march_bins.h"
+#include "core/draw/march_light.h"
+#include "core/draw/march_phase.h"
+#include "core/draw/march_simd.h"
+#include "core/scene/scene.h"
+
+namespace awan {
+
+// What all blocks of a picture share.
+struct MarchScene {
+    View view;
+    int width = 0, height = 0;
+    const std::vector<SeenParticle>* seen = nullptr;
+    EyeLight light;
+    Medium medium;
+    Peak peak;
+    PeakTable table;
+    glm::dvec3 to_sun{0, 1, 0};
+    glm::vec3 sun{0};      // irradiance
+    float scaled = 1;      // share of extinction that is not the peak's: 1 - albedo * f
+    double step = 1;       // longest step, scene units
+    float step_depth = 1;  // longest step in scaled optical depth, where it is seen
+};
+
+inline constexpr int kTileSide = 4;
+inline constexpr int kTiles = 16;  // of a block
+inline constexpr int kChunk = 32;  // samples that are built at a time
+
+// Room for one block, used again for the next.
+struct BlockRoom;
+struct BlockRoomDelete {
+    void operator()(BlockRoom* room) const;
+};
+using BlockRoomPtr = std::unique_ptr<BlockRoom, BlockRoomDelete>;
+BlockRoomPtr make_block_room();
+
+// Pixel (x, y) of the block is lane (y % 4) * 4 + x % 4 of tile (y / 4) * 4 + x / 4.
+struct BlockPixels {
+    std::array<std::array<float, simd::kLanes>, kTiles> depth;  // optical, the whole ray's
+    std::array<std::array<std::array<float, simd::kLanes>, kTiles>, 3> radiance;
+};
+
+// Unit direction of the ray through a point of the picture, pixels from its top left corner.
+glm::dvec3 pixel_direction(const MarchScene& scene, double x, double y);
+
+void march_block(const MarchScene& scene, int block_x, int block_y,
+                 const std::vector<std::uint32_t>& items, BlockRoom& room, BlockPixels& out);
+
+}  // namespace awan

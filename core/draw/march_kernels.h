@@ -1,0 +1,312 @@
+// The inner loops of march_block.cpp. Bodies are inlined into one function a target there.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "core/draw/march_block.h"
+
+namespace awan {
+
+using simd::Bits;
+using simd::Floats;
+using simd::Ints;
+using simd::kLanes;
+
+// Particles of a block, relative to its middle ray: `across` it by (x, y), `along` it from the eye.
+struct BlockParticles {
+    std::vector<float> x, y, along;
+    std::vector<float> place;  // along, less the block's reference distance
+    std::vector<float> near;   // no matter closer than this, less the reference
+    std::vector<float> s, extinction, reach;
+
+    void resize(std::size_t n) {
+        for (auto member : {&BlockParticles::x, &BlockParticles::y, &BlockParticles::along,
+                            &BlockParticles::place, &BlockParticles::near, &BlockParticles::s,
+                            &BlockParticles::extinction, &BlockParticles::reach})
+            (this->*member).resize(n);
+    }
+};
+
+// How far before and behind `place` a particle has matter, in each tile; < 0: none.
+struct alignas(64) ActiveParticle {
+    Floats half;
+    std::uint32_t index;
+    float end;    // no matter beyond
+    float ratio;  // exp(-(step / s)^2)
+    bool direct;  // too spread over a tile for a recurrence
+};
+
+// Samples k = 0..count-1 at from + (k + 1/2) step, relative to the block's reference distance.
+struct Chunk {
+    float from, step;
+    float
+        before;  // the step of the chunk that ended at `from`; 0: exact up to there, or nothing (the eye)
+    bool joined;  // whether the samples before `from` were stepped differently, or cut off there
+};
+
+// Light on the samples of one tile; [k + 1] is sample k's: one more at either end, for slopes.
+struct TileLight {
+    Floats depth[kChunk + 2];
+    Floats source[3][kChunk + 2];
+    Floats albedo[3][kChunk + 2];  // only if cells have their own
+};
+
+struct alignas(64) Tile {
+    Floats x, y, z;          // of the lanes' directions, less the block's middle ray, in its frame
+    Floats profile[kChunk];  // optical depth of each sample
+    int first, last;         // samples with matter
+    bool alive;
+    bool started;              // rest_phase and rows are set
+    Floats depth;              // optical, so far
+    Floats left, scaled_left;  // exp(-depth), exp(-scaled depth)
+    Floats red, green, blue;
+    Floats rest_phase;  // p1
+};
+
+constexpr float kRootTwoPi = 2.50662827f;
+constexpr float kLeastRecurrence =
+    1.0f;  // of s in steps; equally spaced samples sum to the mass within 1e-8
+constexpr float kUnseen = 1e-4f;    // scaled transmittance below which a ray has ended
+constexpr float kMostDepth = 1e5f;  // of one sample; more looks the same
+
+// Samples far from `from` by u steps: floor, kept in -1..kChunk.
+AWAN_INLINE int sample_of(float u) {
+    const float kept = u < -1.0f ? -1.0f : u > static_cast<float>(kChunk) ? kChunk : u;
+    return static_cast<int>(kept + 1.0f) - 1;
+}
+
+// Adds one particle to one tile's profile.
+AWAN_INLINE void deposit(const BlockParticles& p, const ActiveParticle& a, float half,
+                         const Chunk& chunk, Tile& tile) {
+    const std::size_t i = a.index;
+    const float step = chunk.step, s = p.s[i];
+    const float rel = p.place[i] - chunk.from;
+    const float per_step = 1.0f / step;
+    const int reach_first = sample_of((rel - half) * per_step);
+    const int reach_last = sample_of((rel + half) * per_step);
+    const int first = reach_first < 0 ? 0 : reach_first;
+    const int last = reach_last > kChunk - 1 ? kChunk - 1 : reach_last;
+    if (first > last) return;
+    // The ray's closest point to the centre: |offset| = b, at `place` + shift.
+    const float along = p.along[i];
+    const Floats wx = p.x[i] - along * tile.x, wy = p.y[i] - along * tile.y, wz = -along * tile.z;
+    const Floats shift = wx * tile.x + wy * tile.y + wz * (1.0f + tile.z);
+    const Floats b2 = simd::max(wx * wx + wy * wy + wz * wz - shift * shift, Floats{});
+    const float per_s2 = 1.0f / (s * s);
+    const Floats center = rel + shift;
+    tile.first = first < tile.first ? first : tile.first;
+    tile.last = last > tile.last ? last : tile.last;
+
+    const bool joins = chunk.joined && reach_first < 0;
+    const bool masses = s < kLeastRecurrence * step;
+    if (masses) {
+        const Floats mass = (p.extinction[i] * s * kRootTwoPi) * simd::exp(b2 * (-0.5f * per_s2));
+        const float per_s = 1.0f / s;
+        Floats below = reach_first < 0 ? simd::normal_cdf(-center * per_s) : Floats{};
+        for (int k = first; k < last; ++k) {
+            const Floats next =
+                simd::normal_cdf((static_cast<float>(k + 1) * step - center) * per_s);
+            tile.profile[k] += mass * (next - below);
+            below = next;
+        }
+        const Floats top = reach_last >= kChunk ? simd::normal_cdf((kChunk * step - center) * per_s)
+                                                : simd::all(1.0f);
+        tile.profile[last] += mass * (top - below);
+    } else {
+        const float amplitude = p.extinction[i] * step;
+        Floats u = (static_cast<float>(first) + 0.5f) * step - center;
+        if (a.direct) {
+            for (int k = first; k <= last; ++k, u += step)
+                tile.profile[k] += amplitude * simd::exp((b2 + u * u) * (-0.5f * per_s2));
+        } else {
+            Floats value = amplitude * simd::exp((b2 + u * u) * (-0.5f * per_s2));
+            Floats factor = simd::exp((u * step + 0.5f * step * step) * -per_s2);
+            const float ratio = a.ratio;
+            for (int k = first; k <= last; ++k) {
+                tile.profile[k] += value;
+                value *= factor;
+                factor *= ratio;
+            }
+        }
+    }
+    if (joins) {
+        // Sums of midpoints miss the integral where the spacing changes: Euler & Maclaurin's first two terms there.
+        const float before = s < kLeastRecurrence * chunk.before ? 0.0f : chunk.before;
+        const float after = masses ? 0.0f : step;
+        const float h2 = before * before - after * after;
+        const float h4 = before * before * before * before - after * after * after * after;
+        const Floats v = -center * (1.0f / s);
+        const Floats value = p.extinction[i] * simd::exp((b2 * per_s2 + v * v) * -0.5f);
+        const Floats slope = -v * value * (1.0f / s);
+        const Floats third = (3.0f * v - v * v * v) * value * (per_s2 / s);
+        tile.profile[0] += slope * (h2 * (1.0f / 24)) - third * (h4 * (7.0f / 5760));
+    }
+}
+
+// The first sample of a tile that is longer than a step may be where it is seen, or kChunk.
+AWAN_INLINE int first_too_deep(const Tile& tile, float scaled, float allowed) {
+    Floats seen = tile.depth * scaled, worst = Floats{};
+    for (int k = tile.first; k <= tile.last; ++k) {
+        const Floats x = tile.profile[k] * scaled;
+        worst = simd::max(worst, x - allowed * (1.0f + seen));
+        seen += x;
+    }
+    if (!(simd::largest(worst) > 0.0f)) return kChunk;
+    seen = tile.depth * scaled;
+    for (int k = tile.first; k <= tile.last; ++k) {
+        const Floats x = tile.profile[k] * scaled;
+        if (simd::largest(x - allowed * (1.0f + seen)) > 0.0f) return k;
+        seen += x;
+    }
+    return kChunk;
+}
+
+// Light at four corners, to a tile's pixels.
+struct Bilinear {
+    int corner[4];
+    Floats weight[4];
+};
+AWAN_INLINE Floats blend(const Bilinear& b, float c0, float c1, float c2, float c3) {
+    return b.weight[0] * c0 + b.weight[1] * c1 + b.weight[2] * c2 + b.weight[3] * c3;
+}
+AWAN_INLINE void spread_light(const Bilinear& b, const LightAt (*corners)[kChunk + 2], int first,
+                              int last, bool albedo, TileLight& light) {
+    const LightAt *c0 = corners[b.corner[0]], *c1 = corners[b.corner[1]],
+                  *c2 = corners[b.corner[2]], *c3 = corners[b.corner[3]];
+    for (int k = first; k <= last + 2; ++k) {
+        light.depth[k] = blend(b, c0[k].depth, c1[k].depth, c2[k].depth, c3[k].depth);
+        for (int c = 0; c < 3; ++c)
+            light.source[c][k] =
+                blend(b, c0[k].source[c], c1[k].source[c], c2[k].source[c], c3[k].source[c]);
+        if (albedo)
+            for (int c = 0; c < 3; ++c)
+                light.albedo[c][k] =
+                    blend(b, c0[k].albedo[c], c1[k].albedo[c], c2[k].albedo[c], c3[k].albedo[c]);
+    }
+}
+
+// G of the peak table at optical depth t, each lane from its own row.
+AWAN_INLINE Floats peak_value(const float* rows, int columns, float last, const Floats& t) {
+    const Floats y = 1.0f + simd::min(t, simd::all(last * 0.9999f));
+    const Bits b = simd::bits(y) - 0x3f800000u;
+    const Bits part = b & 0xfffffu, whole = b >> 20;
+    std::uint32_t at[kLanes];
+    std::memcpy(at, &whole, sizeof at);
+    float low[kLanes], high[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+        const float* row = rows + lane * columns + at[lane];
+        low[lane] = row[0];
+        high[lane] = row[1];
+    }
+    Floats a, c;
+    std::memcpy(&a, low, sizeof a);
+    std::memcpy(&c, high, sizeof c);
+    return a + (c - a) * (__builtin_convertvector(part, Floats) * (1.0f / 1048576));
+}
+
+struct Shade {
+    float scaled;  // 1 - a f
+    bool grid, peak, albedo;
+    float beam[3];      // albedo * irradiance; irradiance alone if cells have their own albedo
+    const float* rows;  // of the peak table, the tile's lanes one after the other
+    int columns;
+    float last;
+};
+
+// The mean of exp over a step in which its argument goes from z to -z, times exp(-x / 2) = half: stays below 1.
+AWAN_INLINE Floats mean_decay(const Floats& half, const Floats& z) {
+    const Floats zz = simd::min(z * z, simd::all(16.0f));
+    return simd::min(
+        half * (1.0f + zz * ((1.0f / 6) +
+                             zz * ((1.0f / 120) + zz * ((1.0f / 5040) + zz * (1.0f / 362880))))),
+        simd::all(1.0f));
+}
+
+// Samples 0..count-1 of a tile. Within one the extinction is even; the source is taken as linear in its optical depth and
+// the beam's decay as exponential, so that a step of depth 1 still costs little.
+AWAN_INLINE void march_tile(const Shade& shade, const TileLight& light, int count, Tile& tile) {
+    const float scaled = shade.scaled, per_scaled = 1.0f / shade.scaled;
+    const int end = tile.last < count - 1 ? tile.last : count - 1;
+    for (int k = tile.first; k <= end; ++k) {
+        const Floats depth = simd::min(simd::max(tile.profile[k], Floats{}), simd::all(kMostDepth));
+        const Floats x = depth * scaled;
+        const Floats half = simd::exp(x * -0.5f);
+        const Floats passed = half * half;
+        const Floats taken = simd::one_minus(passed, x) * per_scaled;
+        // Where in the step light comes from on the whole: 1/2 - x/12 + ... ; 1/x.
+        const Floats off = (6.0f + x) / (12.0f + x * (4.0f + x)) - 0.5f;
+        if (shade.grid) {
+            const Floats weight = tile.scaled_left * taken;
+            const Floats* const r = light.source[0] + k;
+            const Floats* const g = light.source[1] + k;
+            const Floats* const b = light.source[2] + k;
+            const Floats lean = 0.5f * off;
+            tile.red += weight * simd::max(r[1] + lean * (r[2] - r[0]), Floats{});
+            tile.green += weight * simd::max(g[1] + lean * (g[2] - g[0]), Floats{});
+            tile.blue += weight * simd::max(b[1] + lean * (b[2] - b[0]), Floats{});
+        }
+        const Floats rise = 0.5f * (light.depth[k + 2] - light.depth[k]);
+        const Ints deep = x > 8.0f;
+        const Floats from_sun =
+            simd::max(light.depth[k + 1] + (deep ? off * rise : Floats{}), Floats{});
+        const Floats lit = simd::exp(from_sun * -scaled);
+        const Floats even = mean_decay(half, 0.5f * (x + scaled * rise)) * depth;
+        Floats beam = tile.rest_phase * tile.scaled_left * lit * (deep ? taken : even);
+        if (shade.peak) {
+            const Floats half_whole = simd::exp(depth * -0.5f);
+            const Floats lit_whole = simd::exp(-from_sun);
+            const Floats before =
+                peak_value(shade.rows, shade.columns, shade.last, from_sun) * lit * tile.left *
+                (deep ? simd::one_minus(half_whole * half_whole, depth)
+                      : mean_decay(half_whole, 0.5f * (depth + scaled * rise)) * depth);
+            const Floats after =
+                peak_value(shade.rows, shade.columns, shade.last, tile.depth + 0.5f * depth) *
+                lit_whole * tile.scaled_left *
+                (deep ? taken : mean_decay(half, 0.5f * (x + rise)) * depth);
+            beam += 0.5f * (before + after);
+            tile.left *= half_whole * half_whole;
+        }
+        beam = simd::max(beam, Floats{});
+        if (shade.albedo) {
+            tile.red += beam * (shade.beam[0] * light.albedo[0][k + 1]);
+            tile.green += beam * (shade.beam[1] * light.albedo[1][k + 1]);
+            tile.blue += beam * (shade.beam[2] * light.albedo[2][k + 1]);
+        } else {
+            tile.red += beam * shade.beam[0];
+            tile.green += beam * shade.beam[1];
+            tile.blue += beam * shade.beam[2];
+        }
+        tile.depth += depth;
+        tile.scaled_left *= passed;
+        if ((k & 3) == 3 && simd::largest(tile.scaled_left) < kUnseen) break;
+    }
+    tile.alive = simd::largest(tile.scaled_left) >= kUnseen;
+}
+
+// Where a block's particle has matter in each tile: `ray` the tiles' middle rays, `spread` how far a pixel's ray may be
+// from them (difference of unit directions).
+AWAN_INLINE void measure(const BlockParticles& p, const Floats ray[3], const Floats& spread,
+                         ActiveParticle& a) {
+    const std::size_t i = a.index;
+    const float along = p.along[i], reach = p.reach[i];
+    const float distance = std::sqrt(p.x[i] * p.x[i] + p.y[i] * p.y[i] + along * along);
+    const Floats wx = p.x[i] - along * ray[0], wy = p.y[i] - along * ray[1], wz = -along * ray[2];
+    const Floats shift = wx * ray[0] + wy * ray[1] + wz * (1.0f + ray[2]);
+    const Floats b2 = simd::max(wx * wx + wy * wy + wz * wz - shift * shift, Floats{});
+    Floats b;
+    for (int tile = 0; tile < kTiles; ++tile) b[tile] = std::sqrt(b2[tile]);
+    // A point of a tile's rays is off its middle ray by at most spread * distance; the closest points, to second order.
+    const Floats least = simd::max(b - spread * distance, Floats{});
+    const Floats chord2 = reach * reach - least * least;
+    const Floats slack = spread * (b + 2.0f * spread * distance);
+    Floats half;
+    for (int tile = 0; tile < kTiles; ++tile)
+        half[tile] = std::sqrt(chord2[tile] > 0.0f ? chord2[tile] : 0.0f);
+    half += simd::abs(shift) + slack;
+    a.half = chord2 > 0.0f ? half : simd::all(-1.0f);
+    a.end = p.place[i] + simd::largest(a.half);
+    a.direct = simd::largest(simd::abs(shift) + slack) > p.s[i];
+}
+
+}  // namespace awan

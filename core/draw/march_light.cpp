@@ -1,0 +1,159 @@
+#include "core/draw/march_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/light/harmonics.h"
+#include "core/parallel.h"
+
+namespace awan {
+namespace {
+
+constexpr double kCloseCells = 2;  // around the grid
+
+// The eight neighbours of a point of a lattice, and how far it is between them.
+struct Corners {
+    std::size_t at, dx, dy, dz;
+    float x, y, z;
+};
+
+Corners corners(const glm::vec3& place, const glm::ivec3& n) {
+    Corners c{};
+    const auto axis = [](float u, int count, int& whole, float& part) {
+        const float clamped = std::min(std::max(u, 0.0f), static_cast<float>(count - 1));
+        whole = std::min(static_cast<int>(clamped), std::max(count - 2, 0));
+        part = clamped - static_cast<float>(whole);
+        return count > 1;
+    };
+    int i = 0, j = 0, k = 0;
+    const auto nx = static_cast<std::size_t>(n.x), ny = static_cast<std::size_t>(n.y);
+    c.dx = axis(place.x, n.x, i, c.x) ? 1 : 0;
+    c.dy = axis(place.y, n.y, j, c.y) ? nx : 0;
+    c.dz = axis(place.z, n.z, k, c.z) ? nx * ny : 0;
+    c.at = (static_cast<std::size_t>(k) * ny + static_cast<std::size_t>(j)) * nx +
+           static_cast<std::size_t>(i);
+    return c;
+}
+
+// value(i): that of lattice point i.
+template <typename Value>
+auto between(const Corners& c, const Value& value) {
+    const auto along = [&](std::size_t i) {
+        const auto a = value(i);
+        return a + (value(i + c.dx) - a) * c.x;
+    };
+    const auto across = [&](std::size_t i) {
+        const auto a = along(i);
+        return a + (along(i + c.dy) - a) * c.y;
+    };
+    const auto a = across(c.at);
+    return a + (across(c.at + c.dz) - a) * c.z;
+}
+
+float dot(const std::array<float, kHarmonics>& a, const std::array<float, kHarmonics>& b) {
+    float sum = 0;
+    for (std::size_t i = 0; i < kHarmonics; ++i) sum += a[i] * b[i];
+    return sum;
+}
+
+std::array<float, kHarmonics> harmonics_f(const glm::dvec3& d) {
+    const auto exact = harmonics(d);
+    std::array<float, kHarmonics> y{};
+    for (std::size_t i = 0; i < kHarmonics; ++i) y[i] = static_cast<float>(exact[i]);
+    return y;
+}
+
+Rgb4 rgb4(const glm::vec3& c) {
+    return Rgb4{c.x, c.y, c.z, 0.0f};
+}
+
+// From the moments, for the ray's own direction.
+Rgb4 along_ray(const TransportLight& light, const Corners& c, const LightRay& ray) {
+    Rgb4 sum{};
+    for (const LightBand& band : light.bands) {
+        const float s =
+            between(c, [&](std::size_t i) { return dot(band.moments[i], ray.harmonics); });
+        sum += std::max(s, 0.0f) * rgb4(band.color);
+    }
+    return sum;
+}
+
+}  // namespace
+
+EyeLight source_towards(const TransportLight& light, const glm::dvec3& eye, int threads) {
+    EyeLight result{&light, {}, false};
+    if (!(light.cell > 0) || light.bands.empty()) return result;
+    const glm::dvec3 place = (eye - light.origin) / light.cell;
+    const glm::dvec3 beyond =
+        glm::max(glm::max(-place, place - glm::dvec3(light.cells)), glm::dvec3(0));
+    result.close = glm::length(beyond) < kCloseCells;
+    if (result.close) return result;
+    const auto nx = static_cast<std::size_t>(light.cells.x),
+               ny = static_cast<std::size_t>(light.cells.y);
+    result.source.resize(nx * ny * static_cast<std::size_t>(light.cells.z));
+    parallel_for(threads, ny * static_cast<std::size_t>(light.cells.z), [&](std::size_t row) {
+        for (std::size_t i = 0; i < nx; ++i) {
+            const glm::dvec3 center =
+                glm::dvec3(static_cast<double>(i), static_cast<double>(row % ny),
+                           static_cast<double>(row / ny)) +
+                0.5;
+            const auto y = harmonics_f(glm::normalize(place - center));
+            glm::vec3 sum(0);
+            for (const LightBand& band : light.bands)
+                sum += band.color * std::max(0.0f, dot(band.moments[row * nx + i], y));
+            result.source[row * nx + i] = rgb4(sum);
+        }
+    });
+    return result;
+}
+
+LightRay light_ray(const EyeLight& eye_light, const glm::dvec3& start,
+                   const glm::dvec3& direction) {
+    const TransportLight& light = *eye_light.light;
+    LightRay ray;
+    if (light.cell > 0) {
+        ray.grid = glm::vec3((start - light.origin) / light.cell - 0.5);
+        ray.grid_step = glm::vec3(direction / light.cell);
+        if (eye_light.close) ray.harmonics = harmonics_f(-direction);
+    }
+    const SunDepth& sun = light.sun;
+    if (sun.cell > 0 && !sun.depth.empty()) {
+        const auto turned = [&](const glm::dvec3& p) {
+            return glm::vec3(
+                glm::dvec3(glm::dot(p, sun.u), glm::dot(p, sun.v), glm::dot(p, sun.w)) / sun.cell);
+        };
+        ray.sun = turned(start - sun.origin);
+        ray.sun_step = turned(direction);
+    }
+    return ray;
+}
+
+void light_along(const EyeLight& eye_light, const LightRay& ray, float first, float step, int count,
+                 LightAt* out) {
+    const TransportLight& light = *eye_light.light;
+    const bool grid = light.cell > 0;
+    const bool sun = light.sun.cell > 0 && !light.sun.depth.empty();
+    for (int k = 0; k < count; ++k) {
+        const float t = first + static_cast<float>(k) * step;
+        LightAt at{};
+        if (grid) {
+            const Corners c = corners(ray.grid + t * ray.grid_step, light.cells);
+            if (!eye_light.source.empty())
+                at.source = between(c, [&](std::size_t i) { return eye_light.source[i]; });
+            else if (eye_light.close)
+                at.source = along_ray(light, c, ray);
+            if (!light.albedo.empty())
+                at.albedo = between(c, [&](std::size_t i) { return rgb4(light.albedo[i]); });
+        }
+        if (sun) {
+            const Corners c = corners(ray.sun + t * ray.sun_step, light.sun.nodes);
+            at.depth =
+                std::max(0.0f, between(c, [&](std::size_t i) { return light.sun.depth[i]; }));
+        }
+        out[k] = at;
+    }
+}
+
+}  // namespace awan

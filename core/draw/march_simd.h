@@ -1,0 +1,96 @@
+// Sixteen floats at a time, by GCC's vector extensions: element by element the same IEEE operations on every
+// machine, whatever registers they take. Everything here must be inlined into functions that choose a target
+// (march_block.cpp), hence always_inline.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+// Vectors are only ever passed between inlined functions: no ABI to worry about.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+#define AWAN_INLINE [[gnu::always_inline]] inline
+
+namespace awan::simd {
+
+inline constexpr int kLanes = 16;
+using Floats = float __attribute__((vector_size(64)));
+using Ints = std::int32_t __attribute__((vector_size(64)));
+using Bits = std::uint32_t __attribute__((vector_size(64)));
+
+AWAN_INLINE Floats all(float x) {
+    return Floats{} + x;
+}
+AWAN_INLINE Floats min(const Floats& a, const Floats& b) {
+    return a < b ? a : b;
+}
+AWAN_INLINE Floats max(const Floats& a, const Floats& b) {
+    return a > b ? a : b;
+}
+AWAN_INLINE Bits bits(const Floats& x) {
+    return reinterpret_cast<const Bits&>(x);
+}
+AWAN_INLINE Floats floats(const Bits& x) {
+    return reinterpret_cast<const Floats&>(x);
+}
+AWAN_INLINE Floats abs(const Floats& x) {
+    return floats(bits(x) & 0x7fffffffu);
+}
+
+// exp(x); relative error < 4e-7 for |x| < 86, constant beyond. 2^n by the exponent's bits, the rest (|r| < ln 2 / 2) by
+// its Taylor series (Cody & Waite's reduction).
+AWAN_INLINE Floats exp(const Floats& at) {
+    constexpr float kShift = 12582912.0f;  // 1.5 * 2^23: sums are rounded to integers
+    const Floats x = min(max(at, all(-86.0f)), all(86.0f));
+    const Floats shifted = x * 1.44269504f + kShift;
+    const Floats n = shifted - kShift;
+    const Floats r = (x - n * 0.693359375f) + n * 2.12194440e-4f;
+    Floats p = r * (1.0f / 720) + (1.0f / 120);
+    p = p * r + (1.0f / 24);
+    p = p * r + (1.0f / 6);
+    p = p * r + 0.5f;
+    p = p * r + 1.0f;
+    p = p * r + 1.0f;
+    return floats(bits(p) + (bits(shifted) << 23));
+}
+
+// 1 - e, e = exp(-x) of the same x >= 0: by series where the difference would lose its digits.
+AWAN_INLINE Floats one_minus(const Floats& e, const Floats& x) {
+    const Floats series = x * (1.0f - x * (0.5f - x * ((1.0f / 6) - x * (1.0f / 24))));
+    return x < 0.03125f ? series : 1.0f - e;
+}
+
+// Cumulative normal distribution as in core/shaders/optics.glsl (Abramowitz & Stegun 7.1.26).
+AWAN_INLINE Floats normal_cdf(const Floats& x) {
+    const Floats z = abs(x) * 0.70710678f;
+    const Floats t = 1.0f / (1.0f + 0.3275911f * z);
+    const Floats tail =
+        0.5f * exp(-z * z) * t *
+        (0.254829592f +
+         t * (-0.284496736f + t * (1.421413741f + t * (-1.453152027f + t * 1.061405429f))));
+    return x > 0.0f ? 1.0f - tail : tail;
+}
+
+AWAN_INLINE bool any(const Ints& mask) {
+    std::int64_t words[8];
+    std::memcpy(words, &mask, sizeof words);
+    std::int64_t sum = 0;
+    for (const std::int64_t word : words) sum |= word;
+    return sum != 0;
+}
+AWAN_INLINE float smallest(const Floats& x) {
+    float a[kLanes];
+    std::memcpy(a, &x, sizeof a);
+    float least = a[0];
+    for (int i = 1; i < kLanes; ++i) least = a[i] < least ? a[i] : least;
+    return least;
+}
+AWAN_INLINE float largest(const Floats& x) {
+    float a[kLanes];
+    std::memcpy(a, &x, sizeof a);
+    float most = a[0];
+    for (int i = 1; i < kLanes; ++i) most = a[i] > most ? a[i] : most;
+    return most;
+}
+
+}  // namespace awan::simd
