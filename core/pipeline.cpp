@@ -96,8 +96,8 @@ Status render_paths(const Scene& scene, const Planned& planned, const Tools& too
 
 }  // namespace
 
-Result<Planned> plan_scene(const Scene& scene, int threads, const MachineSpeed& speed,
-                           const Deadline& deadline) {
+Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& deadline,
+                           const MachineSpeed& speed) {
     Planned planned;
     auto particles =
         timed(planned.times.generate_ms, [&] { return generate(scene, threads, deadline); });
@@ -135,7 +135,7 @@ Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools
 }
 
 Result<Rendered> render_scene(const Scene& scene, const Tools& tools, const Deadline& deadline) {
-    auto planned = plan_scene(scene, tools.threads, tools.speed, deadline);
+    auto planned = plan_scene(scene, tools.threads, deadline, tools.speed);
     if (!planned.ok()) return planned.error();
     return render_planned(scene, *std::move(planned), tools, deadline);
 }

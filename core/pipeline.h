@@ -45,8 +45,8 @@ struct Tools {
 };
 
 // Generates, surveys and plans. threads >= 1.
-Result<Planned> plan_scene(const Scene& scene, int threads, const MachineSpeed& speed,
-                           const Deadline& deadline);
+Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& deadline,
+                           const MachineSpeed& speed = {});
 
 // Light and picture of what was planned.
 Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools& tools,

@@ -44,9 +44,10 @@ Status draw_once(Device& device) {
     cloud.cubes.push_back(cube);
     draft.clouds.push_back(cloud);
     draft.image.width = draft.image.height = 64;
+    draft.accuracy.rung = "harris";
     auto scene = validate(std::move(draft));
     if (!scene) return scene.error();
-    auto rendered = render_scene(*scene, device, 1, Deadline{});
+    auto rendered = render_scene(*scene, {&device, 1, nullptr, {}, {}}, Deadline{});
     if (!rendered) return rendered.error();
     return std::nullopt;
 }
@@ -63,8 +64,12 @@ OpenRenderer device_renderer(DeviceChoice choice) {
                          "the first picture failed: " + failed->message};
         Renderer renderer;
         renderer.info = device->info();
-        renderer.render = [device](const Scene& scene, Planned planned, const Deadline& deadline) {
-            return render_planned(scene, std::move(planned), *device, deadline);
+        const auto lights = std::make_shared<LightCache>(kLightCacheBytes);
+        const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+        renderer.render = [device, lights, threads](const Scene& scene, Planned planned,
+                                                    const Deadline& deadline) {
+            return render_planned(scene, std::move(planned),
+                                  {device.get(), threads, lights.get(), {}, {}}, deadline);
         };
         return renderer;
     };

@@ -21,7 +21,11 @@ struct Renderer {
 };
 using OpenRenderer = std::function<Result<Renderer>()>;
 
-// Opens the device and draws once, so that the first request finds it warm.
+// Lights that are kept while cameras move: about ten of the largest rungs', hundreds of the common.
+inline constexpr std::size_t kLightCacheBytes = 256u << 20;
+
+// Opens the device and draws once, so that the first request finds it warm. One render runs at a time, and the rungs that
+// need no device use all processors.
 OpenRenderer device_renderer(DeviceChoice choice);
 
 class RenderThread {

@@ -401,7 +401,7 @@ TEST(HardCases, ADeadlineStopsTheRender) {
     SceneDraft draft = test::table_4_4();
     Deadline over;
     over.until = Deadline::Clock::now();
-    const auto rendered = render_scene(test::valid(draft), test::device(), 1, over);
+    const auto rendered = render_scene(test::valid(draft), {&test::device(), 1, nullptr, {}, {}}, over);
     ASSERT_FALSE(rendered.ok());
     EXPECT_EQ(rendered.error().code, ErrorCode::kOverDeadline);
 }

@@ -90,7 +90,7 @@ inline Device& device() {
 }
 
 inline Rendered render(const SceneDraft& draft, int threads = 1) {
-    auto rendered = render_scene(valid(draft), device(), threads, {});
+    auto rendered = render_scene(valid(draft), {&device(), threads, nullptr, {}, {}}, {});
     if (!rendered.ok()) {
         ADD_FAILURE() << rendered.error().message;
         std::abort();

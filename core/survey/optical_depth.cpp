@@ -13,7 +13,7 @@
 namespace awan {
 namespace {
 
-constexpr double kCoveredShare = 0.05;  // of the largest depth: what counts as cloud in a picture
+constexpr double kCoveredShare = 0.05;  // of the largest alpha: what counts as cloud in a picture
 constexpr double kCut = 4;
 
 // Coarsens a raster of `side` lines until the work fits; work(side) = line-particle pairs.
@@ -163,7 +163,7 @@ EyeDepth eye_optical_depth(const ParticleSet& particles, const View& view) {
     eye.particles_per_pixel = pairs / lines;
     double sum = 0, covered = 0;
     for (const double depth : raster.depth)
-        if (depth > kCoveredShare * largest) {
+        if (-std::expm1(-depth) > kCoveredShare * -std::expm1(-largest)) {
             covered += 1;
             sum += depth;
         }

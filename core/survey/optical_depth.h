@@ -11,7 +11,7 @@ double parallel_optical_depth(const ParticleSet& particles, glm::dvec3 direction
 
 struct EyeDepth {
     double largest = 0;
-    double mean = 0;     // over the rays that meet cloud: at least 5% of the largest depth
+    double mean = 0;     // over the rays that meet cloud: at least 5% of the largest alpha
     double covered = 0;  // share of the picture's rays that do
     double particles_per_pixel = 0;  // within whose cut a ray passes, mean over the picture
 };

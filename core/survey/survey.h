@@ -39,7 +39,7 @@ struct Survey {
     double optical_depth_sun = 0;     // largest over parallel lines towards the sun
     double optical_depth_zenith = 0;  // largest over vertical lines
     double optical_depth_eye = 0;     // largest over the picture's rays, from the eye outward
-    double mean_depth_eye = 0;  // of the rays that meet cloud (at least 5% of the largest depth)
+    double mean_depth_eye = 0;  // of the rays that meet cloud (at least 5% of the largest alpha)
     double covered = 0;         // share of the picture's rays that do
     double particles_per_pixel = 0;  // that a ray passes within 4 s, mean over the picture
     double sun_cosine =

@@ -12,11 +12,11 @@
 namespace awan::truth {
 namespace {
 
-constexpr double kMaxSide = 256;                       // cells along the longest side
+constexpr double kMaxSide = 176;                       // cells along the longest side: larger lattices leave the caches
 constexpr double kMaxNodes = 12e6, kMaxColored = 6e6;  // of a lattice: 48 MB each
 constexpr double kMinSide = 64;
 constexpr double kCellsPerS = 10;    // wanted of the particles that matter
-constexpr double kAllowed = 0.006;   // of the largest extinction, by one particle
+constexpr double kAllowed = 0.01;    // of the largest extinction, by one particle
 
 // Everything about a particle that does not depend on the lattice. Scene units, about the cloud's centre.
 struct Source {
@@ -66,22 +66,43 @@ double typical_s(const std::vector<Source>& sources) {
     return by_s.back().first;
 }
 
-// About the largest extinction of the cloud, from below: of one particle, and the mean over coarse cells.
+// About the largest extinction of the cloud, from below: of one particle, or the sum at some where there
+// are many.
 double about_largest(const std::vector<Source>& sources, const Box& box) {
     constexpr int kSide = 24;
     const double cell = box.longest() / kSide;
     std::vector<double> mass(kSide * kSide * kSide, 0.0);
     double largest = 0;
+    const auto cell_of = [&](const Source& g) {
+        return glm::clamp(glm::ivec3((g.center - box.low) / cell), glm::ivec3(0),
+                          glm::ivec3(kSide - 1));
+    };
+    const auto index = [](const glm::ivec3& at) {
+        return static_cast<std::size_t>(at.x + kSide * (at.y + kSide * at.z));
+    };
     for (const Source& g : sources) {
         largest = std::max(largest, g.peak);
-        const glm::ivec3 at =
-            glm::clamp(glm::ivec3((g.center - box.low) / cell), glm::ivec3(0), glm::ivec3(23));
         // What a Gaussian wider than a cell leaves in it.
         const double s2 = g.s * g.s + cell * cell / (2 * std::numbers::pi);
-        mass[static_cast<std::size_t>(at.x + kSide * (at.y + kSide * at.z))] +=
-            g.peak * std::pow(g.s * g.s / s2, 1.5);
+        mass[index(cell_of(g))] += g.peak * std::pow(g.s * g.s / s2, 1.5);
     }
-    return std::max(largest, *std::max_element(mass.begin(), mass.end()));
+    // The true value at particles of full cells.
+    std::vector<std::pair<double, std::size_t>> full;
+    for (std::size_t i = 0; i < sources.size(); i += sources.size() / 4096 + 1) {
+        const glm::ivec3 at = cell_of(sources[i]);
+        full.emplace_back(-mass[index(at)], i);
+    }
+    const std::size_t looks = std::min<std::size_t>(full.size(), 32);
+    std::partial_sort(full.begin(), full.begin() + static_cast<std::ptrdiff_t>(looks), full.end());
+    for (std::size_t k = 0; k < looks; ++k) {
+        double sum = 0;
+        for (const Source& g : sources) {
+            const glm::dvec3 v = (g.center - sources[full[k].second].center) / g.s;
+            sum += g.peak * std::exp(-0.5 * glm::dot(v, v));
+        }
+        largest = std::max(largest, sum);
+    }
+    return largest;
 }
 
 // Error that a particle makes on a lattice, of its peak (lattice.h).
@@ -355,8 +376,8 @@ double depth_to_sun(const Matter& m, const glm::dvec3& p) {
         if (b2 >= one.reach2) continue;
         const double past = (q.z - one.center.z) / one.s;
         if (past < -9) continue;
-        depth += one.depth * std::exp(-b2 / (2 * one.s * one.s)) * 0.5 *
-                 std::erfc(-past * std::sqrt(0.5));
+        const double whole = one.depth * std::exp(-b2 / (2 * one.s * one.s));
+        depth += past > 6 ? whole : whole * 0.5 * std::erfc(-past * std::sqrt(0.5));
     }
     return depth;
 }

@@ -139,8 +139,11 @@ Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles,
         const int top = static_cast<int>(tile / static_cast<std::size_t>(across)) * kTile;
         const int right = std::min(left + kTile, width), bottom = std::min(top + kTile, height);
         const ParticleSet near = truth::particles_near(
-            particles, view.eye, pixel_ray(view, width, height, left, top).direction,
-            pixel_ray(view, width, height, right - 1, bottom - 1).direction);
+            particles, view.eye,
+            {pixel_ray(view, width, height, left, top).direction,
+             pixel_ray(view, width, height, right - 1, top).direction,
+             pixel_ray(view, width, height, left, bottom - 1).direction,
+             pixel_ray(view, width, height, right - 1, bottom - 1).direction});
         for (int y = top; y < bottom; ++y)
             for (int x = left; x < right && !stop; ++x) pixel(near, tile, x, y);
         const std::size_t count = ++finished;

@@ -88,12 +88,14 @@ double PrimaryRay::first_meeting(double share) const {
 }
 
 ParticleSet particles_near(const ParticleSet& particles, const glm::dvec3& eye,
-                           const glm::dvec3& corner, const glm::dvec3& opposite) {
-    const glm::dvec3 axis = glm::normalize(corner + opposite);
-    // In the plane through the axis: a particle's distance from a cone, its angle being that of
-    // the corners, with room for the two other corners of a tile seen at a slant.
-    const double half =
-        std::min(1.5 * std::asin(std::min(0.5 * glm::length(corner - opposite), 1.0)) + 1e-6, 3.2);
+                           const std::array<glm::dvec3, 4>& corners) {
+    // The smallest cone about their middle: it holds all that is between them.
+    const glm::dvec3 axis = glm::normalize(corners[0] + corners[1] + corners[2] + corners[3]);
+    double half = 0;
+    for (const glm::dvec3& corner : corners)
+        half = std::max(half, std::atan2(glm::length(glm::cross(axis, corner)),
+                                         glm::dot(axis, corner)));
+    half += 1e-6;
     ParticleSet near;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const glm::dvec3 v = particles.center[i] - eye;

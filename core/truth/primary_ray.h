@@ -1,6 +1,7 @@
 // A pixel's ray before its first scattering: where it meets matter, known beforehand instead of walked.
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -23,9 +24,8 @@ class PrimaryRay {
     std::vector<double> t_, depth_;  // as long as each other, rising
 };
 
-// Those particles that a ray from the eye may meet whose direction is within the cone about two opposite corners' directions
-// (unit); farther than 9 s they do not count. No colours.
+// Those particles that a ray from the eye may meet whose direction is between four corners' (unit); farther than 9 s they do not count. No colours.
 ParticleSet particles_near(const ParticleSet& particles, const glm::dvec3& eye,
-                           const glm::dvec3& corner, const glm::dvec3& opposite);
+                           const std::array<glm::dvec3, 4>& corners);
 
 }  // namespace awan::truth

@@ -1,0 +1,165 @@
+// Measures rungs on numbered scenes against the path tracer: what forecasts are fitted to and checked on.
+//   calibrate --set fit --count 60 -o fit.csv        then tests/calibration/fit.py
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <optional>
+
+#include "core/gl/device.h"
+#include "core/light/machine_speed.h"
+#include "core/pipeline.h"
+#include "core/plan/forecast_figures.h"
+#include "core/scene/validate.h"
+#include "core/truth/error_measures.h"
+#include "core/truth/path_tracer.h"
+#include "tests/calibration/scenes.h"
+
+namespace {
+
+using namespace awan;
+
+struct Options {
+    std::string set = "fit", output = "-";
+    int first = 0, count = 10, width = 80, height = 60, threads = 2;
+    double noise = 0.1;   // of a pixel of the truth that is wanted
+    double seconds = 20;  // of a truth, at most
+    int runs = 3;         // timed renders; the least counts
+};
+
+template <typename T>
+T must(Result<T> result) {
+    if (!result.ok()) {
+        std::fprintf(stderr, "%s: %s\n", result.error().pointer.c_str(),
+                     result.error().message.c_str());
+        std::exit(1);
+    }
+    return *std::move(result);
+}
+
+double seconds_since(Deadline::Clock::time_point start) {
+    return std::chrono::duration<double>(Deadline::Clock::now() - start).count();
+}
+
+// A truth with the wanted noise, or what the time allows.
+struct Reference {
+    TruthImage image;
+    std::uint32_t samples = 0;
+    double noise = 0, seconds = 0;
+};
+
+Reference reference_of(const Scene& scene, const Planned& planned, const Options& options) {
+    Reference reference;
+    TruthOptions truth;
+    truth.threads = options.threads;
+    truth.samples = 16;
+    for (int round = 0; round < 3; ++round) {
+        const auto start = Deadline::Clock::now();
+        reference.image =
+            must(trace_truth(scene, planned.particles, planned.survey.view, truth, {}, {}));
+        reference.seconds = seconds_since(start);
+        reference.samples = truth.samples;
+        reference.noise = picture_error(mean_of(reference.image), reference.image).truth_noise;
+        if (reference.noise <= 1.1 * options.noise) break;
+        const double ratio = reference.noise / options.noise;
+        const double more =
+            std::min(ratio * ratio, options.seconds / std::max(reference.seconds, 1e-3));
+        if (more < 1.2) break;
+        truth.samples =
+            2 * static_cast<std::uint32_t>(std::clamp(more * truth.samples / 2, 1.0, 2e5));
+    }
+    return reference;
+}
+
+void measure(const Options& options, int index, Device& device, std::FILE* out) {
+    const auto numbered =
+        calibration::numbered_scene(options.set, index, options.width, options.height);
+    const Scene scene = must(validate(numbered.draft));
+    const Planned planned = must(plan_scene(scene, options.threads, {}));
+    const Reference reference = reference_of(scene, planned, options);
+    for (const Rung& rung : ladder()) {
+        if (rung.method == Method::kPaths) continue;
+        SceneDraft draft = numbered.draft;
+        draft.accuracy.rung = rung.name;
+        const Scene same = must(validate(draft));
+        double time_ms = 1e30, light_ms = 0, draw_ms = 0;
+        std::optional<Rendered> rendered;
+        for (int run = 0; run < options.runs; ++run) {
+            const auto start = Deadline::Clock::now();
+            rendered = must(render_scene(same, {&device, options.threads, nullptr, {}, {}}, {}));
+            const double ms = 1e3 * seconds_since(start);
+            if (ms >= time_ms) continue;
+            time_ms = ms;
+            light_ms = rendered->times.light_ms;
+            draw_ms = rendered->times.draw_ms;
+        }
+        const PictureError error = picture_error(rendered->image, reference.image);
+        const auto& plan = rendered->plan;
+        std::fprintf(out,
+                     "%s,%d,%s,%s,%d,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,%.3g,%.4g,%.3g,%.3g,%u,%.5g,"
+                     "%.5g,%.5g,%.5g,%.5g",
+                     options.set.c_str(), index, numbered.kind.c_str(), rung.name, rung.cells,
+                     planned.survey.particles, planned.survey.optical_depth_eye,
+                     planned.survey.optical_depth_sun, scene->medium.g, scene->medium.albedo,
+                     planned.survey.sun_cosine, error.nrmse, error.nrmse_noise, error.bias,
+                     error.bias_noise, reference.noise, reference.samples, plan.predicted.error,
+                     time_ms, light_ms, draw_ms, plan.predicted.time_ms);
+        for (const double figure : error_figures(rung, scene, planned.survey))
+            std::fprintf(out, ",%.6g", figure);
+        for (const double figure : time_figures(rung, scene, planned.survey, 0))
+            std::fprintf(out, ",%.6g", figure);
+        std::fputc('\n', out);
+    }
+    // The truth's own figures: noise of one path and what it took.
+    std::fprintf(
+        out, "%s,%d,%s,truth,0,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,0,0,0,%.3g,%u,0,%.5g,0,%.5g,0",
+        options.set.c_str(), index, numbered.kind.c_str(), planned.survey.particles,
+        planned.survey.optical_depth_eye, planned.survey.optical_depth_sun, scene->medium.g,
+        scene->medium.albedo, planned.survey.sun_cosine, reference.noise, reference.noise,
+        reference.samples, 1e3 * reference.seconds, 1e3 * reference.seconds);
+    const Rung& truth = *find_rung("truth");
+    for (const double figure : error_figures(truth, scene, planned.survey))
+        std::fprintf(out, ",%.6g", figure);
+    for (const double figure : time_figures(truth, scene, planned.survey, reference.samples))
+        std::fprintf(out, ",%.6g", figure);
+    std::fputc('\n', out);
+    std::fflush(out);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Measures every rung on numbered scenes.");
+    Options options;
+    app.add_option("--set", options.set, "fit, check or any other name: each is another set");
+    app.add_option("--first", options.first);
+    app.add_option("--count", options.count);
+    app.add_option("--width", options.width);
+    app.add_option("--height", options.height);
+    app.add_option("--threads", options.threads);
+    app.add_option("--noise", options.noise, "of a pixel of the truth that is wanted");
+    app.add_option("--seconds", options.seconds, "that a truth may take");
+    app.add_option("--runs", options.runs);
+    app.add_option("-o,--output", options.output);
+    CLI11_PARSE(app, argc, argv);
+    Device device = must(Device::open(DeviceChoice::kSoftware));
+    std::FILE* out = options.output == "-" ? stdout : std::fopen(options.output.c_str(), "w");
+    if (!out) return 1;
+    std::fputs(
+        "set,index,kind,rung,cells,particles,depth_eye,depth_sun,g,albedo,sun_cosine,error,error_"
+        "noise,bias,bias_noise,"
+        "truth_noise,samples,predicted_error,time_ms,light_ms,draw_ms,predicted_ms",
+        out);
+    for (const char* name : kErrorFigureNames) std::fprintf(out, ",e_%s", name);
+    for (const char* name : kTimeFigureNames) std::fprintf(out, ",t_%s", name);
+    std::fputc('\n', out);
+    for (int i = 0; i < options.count; ++i) {
+        measure(options, options.first + i, device, out);
+        std::fprintf(stderr, "\r%d of %d", i + 1, options.count);
+    }
+    std::fputc('\n', stderr);
+    if (out != stdout) std::fclose(out);
+    return 0;
+}
