@@ -37,7 +37,7 @@ struct AccuracyCommand {
     std::string theme = "light";  // or "dark"
     double scale = 1;             // of the plot
     int side = 128;               // pixels of the reference's longer side
-    std::uint32_t samples = 1024;
+    std::uint32_t samples = 384;
     std::vector<std::string> rungs;  // empty: all but truth
     int runs = 4;
     int threads = 1;
