@@ -61,6 +61,11 @@ TEST_F(ServiceTest, ContractNamesEveryRoute) {
                              "/version", "/openapi.json", "/"})
         EXPECT_NE(contract.body.find("    \"" + std::string(path) + "\": {"), std::string::npos)
             << path;
+    std::string rungs;
+    for (const Rung& rung : ladder())
+        rungs +=
+            (rungs.empty() ? "          \"" : ",\n          \"") + std::string(rung.name) + '"';
+    EXPECT_NE(contract.body.find("\"enum\": [\n" + rungs + "\n        ]"), std::string::npos);
     EXPECT_NE(contract.body.find("\"version\": \"" + std::string(engine_version()) + "\""),
               std::string::npos);
 }
