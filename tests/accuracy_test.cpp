@@ -161,10 +161,16 @@ TEST(Accuracy, TakesTheMedianWithoutTheFirstRun) {
 
     options.runs = 4;
     fake.own_runs.clear();
-    fake.rungs["harris"].times_ms = {5000, 1};
+    fake.rungs["harris"].times_ms = {5000, 1};  // never comes to the second
     report = sweep(valid(thin_ball()), fake, options);
     EXPECT_EQ(report->rungs[0].time_ms, 5000) << "and so does one that takes long";
     EXPECT_EQ(report->rungs[0].runs, 1);
+
+    fake.own_runs.clear();
+    fake.rungs["harris"].times_ms = {2000, 1800, 1900};
+    report = sweep(valid(thin_ball()), fake, options);
+    EXPECT_EQ(report->rungs[0].time_ms, 1900) << "two runs are enough, and both count";
+    EXPECT_EQ(report->rungs[0].runs, 2);
 }
 
 TEST(Accuracy, KeepsTheShapeOfThePicture) {

@@ -7,9 +7,9 @@ import { at } from "./document.js";
 import { byId, el, plain } from "./dom.js";
 
 const WAYS = [
-  ["error", "the largest error it may have"],
-  ["time_ms", "the longest time it may take"],
-  ["rung", "its name"],
+  ["error", "largest error"],
+  ["time_ms", "longest time"],
+  ["rung", "name of a rung"],
 ];
 // What a way begins with, when it is chosen.
 const FIRST = { error: 0.1, time_ms: 500, rung: "harris" };

@@ -19,11 +19,12 @@ namespace {
 
 using Clock = Deadline::Clock;
 
-constexpr std::uint32_t kPilotSamples = 4;    // enough to know what a sample takes
+constexpr std::array<std::uint32_t, 2> kPilotSamples = {2, 6};  // to know what a sample takes
 constexpr std::uint32_t kFewestSamples = 16;  // below, the noise is all there is to see
 constexpr double kReferenceShare = 0.5;       // of the time allowed
-constexpr double kLongRunMs =
-    2000;  // a first run this long is counted: what warms up is under 0.2 s
+constexpr double kLongRunMs = 500;  // a first run this long is counted: the picture at the
+                                    // reference's size has warmed up what there is to warm
+constexpr double kEnoughMs = 3000;  // of counted runs of one rung
 
 // Not the seed of rung truth: noise of one picture must not look like that of the other.
 constexpr std::uint64_t kReferenceSeed = 0x7275746872656621;
@@ -128,20 +129,30 @@ struct Reference {
     std::vector<std::uint8_t> shown;  // the samples of its PNG, over the sky
 };
 
-// How many samples fit into `allowed_ms`, from what a few take.
+// How many samples fit into `allowed_ms`. Two short runs tell what a sample takes from what every
+// picture takes before its first (the tracer's tables).
 Result<std::uint32_t> fitting_samples(const Reference& reference, const ParticleSet& particles,
                                       TruthOptions options, double allowed_ms, double& expected_ms,
                                       const Deadline& deadline) {
     const std::uint32_t wanted = options.samples;
-    options.samples = kPilotSamples;
-    const auto start = Clock::now();
-    auto pilot =
-        trace_truth(reference.scene, particles, reference.view, options, Progress{}, deadline);
-    if (!pilot) return pilot.error();
-    const double sample_ms = std::max(ms_since(start), 1e-3) / kPilotSamples;
-    const double fitting = std::clamp(allowed_ms / sample_ms, double{kFewestSamples}, 4e9);
+    std::array<double, kPilotSamples.size()> took_ms{};
+    for (std::size_t i = 0; i < kPilotSamples.size(); ++i) {
+        options.samples = kPilotSamples[i];
+        const auto start = Clock::now();
+        auto pilot =
+            trace_truth(reference.scene, particles, reference.view, options, Progress{}, deadline);
+        if (!pilot) return pilot.error();
+        took_ms[i] = ms_since(start);
+    }
+    // Not below a part of the whole: on a busy machine the longer run may seem the shorter.
+    const double more_samples = kPilotSamples[1] - kPilotSamples[0];
+    const double sample_ms = std::max(
+        {(took_ms[1] - took_ms[0]) / more_samples, 0.2 * took_ms[1] / kPilotSamples[1], 1e-6});
+    const double fixed_ms = std::max(took_ms[1] - sample_ms * kPilotSamples[1], 0.0);
+    const double fitting =
+        std::clamp((allowed_ms - fixed_ms) / sample_ms, double{kFewestSamples}, 4e9);
     const std::uint32_t samples = std::min(wanted, static_cast<std::uint32_t>(fitting) / 2 * 2);
-    expected_ms = sample_ms * samples;
+    expected_ms = fixed_ms + sample_ms * samples;
     return samples;
 }
 
@@ -155,14 +166,16 @@ struct Timed {
 Status time_rung(const Scene& scene, int runs, const RenderScene& render, const Steps& steps,
                  double share_before, const Deadline& deadline, RungCost& cost) {
     std::vector<Timed> timed;
+    double all_ms = 0;
     for (int i = 0; i < std::max(runs, 1); ++i) {
         auto rendered = render(scene, deadline);
         if (!rendered) return rendered.error();
         timed.push_back({whole_ms(rendered->times), rendered->times});
         steps.tell(share_before + (1 - share_before) * (i + 1) / std::max(runs, 1));
-        if (i == 0 && timed[0].whole_ms > kLongRunMs) break;
+        all_ms += timed.back().whole_ms;
+        if (timed[0].whole_ms > kLongRunMs && all_ms > kEnoughMs) break;
     }
-    if (timed.size() > 1) timed.erase(timed.begin());
+    if (timed.size() > 1 && timed[0].whole_ms <= kLongRunMs) timed.erase(timed.begin());
     std::sort(timed.begin(), timed.end(),
               [](const Timed& a, const Timed& b) { return a.whole_ms < b.whole_ms; });
     const Timed& upper = timed[timed.size() / 2];
@@ -243,7 +256,7 @@ double expected_ms(const RungForecast* forecast, const Scene& scene, PictureSize
     const double small_pixels = static_cast<double>(small.width) * small.height;
     // Light is the same for either size, drawing goes with the pixels: half each.
     const double small_render = one * (0.5 + 0.5 * small_pixels / pixels);
-    return small_render + one * (one > kLongRunMs ? 1 : std::max(runs, 1));
+    return small_render + std::max(one, std::min(one * std::max(runs, 1), kEnoughMs));
 }
 
 bool beats(const RungCost& a, const RungCost& b) {
@@ -292,7 +305,7 @@ Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOption
     truth_options.seed = kReferenceSeed;
     steps.begin("sizing the reference", 0);
     double reference_ms = 0;
-    if (truth_options.samples > 2 * kPilotSamples) {
+    if (truth_options.samples > 2 * kPilotSamples.back()) {
         const double allowed_ms = options.time_ms > 0
                                       ? kReferenceShare * options.time_ms - ms_since(start)
                                       : std::numeric_limits<double>::infinity();

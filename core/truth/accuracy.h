@@ -46,8 +46,9 @@ struct AccuracyReport {
 struct AccuracyOptions {
     int threads = 1;
     MachineSpeed speed;  // for what is predicted
-    int runs = 4;  // timed renders of each rung; the first of each is not counted, unless it is the
-                   // only one or takes so long that it has to be
+    // Timed renders of each rung, fewer where they take seconds. The first of each is not counted,
+    // unless it is the only one or takes over half a second.
+    int runs = 4;
     int reference_side = 128;        // pixels of the reference's longer side, at most the scene's
     std::uint32_t samples = 384;     // paths a pixel of the reference
     std::vector<std::string> rungs;  // EMPTY: all but truth, which is the reference
