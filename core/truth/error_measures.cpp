@@ -50,10 +50,12 @@ PictureError picture_error(const Image& x, const TruthImage& truth) {
     const double square_noise = std::sqrt(square_variance) / n;
     const double truth_noise = std::sqrt(mean_variance) / n / mean_truth;  // of the mean
     error.nrmse = std::sqrt(mean_square) / mean_truth;
-    // Of the root: linear where the square stands clear of its noise, and the noise's own root where it does not.
+    // Half of what two standard errors of the square move the root by, to the side where they move it more.
+    const double root = std::sqrt(mean_square);
+    const double up = std::sqrt(mean_square + 2 * square_noise) - root;
+    const double down = root - std::sqrt(std::max(mean_square - 2 * square_noise, 0.0));
     error.nrmse_noise =
-        std::hypot((std::sqrt(mean_square + square_noise) - std::sqrt(mean_square)) / mean_truth,
-                   error.nrmse * truth_noise);
+        std::hypot(0.5 * std::max(up, down) / mean_truth, error.nrmse * truth_noise);
     error.bias = (mean_x - mean_truth) / mean_truth;
     error.bias_noise = mean_x / mean_truth * truth_noise;
     error.truth_noise = std::sqrt(noise_square / n) / mean_truth;

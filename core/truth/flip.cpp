@@ -52,8 +52,7 @@ Color hunt_lab_of(const Color& rgb) {
     const Color xyz = xyz_of(rgb);
     const auto f = [](double t) {
         constexpr double kDelta = 6.0 / 29;
-        return t > kDelta * kDelta * kDelta ? std::cbrt(t)
-                                            : t / (3 * kDelta * kDelta) + 4.0 / 29;
+        return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0 / 29;
     };
     const double x = f(xyz[0] / kWhite[0]), y = f(xyz[1] / kWhite[1]), z = f(xyz[2] / kWhite[2]);
     const double l = 116 * y - 16;
@@ -73,7 +72,9 @@ Kernel normalised(std::vector<double> k) {
     for (const double w : k) (w > 0 ? positive : negative) += w;
     Kernel kernel;
     for (const double w : k)
-        kernel.push_back(static_cast<float>(w > 0 ? w / positive : negative < 0 ? -w / negative : 0));
+        kernel.push_back(static_cast<float>(w > 0          ? w / positive
+                                            : negative < 0 ? -w / negative
+                                                           : 0));
     return kernel;
 }
 
@@ -123,8 +124,8 @@ std::array<Plane, 3> opponent_planes(const std::vector<std::uint8_t>& bytes, con
     std::array<Plane, 3> planes;
     for (Plane& plane : planes) plane.resize(size.count());
     for (std::size_t i = 0; i < size.count(); ++i) {
-        const Color c = ycxcz_of(xyz_of(
-            {linear[bytes[3 * i]], linear[bytes[3 * i + 1]], linear[bytes[3 * i + 2]]}));
+        const Color c = ycxcz_of(
+            xyz_of({linear[bytes[3 * i]], linear[bytes[3 * i + 1]], linear[bytes[3 * i + 2]]}));
         for (std::size_t p = 0; p < 3; ++p) planes[p][i] = static_cast<float>(c[p]);
     }
     return planes;
@@ -133,8 +134,8 @@ std::array<Plane, 3> opponent_planes(const std::vector<std::uint8_t>& bytes, con
 // What is left of colours after the eye's contrast sensitivity, as Hunt-adjusted CIELAB.
 std::vector<Color> seen(const std::array<Plane, 3>& planes, const Size& size, double per_degree) {
     constexpr double kWidest = 0.04;
-    const int radius = static_cast<int>(
-        std::ceil(3 * std::sqrt(kWidest / 2) / std::numbers::pi * per_degree));
+    const int radius =
+        static_cast<int>(std::ceil(3 * std::sqrt(kWidest / 2) / std::numbers::pi * per_degree));
     const auto gauss = [&](double b) {
         return [b, per_degree](double i) {
             const double x = i / per_degree;
@@ -175,7 +176,8 @@ Features features(const Plane& achromatic, const Size& size, double per_degree) 
     const auto gauss = [sd](double x) { return std::exp(-x * x / (2 * sd * sd)); };
     const Kernel smooth = kernel(radius, gauss);
     const Kernel first = kernel(radius, [&](double x) { return -x * gauss(x); });
-    const Kernel second = kernel(radius, [&](double x) { return (x * x / (sd * sd) - 1) * gauss(x); });
+    const Kernel second =
+        kernel(radius, [&](double x) { return (x * x / (sd * sd) - 1) * gauss(x); });
     Plane light = achromatic;
     for (float& v : light) v = (v + 16) / 116;
     const auto strength = [&](const Kernel& k) {
@@ -200,8 +202,7 @@ FlipResult flip(const std::vector<std::uint8_t>& reference, const std::vector<st
                    fb = features(planes_b[0], size, pixels_per_degree);
 
     constexpr double kColorPower = 0.7, kFeaturePower = 0.5, kKnee = 0.4, kAtKnee = 0.95;
-    const double most =
-        std::pow(hyab(hunt_lab_of({0, 1, 0}), hunt_lab_of({0, 0, 1})), kColorPower);
+    const double most = std::pow(hyab(hunt_lab_of({0, 1, 0}), hunt_lab_of({0, 0, 1})), kColorPower);
     FlipResult result;
     result.map.resize(size.count());
     for (std::size_t i = 0; i < size.count(); ++i) {
@@ -209,13 +210,12 @@ FlipResult flip(const std::vector<std::uint8_t>& reference, const std::vector<st
         const double color = apart < knee
                                  ? kAtKnee / knee * apart
                                  : kAtKnee + (apart - knee) / (most - knee) * (1 - kAtKnee);
-        const double feature =
-            std::pow(std::max(std::abs(static_cast<double>(fa.edge[i]) -
-                                       static_cast<double>(fb.edge[i])),
-                              std::abs(static_cast<double>(fa.point[i]) -
-                                       static_cast<double>(fb.point[i]))) /
-                         std::numbers::sqrt2,
-                     kFeaturePower);
+        const double feature = std::pow(
+            std::max(
+                std::abs(static_cast<double>(fa.edge[i]) - static_cast<double>(fb.edge[i])),
+                std::abs(static_cast<double>(fa.point[i]) - static_cast<double>(fb.point[i]))) /
+                std::numbers::sqrt2,
+            kFeaturePower);
         const double value =
             std::clamp(std::pow(std::min(color, 1.0), 1 - std::min(feature, 1.0)), 0.0, 1.0);
         result.map[i] = static_cast<float>(value);
