@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPer4Pi = 1 / (4 * std::numbers::pi);
 constexpr int kMostTerms = 4096;      // of a Legendre sum
-constexpr double kRowStep = 0.02;     // of asinh: a steep phase function goes with exp(-3 of it)
+constexpr double kRowStep = 0.012;    // of asinh: a steep phase function goes with exp(-3 of it)
 constexpr double kSeriesDepth = 32;   // up to here orders of scattering, beyond moments
 constexpr double kNegligible = 1e-6;  // of a term, relative to 1
 constexpr int kMostOctaves = 13;
