@@ -150,8 +150,8 @@ TEST(March, SingleScatteringIsExact) {
 TEST(March, AnEvenSourceIsIntegratedExactly) {
     for (const double g : {0.0, 0.5, 0.85}) {
         SceneDraft draft = transparent(test::table_4_4());
-        draft.image.width = 80;
-        draft.image.height = 60;
+        draft.image.width = 160;  // no particle is a speck
+        draft.image.height = 120;
         draft.medium.g = g;
         draft.sun.intensity = 0;
         draft.sky.none = true;
@@ -160,12 +160,14 @@ TEST(March, AnEvenSourceIsIntegratedExactly) {
             test::grid_light(stage.scene, stage.particles, 8, 2, [](glm::dvec3) { return 0.5; });
         const Image image = test::marched(stage, light);
         const double scaled = 1 - stage.scene->medium.albedo * light.peak_share;
-        for (int y = 0; y < image.height; y += 3)
-            for (int x = 0; x < image.width; x += 3) {
+        for (int y = 0; y < image.height; y += 7)
+            for (int x = 0; x < image.width; x += 5) {
                 const test::Ray ray = test::ray(stage.view, image, x, y);
                 const double depth = test::line_depth(stage.particles, ray.eye, ray.direction);
                 ASSERT_NEAR(luminance(test::pixel(image, x, y)),
-                            -std::expm1(-scaled * depth) / scaled, 1.5e-3)
+                            -std::expm1(-scaled * depth) / scaled,
+                            2e-3)  // particles are cut where each has a depth of 1e-4
+
                     << x << " " << y;
             }
     }
@@ -182,7 +184,7 @@ TEST(March, RestAndPeakAreThePhaseFunction) {
             for (int i = 0; i <= 180; ++i) {
                 const double angle = i * std::numbers::pi / 180;
                 const double ahead = 2 * std::sin(angle / 2), behind = 2 * std::cos(angle / 2);
-                double sum = rest_of_phase(medium, peak, ahead, behind);
+                double sum = rest_of_phase(rest_of(medium, peak), ahead, behind);
                 if (table.columns > 0) {
                     const RowAt row = row_at(table, ahead, behind);
                     const auto at =
@@ -275,8 +277,8 @@ TEST(March, ThreadsDoNotShow) {
 
 TEST(March, FinerStepsChangeLessThanTheError) {
     SceneDraft draft = transparent(test::table_4_4());
-    draft.image.width = 160;
-    draft.image.height = 120;
+    draft.image.width = 80;
+    draft.image.height = 60;
     for (const double elevation : {40.0, -5.0}) {
         draft.sun.elevation = elevation;
         const test::Stage stage = test::stage(draft);
@@ -285,7 +287,7 @@ TEST(March, FinerStepsChangeLessThanTheError) {
             [](glm::dvec3 p) { return 1 + 0.5 * std::sin(p.x) * std::sin(1.3 * p.z); });
         light.sun = test::exact_sun(stage.scene, stage.particles, 48);
         const Image coarse = test::marched(stage, light, 2, {0.01});
-        const Image fine = test::marched(stage, light, 2, {0.0001});
+        const Image fine = test::marched(stage, light, 2, {0.001});
         double square = 0, mean = 0;
         for (std::size_t i = 0; i < coarse.pixels.size(); ++i) {
             if (i % 4 == 3) continue;
