@@ -2,6 +2,7 @@
 // usage, 3 a scene that cannot be, 4 could not render, 5 could not read or write.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,12 +21,29 @@ struct RenderCommand {
     std::string output;
     // Instead of what the document says.
     std::optional<int> width, height;
-    std::string format;      // "", "png", "exr"
-    std::string background;  // "", "sky", "transparent"
+    std::string format;               // "", "png", "exr"
+    std::string background;           // "", "sky", "transparent"
+    std::optional<std::string> rung;  // at most one of these three
+    std::optional<double> error, time_ms;
     int threads = 1;
     DeviceChoice device = DeviceChoice::kAuto;
 };
 int run_render(const RenderCommand& command);
+
+struct AccuracyCommand {
+    std::vector<std::string> scenes;
+    std::vector<std::string> outputs;
+    std::string format;           // "", "json", "csv", "png"
+    std::string theme = "light";  // or "dark"
+    double scale = 1;             // of the plot
+    int side = 128;               // pixels of the reference's longer side
+    std::uint32_t samples = 384;
+    std::vector<std::string> rungs;  // empty: all but truth
+    int runs = 4;
+    int threads = 1;
+    DeviceChoice device = DeviceChoice::kAuto;
+};
+int run_accuracy(const AccuracyCommand& command);
 
 struct ParticlesCommand {
     std::string scene;

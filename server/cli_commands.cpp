@@ -1,17 +1,15 @@
-#include <strings.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdio>
 
 #include "core/formats/awn.h"
 #include "core/formats/image_file.h"
 #include "core/formats/particle_files.h"
 #include "core/generate/generate.h"
+#include "core/light/machine_speed.h"
 #include "core/pipeline.h"
 #include "core/scene/validate.h"
 #include "server/cli.h"
 #include "server/cli_files.h"
+#include "server/cli_support.h"
 #include "server/json.h"
 #include "server/problem.h"
 
@@ -19,65 +17,6 @@ namespace awan {
 namespace {
 
 constexpr std::size_t kPiece = limits::kParticlesPerPiece;
-
-// One line that is overwritten, on a terminal only.
-class Progress {
-  public:
-    Progress() : shown_(isatty(STDERR_FILENO) == 1) {}
-    ~Progress() {
-        if (shown_) std::fputs("\r\033[K", stderr);
-    }
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
-    void say(const char* what) const {
-        if (!shown_) return;
-        std::fprintf(stderr, "\r\033[Kawan: %s ...", what);
-        std::fflush(stderr);
-    }
-
-  private:
-    bool shown_;
-};
-
-int bad_usage(const std::string& message) {
-    std::fprintf(stderr, "awan: %s\n", message.c_str());
-    return kExitUsage;
-}
-
-// The format an output is written in: its extension, or --format, which must agree with it.
-// For standard output: --format, or `otherwise`.
-Result<std::string> output_format(const std::string& output, const std::string& format,
-                                  const std::vector<std::string>& known,
-                                  const std::string& otherwise) {
-    std::string all;
-    for (const std::string& name : known) all += (all.empty() ? "." : ", .") + name;
-    const auto unknown = [&](const std::string& what) {
-        return Error{ErrorCode::kIo, "", what + "; this command writes " + all};
-    };
-    if (output == "-") return format.empty() ? otherwise : format;
-    for (const std::string& name : known) {
-        const std::string extension = "." + name;
-        if (output.size() <= extension.size() ||
-            strcasecmp(output.c_str() + output.size() - extension.size(), extension.c_str()) != 0)
-            continue;
-        if (!format.empty() && format != name)
-            return unknown("-o " + output + " and --format " + format + " contradict each other");
-        return name;
-    }
-    // Devices and pipes have no extension, but a format may be named.
-    if (!format.empty() && output.rfind('.') == std::string::npos) return format;
-    return unknown("-o " + output + ": unknown extension");
-}
-
-bool binary_to_terminal(const std::string& output) {
-    return output == "-" && isatty(STDOUT_FILENO) == 1;
-}
-
-Result<Scene> read_valid_scene(const std::string& path) {
-    auto draft = read_scene_file(path);
-    if (!draft) return draft.error();
-    return validate(std::move(draft).value());
-}
 
 Status write_particles(const std::string& path, const std::string& format,
                        const ParticleSet& particles, std::uint64_t seed) {
@@ -101,12 +40,18 @@ Status write_particles(const std::string& path, const std::string& format,
 }
 
 Result<std::string> render_bytes(const Scene& scene, const RenderCommand& command) {
-    const Progress progress;
+    ProgressLine progress;
+    progress.say("planning");
+    const MachineSpeed speed = measure_speed();
+    auto planned = plan_scene(scene, command.threads, Deadline{}, speed);
+    if (!planned) return planned.error();
+    std::optional<Device> device;
     progress.say("opening the renderer");
-    auto device = Device::open(command.device);
-    if (!device) return device.error();
-    progress.say("rendering");
-    auto rendered = render_scene(scene, {&*device, command.threads, nullptr, {}, {}}, Deadline{});
+    if (const Status failed = open_for(planned->plan, command.device, device)) return *failed;
+    progress.say("rendering, rung " + planned->plan.rung);
+    const Tools tools{device ? &*device : nullptr, command.threads, nullptr,
+                      [&](double share) { progress.done(share); }, speed};
+    auto rendered = render_planned(scene, *std::move(planned), tools, Deadline{});
     if (!rendered) return rendered.error();
     progress.say("encoding");
     const ImageSettings& image = scene->image;
@@ -117,20 +62,14 @@ Result<std::string> render_bytes(const Scene& scene, const RenderCommand& comman
 
 }  // namespace
 
-int report_error(const std::string& subject, const Error& error) {
-    std::string line = "awan: ";
-    if (error.code != ErrorCode::kIo && !subject.empty()) line += subject + ": ";
-    if (!error.pointer.empty()) line += error.pointer + ": ";
-    std::fprintf(stderr, "%s%s\n", line.c_str(), error.message.c_str());
-    return exit_code_of(error.code);
-}
-
 int run_render(const RenderCommand& command) {
     auto draft = read_scene_file(command.scene);
     if (!draft) return report_error(command.scene, draft.error());
     ImageSettings& image = draft->image;
     if (command.width) image.width = *command.width;
     if (command.height) image.height = *command.height;
+    if (command.rung || command.error || command.time_ms)
+        draft->accuracy = {command.error, command.time_ms, command.rung};
     if (command.background == "sky") image.background = Background::kSky;
     if (command.background == "transparent") image.background = Background::kTransparent;
     const auto format = output_format(command.output, command.format, {"png", "exr"},
@@ -174,7 +113,7 @@ int run_particles(const ParticlesCommand& command) {
 int run_plan(const PlanCommand& command) {
     auto scene = read_valid_scene(command.scene);
     if (!scene) return report_error(command.scene, scene.error());
-    auto planned = plan_scene(*scene, command.threads, Deadline{});
+    auto planned = plan_scene(*scene, command.threads, Deadline{}, measure_speed());
     if (!planned) return report_error(command.scene, planned.error());
     if (const Status failed =
             write_output(command.output, plan_to_json(planned->survey, planned->plan)))

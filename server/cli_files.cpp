@@ -157,6 +157,19 @@ Status OutputFile::commit() {
     return std::nullopt;
 }
 
+Status check_writable(const std::string& path) {
+    if (path == "-") return std::nullopt;
+    struct stat existing {};
+    const bool special = stat(path.c_str(), &existing) == 0 && !S_ISREG(existing.st_mode);
+    if (S_ISDIR(existing.st_mode)) {
+        errno = EISDIR;
+        return io_error("write", path);
+    }
+    const std::string place = special ? path : directory_of(path);
+    if (access(place.c_str(), special ? W_OK : W_OK | X_OK) != 0) return io_error("write", path);
+    return std::nullopt;
+}
+
 Status write_output(const std::string& path, std::string_view bytes) {
     auto file = OutputFile::open(path);
     if (!file) return file.error();

@@ -34,6 +34,9 @@ class OutputFile {
     std::string temporary_;  // "" when written directly
 };
 
+// Whether write_output could begin: said before long work, not after it.
+Status check_writable(const std::string& path);
+
 Status write_output(const std::string& path, std::string_view bytes);
 
 }  // namespace awan

@@ -6,10 +6,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <thread>
 
+#include "core/light/machine_speed.h"
 #include "server/cli.h"
 #include "server/http_connection.h"
 
@@ -61,6 +63,12 @@ void raise_descriptor_limit() {
     setrlimit(RLIMIT_NOFILE, &descriptors);
 }
 
+// In steps of a tenth, so that a server started again most often says the same of the same scene.
+MachineSpeed rounded(MachineSpeed speed) {
+    constexpr double kStep = 1.1;
+    return {std::pow(kStep, std::round(std::log(speed.slowness) / std::log(kStep)))};
+}
+
 void say_renderer(const RenderThread& renderer) {
     renderer.wait_until_started();
     const RenderThread::Info info = renderer.info();
@@ -109,6 +117,7 @@ int run_serve(const ServeCommand& command) {
     RenderThread renderer(command.device, command.queue);
     ServiceOptions service_options;
     service_options.threads = command.threads;
+    service_options.speed = rounded(measure_speed());
     service_options.working = command.working;
     Service service(renderer, metrics, service_options);
 

@@ -136,6 +136,7 @@ bool HttpCodec::exchange(const RequestHead& head, std::string body, Request requ
     request.id = request_id_from(head.header("X-Request-Id"));
     const auto decoded = [&](const httplib::Request& in) {
         request.path = in.path;
+        request.query.assign(in.params.begin(), in.params.end());
         return answer(request);
     };
     return impl_->run(std::move(line), head.http10, decoded, sink);

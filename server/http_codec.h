@@ -37,7 +37,7 @@ class HttpCodec {
     using Answer = std::function<Response(const Request&)>;
 
     // Asks `answer` and writes what it says, with Date, and Connection: close when `close`. Fills
-    // in the request's method, path, headers, body and id; `request` brings the rest. False when
+    // in the request's method, path, query, headers, body and id; `request` brings the rest. False when
     // the answer did not go out whole.
     bool exchange(const RequestHead& head, std::string body, Request request, bool close,
                   const Answer& answer, ByteSink& sink);

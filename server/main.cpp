@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/pipeline.h"
+#include "core/plan/ladder.h"
 #include "core/scene/limits.h"
 #include "server/cli.h"
 #include "server/problem.h"
@@ -44,8 +45,7 @@ void add_device(CLI::App& command, DeviceChoice& choice) {
 }
 
 void add_threads(CLI::App& command, int& threads) {
-    add(command, "--threads", threads, "threads that generate and survey one scene")
-        ->check(CLI::Range(1, 256));
+    add(command, "--threads", threads, "threads that work on one scene")->check(CLI::Range(1, 256));
 }
 
 // A configuration file says for `serve` what its flags would: `queue = 4`, `allow-host = ["a"]`.
@@ -65,9 +65,16 @@ class ServeConfig : public CLI::ConfigTOML {
 
 using Run = std::function<int()>;
 
+std::vector<std::string> rung_names() {
+    std::vector<std::string> names;
+    for (const Rung& rung : ladder()) names.emplace_back(rung.name);
+    return names;
+}
+
 Run add_serve(CLI::App& app) {
     auto command = std::make_shared<ServeCommand>();
     command->working = static_cast<std::size_t>(processors());
+    command->threads = processors();
     auto listen = std::make_shared<std::string>("127.0.0.1:8080");
     CLI::App* serve = app.add_subcommand("serve", "answer HTTP");
     serve->fallthrough();  // --config is the program's, and may stand after `serve`
@@ -111,9 +118,52 @@ Run add_render(CLI::App& app) {
     add(*render, "--background", command->background,
         "sky or transparent, instead of the document's")
         ->check(CLI::IsMember({"sky", "transparent"}));
+    CLI::Option* const rung = add(*render, "--rung", command->rung,
+                                  "a rung of accuracy by name, instead of the document's accuracy");
+    rung->check(CLI::IsMember(rung_names()));
+    CLI::Option* const error =
+        add(*render, "--error", command->error,
+            "the cheapest rung of at most this relative error, instead of the document's accuracy");
+    CLI::Option* const time_ms =
+        add(*render, "--time-ms", command->time_ms,
+            "the best rung within these milliseconds, instead of the document's accuracy");
+    error->check(CLI::PositiveNumber)->excludes(rung)->excludes(time_ms);
+    time_ms->check(CLI::PositiveNumber)->excludes(rung);
     add_threads(*render, command->threads);
     add_device(*render, command->device);
     return [command] { return run_render(*command); };
+}
+
+Run add_accuracy(CLI::App& app) {
+    auto command = std::make_shared<AccuracyCommand>();
+    command->threads = processors();
+    CLI::App* accuracy = app.add_subcommand(
+        "accuracy", "what accuracy costs a scene: every rung's time and its error to the truth");
+    accuracy->add_option("scene", command->scenes, std::string(kSceneHelp) + "; or several")
+        ->required();
+    add(*accuracy, "-o,--output", command->outputs,
+        "a .json, .csv or .png (plot) file, or - for standard output; may be repeated")
+        ->required()
+        ->allow_extra_args(false);
+    add(*accuracy, "--format", command->format, "json, csv or png, for standard output")
+        ->check(CLI::IsMember({"json", "csv", "png"}));
+    add(*accuracy, "--theme", command->theme, "light or dark, of the plot")
+        ->check(CLI::IsMember({"light", "dark"}));
+    add(*accuracy, "--scale", command->scale, "size of the plot, times 1120 pixels")
+        ->check(CLI::Range(1.0, 4.0));
+    add(*accuracy, "--size", command->side, "pixels of the reference's longer side")
+        ->check(CLI::Range(8, 2048));
+    add(*accuracy, "--samples", command->samples, "paths a pixel of the reference")
+        ->check(CLI::Range(2u, 1u << 24));
+    add(*accuracy, "--rungs", command->rungs, "rungs by name, with commas; all but truth")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember(rung_names()));
+    add(*accuracy, "--runs", command->runs, "timed renders of a rung; the first does not count")
+        ->check(CLI::Range(1, 1000));
+    add_threads(*accuracy, command->threads);
+    add_device(*accuracy, command->device);
+    return [command] { return run_accuracy(*command); };
 }
 
 Run add_particles(CLI::App& app) {
@@ -166,11 +216,10 @@ int main(int argc, char** argv) {
                    "flags of serve, one a line: queue = 4 (Env:AWAN_CONFIG)", named);
     app.allow_config_extras(CLI::config_extras_mode::error);
 
-    const std::pair<const char*, Run> commands[] = {{"serve", add_serve(app)},
-                                                    {"render", add_render(app)},
-                                                    {"particles", add_particles(app)},
-                                                    {"plan", add_plan(app)},
-                                                    {"convert", add_convert(app)}};
+    const std::pair<const char*, Run> commands[] = {
+        {"serve", add_serve(app)},       {"render", add_render(app)},
+        {"accuracy", add_accuracy(app)}, {"particles", add_particles(app)},
+        {"plan", add_plan(app)},         {"convert", add_convert(app)}};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -40,7 +40,8 @@ struct Route {
 };
 
 Route find_route(const Service::State& state, std::string_view path) {
-    for (const std::string_view post : {"/v1/particles", "/v1/render", "/v1/plan"})
+    for (const std::string_view post : std::initializer_list<std::string_view>{
+             "/v1/particles", "/v1/render", "/v1/plan", kAccuracyPath})
         if (path == post) return {post, true, true};
     for (const std::string_view get :
          {"/healthz", "/readyz", "/metrics", "/version", "/v1/presets"})

@@ -18,8 +18,9 @@
 namespace awan {
 
 struct Request {
-    std::string method;  // upper case
-    std::string path;    // decoded, without the query
+    std::string method;                                      // upper case
+    std::string path;                                        // decoded, without the query
+    std::vector<std::pair<std::string, std::string>> query;  // decoded names and values
     std::vector<std::pair<std::string, std::string>> headers;
     std::string body;
     std::string id;     // X-Request-Id: the client's if it is 1..128 of [A-Za-z0-9._-], else made
@@ -43,7 +44,8 @@ struct Response {
 };
 
 struct ServiceOptions {
-    int threads = 1;          // for generate and survey of one request
+    int threads = 1;          // for one request: generate, survey, and the rungs without a device
+    MachineSpeed speed;       // for what is predicted
     std::size_t working = 2;  // requests that generate, survey or encode at once; more wait
     std::size_t work_bytes = limits::kWorkBytes;  // server/work_budget.h
 };

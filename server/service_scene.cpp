@@ -1,5 +1,8 @@
-// POST /v1/particles, /v1/render, /v1/plan: from a body to an answer.
+// POST /v1/particles, /v1/render, /v1/plan: from a body to an answer. /v1/accuracy begins here and
+// goes on in service_accuracy.cpp.
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <span>
 
@@ -27,27 +30,19 @@ constexpr std::string_view kPng = "image/png";
 constexpr std::string_view kExr = "image/x-exr";
 constexpr std::array kParticleOffers = {kJson, kCsv, kPly, kAwn};
 constexpr std::array kPlanOffers = {kJson};
+constexpr std::array kAccuracyOffers = {kJson, kCsv, kPng};
 constexpr std::array kImageOffers = {kPng, kExr};
 constexpr std::array kImageOffersExrFirst = {kExr, kPng};
 
 std::span<const std::string_view> offers_of(std::string_view path) {
     if (path == "/v1/particles") return kParticleOffers;
     if (path == "/v1/render") return kImageOffers;
+    if (path == kAccuracyPath) return kAccuracyOffers;
     return kPlanOffers;
 }
 
 double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-Response fail(const Error& error, const Request& request) {
-    Response response = problem(error, request.id);
-    response.abandoned = error.code == ErrorCode::kCancelled;
-    return response;
-}
-
-Response busy(Service::State& state, const Request& request, std::string_view detail) {
-    return problem_retry(429, detail, state.renderer.retry_after_seconds(), request.id);
 }
 
 Result<Scene> read(const Request& request) {
@@ -64,6 +59,11 @@ Response ok(std::string_view content_type, std::string_view etag) {
                         {"Cache-Control", "no-cache"},
                         {"Vary", "Accept"}};
     return response;
+}
+
+// Predicted times, and what is chosen by time, are of this machine.
+std::string speed_text(const Service::State& state) {
+    return std::to_string(state.options.speed.slowness);
 }
 
 // --- /v1/particles
@@ -132,12 +132,13 @@ Response answer_particles(Service::State& state, const Request& request, const S
 // --- /v1/plan
 
 Response answer_plan(Service::State& state, const Request& request, const Scene& scene) {
-    const std::string etag = make_etag({"plan", fingerprint(scene), engine_version()});
+    const std::string etag =
+        make_etag({"plan", fingerprint(scene), engine_version(), speed_text(state)});
     if (none_match_names(joined_header(request, "If-None-Match"), etag))
         return not_modified(etag, true);
     const WorkBudget::Lease lease = state.budget.take(work_bytes(*scene, false));
     if (!lease) return busy(state, request, "other requests use the memory this one needs");
-    auto planned = plan_scene(scene, state.options.threads, request.deadline);
+    auto planned = plan_scene(scene, state.options.threads, request.deadline, state.options.speed);
     if (!planned) return fail(planned.error(), request);
     state.metrics.stage_done("generate", planned->times.generate_ms);
     state.metrics.stage_done("survey", planned->times.survey_ms);
@@ -159,14 +160,8 @@ std::string report(Metrics& metrics, const Timing& timing) {
         {"queue", timing.queue_ms},          {"generate", timing.stages.generate_ms},
         {"survey", timing.stages.survey_ms}, {"light", timing.stages.light_ms},
         {"draw", timing.stages.draw_ms},     {"encode", timing.encode_ms}};
-    std::string header;
-    for (const auto& [name, ms] : stages) {
-        metrics.stage_done(name, ms);
-        char text[64];
-        std::snprintf(text, sizeof text, "%s%s;dur=%.3f", header.empty() ? "" : ", ", name, ms);
-        header += text;
-    }
-    return header;
+    for (const auto& [name, ms] : stages) metrics.stage_done(name, ms);
+    return server_timing(stages);
 }
 
 std::string effects_on(const Plan& plan) {
@@ -182,6 +177,49 @@ Result<std::string> encode(const Image& image, const Scene& scene, std::string_v
     return encode_png(image, scene->image.exposure.value_or(auto_exposure(scene->sun, scene->sky)));
 }
 
+// A number of a header.
+std::string number_text(const char* format, double value) {
+    std::array<char, 64> text{};
+    const int length = std::snprintf(text.data(), text.size(), format, value);
+    return {text.data(), static_cast<std::size_t>(std::min<int>(length, text.size() - 1))};
+}
+
+std::string seconds_text(double ms) {
+    return number_text("%.2g s", ms / 1000);
+}
+
+// Predictions may be wrong by this much; what is still too slow then is refused before it costs
+// anything.
+constexpr double kHopeless = 3;
+
+// Why a plan cannot be carried out before the deadline, and what could be; nothing when it may.
+std::optional<std::string> hopeless(const Plan& plan, const Deadline& deadline) {
+    if (deadline.until == Clock::time_point::max() || plan.predicted.rung == nullptr)
+        return std::nullopt;
+    const double left_ms =
+        std::chrono::duration<double, std::milli>(deadline.until - Clock::now()).count();
+    if (!(plan.predicted.time_ms > kHopeless * std::max(left_ms, 0.0))) return std::nullopt;
+    const RungForecast* best = nullptr;
+    for (const RungForecast& forecast : plan.forecasts)
+        if (forecast.time_ms < 0.7 * left_ms && (best == nullptr || forecast.error < best->error))
+            best = &forecast;
+    std::string detail = "rung " + plan.rung + " would take about " +
+                         seconds_text(plan.predicted.time_ms) + " and " + seconds_text(left_ms) +
+                         " are left; ask for a smaller picture";
+    if (best != nullptr)
+        detail += number_text(", or for \"accuracy\": {\"time_ms\": %.0f}", 0.7 * left_ms) +
+                  ", which would be rung " + best->rung->name;
+    return detail;
+}
+
+void add_predictions(const RungForecast& predicted, Response& response) {
+    if (predicted.rung == nullptr) return;
+    if (std::isfinite(predicted.error))
+        response.headers.emplace_back("Awan-Error", number_text("%.3g", predicted.error));
+    if (std::isfinite(predicted.time_ms))
+        response.headers.emplace_back("Awan-Time", number_text("%.1f", predicted.time_ms));
+}
+
 Response answer_render(Service::State& state, const Request& request, const Scene& scene,
                        double waited_ms, WorkGate::Pass& pass) {
     // What the client prefers; where it has no preference, what the document says.
@@ -194,8 +232,9 @@ Response answer_render(Service::State& state, const Request& request, const Scen
     const RenderThread::Info info = state.renderer.info();
     if (info.state == RenderThread::Info::State::kNoRenderer)
         return problem(503, "there is no renderer here: " + info.reason, "", request.id);
-    const std::string etag = make_etag({"render", fingerprint(scene), engine_version(),
-                                        info.device.renderer, info.device.version, type});
+    const std::string etag =
+        make_etag({"render", fingerprint(scene), engine_version(), info.device.renderer,
+                   info.device.version, type, scene->accuracy.time_ms ? speed_text(state) : ""});
     if (none_match_names(joined_header(request, "If-None-Match"), etag))
         return not_modified(etag, true);
 
@@ -205,8 +244,10 @@ Response answer_render(Service::State& state, const Request& request, const Scen
     if (!lease) return busy(state, request, "other requests use the memory this one needs");
 
     Timing timing;
-    auto planned = plan_scene(scene, state.options.threads, request.deadline);
+    auto planned = plan_scene(scene, state.options.threads, request.deadline, state.options.speed);
     if (!planned) return fail(planned.error(), request);
+    if (const auto reason = hopeless(planned->plan, request.deadline))
+        return problem(504, *reason, "", request.id);
     pass.leave();  // the passes run on the render thread; others may compute meanwhile
     RenderJobResult job =
         state.renderer.render(place, scene, std::move(planned).value(), request.deadline);
@@ -226,12 +267,32 @@ Response answer_render(Service::State& state, const Request& request, const Scen
     response.headers.emplace_back("Server-Timing", report(state.metrics, timing));
     response.headers.emplace_back("Awan-Effects", effects_on(job.rendered->plan));
     response.headers.emplace_back("Awan-Rung", job.rendered->plan.rung);
+    add_predictions(job.rendered->plan.predicted, response);
     response.headers.emplace_back("Awan-Particles", std::to_string(job.rendered->survey.particles));
     response.body = std::move(bytes).value();
     return response;
 }
 
 }  // namespace
+
+Response fail(const Error& error, const Request& request) {
+    Response response = problem(error, request.id);
+    response.abandoned = error.code == ErrorCode::kCancelled;
+    return response;
+}
+
+Response busy(Service::State& state, const Request& request, std::string_view detail) {
+    return problem_retry(429, detail, state.renderer.retry_after_seconds(), request.id);
+}
+
+std::string server_timing(std::span<const std::pair<const char*, double>> milliseconds) {
+    std::string header;
+    for (const auto& [name, ms] : milliseconds) {
+        header += header.empty() ? "" : ", ";
+        header += name + number_text(";dur=%.3f", ms);
+    }
+    return header;
+}
 
 std::optional<Response> check_scene_request(const Request& request) {
     if (!scene_format_of_type(media_type(request.header("Content-Type")))) {
@@ -242,6 +303,8 @@ std::optional<Response> check_scene_request(const Request& request) {
         response.headers.emplace_back("Accept", kSceneTypes);
         return response;
     }
+    if (request.path == kAccuracyPath)
+        if (const Status wrong = check_accuracy_query(request)) return fail(*wrong, request);
     const auto offers = offers_of(request.path);
     if (best_offer(joined_header(request, "Accept"), offers)) return std::nullopt;
     std::string detail = "this can be answered as";
@@ -260,7 +323,11 @@ Response answer_scene_request(Service::State& state, const Request& request) {
 
     if (request.path == "/v1/render") return answer_render(state, request, *scene, waited_ms, pass);
     if (request.path == "/v1/plan") return answer_plan(state, request, *scene);
-    const auto type = best_offer(joined_header(request, "Accept"), kParticleOffers);
+    const auto type = best_offer(joined_header(request, "Accept"), offers_of(request.path));
+    if (request.path == kAccuracyPath) {
+        pass.leave();  // a sweep takes long, and there is one at most: others compute beside it
+        return answer_accuracy(state, request, *scene, *type);
+    }
     return answer_particles(state, request, *scene, *type, pass);
 }
 

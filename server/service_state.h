@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <optional>
+#include <span>
 
 #include "server/pages.h"
 #include "server/service.h"
@@ -35,6 +36,14 @@ class WorkGate {
             inside_ = true;
             return std::nullopt;
         }
+        // Without waiting; false when there is no place.
+        bool try_enter() {
+            const std::lock_guard lock(gate_.mutex_);
+            if (gate_.free_ == 0) return false;
+            --gate_.free_;
+            inside_ = true;
+            return true;
+        }
         void leave() {
             if (!std::exchange(inside_, false)) return;
             const std::lock_guard lock(gate_.mutex_);
@@ -63,6 +72,7 @@ struct Service::State {
     std::atomic<bool> draining{false};
     WorkBudget budget;
     WorkGate gate;
+    WorkGate sweeps{1};  // measurements of accuracy: two at once would measure each other
     const std::vector<Page> pages = make_pages();
     const std::vector<Preset> presets = make_presets();
     std::string presets_json;
@@ -78,5 +88,18 @@ Response not_modified(std::string_view etag, bool varies);
 // The POST routes. `check_scene_request` says what is wrong before the body is looked at.
 std::optional<Response> check_scene_request(const Request& request);
 Response answer_scene_request(Service::State& state, const Request& request);
+
+// POST /v1/accuracy: its query, and its answer as `type`.
+inline constexpr std::string_view kAccuracyPath = "/v1/accuracy";
+Status check_accuracy_query(const Request& request);
+Response answer_accuracy(Service::State& state, const Request& request, const Scene& scene,
+                         std::string_view type);
+
+// An error as an answer; nobody waits for that of a cancelled request.
+Response fail(const Error& error, const Request& request);
+// 429: come again.
+Response busy(Service::State& state, const Request& request, std::string_view detail);
+// `queue;dur=0.100, draw;dur=12.500`, for Server-Timing.
+std::string server_timing(std::span<const std::pair<const char*, double>> milliseconds);
 
 }  // namespace awan

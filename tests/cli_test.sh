@@ -20,7 +20,7 @@ run() {
 }
 
 cat >scene.json <<'END'
-{"cubes":[{"particles":60,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],"image":{"width":64,"height":48}}
+{"cubes":[{"particles":60,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],"image":{"width":64,"height":48},"accuracy":{"rung":"harris"}}
 END
 printf '60\n1\n60, 2, 1, 2, 0, 0, 0, 0.5\n' >layout.awn
 printf '{"cubes":[{"particles":60,"size":[2,-1,2],"center":[0,0,0],"radius":0.5}]}' >impossible.json
@@ -48,6 +48,18 @@ contains "unknown extension" "a.jpeg" "$(cat err)"
 run 2 render scene.json -o a.png --format exr
 run 2 particles scene.json -o a.txt
 run 2 convert scene.json a.png
+run 2 render scene.json -o a.png --rung perfect
+contains "rungs are named" "transport-32" "$(cat err)"
+run 2 render scene.json -o a.png --rung harris --error 0.1
+run 2 render scene.json -o a.png --time-ms 10 --error 0.1
+run 2 render scene.json -o a.png --error 0
+run 2 accuracy scene.json
+run 2 accuracy scene.json -o a.jpeg
+contains "formats are named" ".json, .csv, .png" "$(cat err)"
+run 2 accuracy scene.json -o a.png --theme blue
+run 2 accuracy scene.json -o a.png --rungs harris,perfect
+run 2 accuracy scene.json -o a.png -o a.png
+run 2 accuracy - - -o a.png
 run 2 serve --listen nowhere:port
 contains "bad address" "nowhere:port" "$(cat err)"
 run 2 serve --queue -1
@@ -73,6 +85,10 @@ run 5 plan nowhere.json
 contains "missing" "nowhere.json: No such file" "$(cat err)"
 run 5 plan .
 run 5 particles scene.json -o nowhere/a.csv
+run 5 accuracy scene.json -o nowhere/a.json
+run 3 accuracy scene.json impossible.json -o a.json
+contains "which of them" "awan: impossible.json: /cubes/0/size/1" "$(cat err)"
+same "nothing was written" "" "$(ls a.json 2>/dev/null)"
 run 5 particles scene.json -o /dev/full --format csv
 contains "full" "No space left" "$(cat err)"
 run 0 particles scene.json -o /dev/null --format csv
@@ -149,5 +165,35 @@ contains "alpha" "4 channel" "$(oiiotool --info c.png)"
 run 0 render layout.awn -o d.png --width 64 --height 48
 __EGL_VENDOR_LIBRARY_FILENAMES=/nowhere run 4 render scene.json -o e.png
 same "no file without a renderer" "" "$(ls e.png 2>/dev/null)"
+
+# --- what accuracy costs
+run 0 accuracy scene.json -o acc.json -o acc.csv -o acc.png --samples 16 --size 16 --runs 2
+same "silence" "" "$(cat out err)"
+python3 - <<'END' || fail "accuracy"
+import csv, json
+answer = json.load(open("acc.json"))
+names = [rung["rung"] for rung in answer["rungs"]]
+assert "harris" in names and "transport-64" in names and "truth" not in names, names
+rows = list(csv.DictReader(open("acc.csv")))
+assert [row["rung"] for row in rows] == names
+assert float(rows[0]["time_ms"]) == answer["rungs"][0]["time_ms"]
+END
+contains "plot" "1120 x" "$(oiiotool --info acc.png)"
+run 0 accuracy scene.json layout.awn -o two.csv -o two.png --rungs harris --samples 16 --size 16 --theme dark
+same "scenes in CSV" "scene scene layout" "$(cut -d, -f1 two.csv | tr '\n' ' ' | sed 's/ $//')"
+run 0 accuracy - -o - --format csv --rungs harris --samples 16 --size 16 <scene.json
+same "standard output" 2 "$(wc -l <out)"
+"$awan" accuracy layout.awn -o late.json --samples 100000 2>err &
+sweep=$!
+sleep 0.5
+kill -TERM "$sweep"  # SIGINT is ignored by what a script runs in the background
+wait "$sweep"
+same "interrupted" "" "$(ls -A | grep -e late -e tmp)"
+
+# --- rungs by flag; those that need no renderer do without
+run 0 render scene.json -o f.png --rung transport-16 --width 32 --height 24
+__EGL_VENDOR_LIBRARY_FILENAMES=/nowhere run 0 render scene.json -o f.png --rung transport-16 --width 32 --height 24
+run 0 render scene.json -o f.png --error 0.5
+run 0 render scene.json -o f.png --time-ms 1000
 
 [ "$failures" -eq 0 ] && echo "all well" || exit 1

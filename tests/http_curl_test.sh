@@ -39,7 +39,7 @@ stop() {  # expects exit code $1 after signal $2
 }
 code() { curl -s -o /dev/null -w '%{http_code}' --max-time 20 "$@"; }
 json='Content-Type: application/json'
-scene='{"cubes":[{"particles":60,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],"image":{"width":64,"height":48}}'
+scene='{"cubes":[{"particles":60,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],"image":{"width":64,"height":48},"accuracy":{"rung":"harris"}}'
 
 start --software
 
@@ -100,6 +100,19 @@ assert answer["count"] == 60 == len(answer["particles"])' || fail "particles as 
 same "lines of CSV" 61 "$(curl -s -H "$json" -H 'Accept: text/csv' -d "$scene" "$url/v1/particles" | wc -l)"
 curl -s -H "$json" -H 'Accept: text/x-awn' -d "$scene" "$url/v1/particles" >"$work/a.awn"
 same "a layout" 200 "$(code -H 'Content-Type: text/x-awn' --data-binary @"$work/a.awn" "$url/v1/plan")"
+contains "what is predicted" 'Awan-Error: ' "$(cat "$work/head")"
+curl -s -D "$work/head" -H "$json" -d "$scene" "$url/v1/accuracy?samples=16&size=16&runs=2" | python3 -c '
+import json, sys
+answer = json.load(sys.stdin)
+assert answer["reference"]["width"] == 16, answer
+times = [rung["time_ms"] for rung in answer["rungs"]]
+assert len(times) >= 8 and times == sorted(times), answer
+assert not answer["left_out"], answer' || fail "accuracy as JSON"
+contains "accuracy is not kept" 'Cache-Control: no-store' "$(cat "$work/head")"
+curl -s -H "$json" -H 'Accept: image/png' -d "$scene" \
+    "$url/v1/accuracy?theme=dark&rungs=harris,transport-16&samples=16&size=16&runs=2" -o "$work/plot.png"
+contains "plot" "1120 x" "$(oiiotool --info "$work/plot.png")"
+same "no such query" 400 "$(code -H "$json" -d "$scene" "$url/v1/accuracy?colour=red")"
 same "a form" 415 "$(code -d "$scene" "$url/v1/plan")"
 same "no JSON" 400 "$(code -H "$json" -d '{' "$url/v1/plan")"
 contains "pointer" '"pointer":"/cubes/0/size/1"' "$(curl -s -H "$json" \

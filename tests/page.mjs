@@ -216,6 +216,53 @@ const tests = {
     assert.ok(await page.getByLabel("Turn, °").isVisible());
   },
 
+  async "chooses accuracy by error, by time and by name, and shows what it costs"(page) {
+    await choose(page, "cumulus");
+    const panel = group(page, "Accuracy");
+    if (!(await panel.evaluate((details) => details.open))) await panel.locator("summary").click();
+    const shown = () => panel.locator(".field").evaluateAll((fields) => fields.filter((f) => !f.hidden).map((f) => f.dataset.pointer));
+    assert.deepEqual(await shown(), ["/accuracy", "/accuracy/error"]);
+    await page.waitForFunction(() => /predicted: error .* %, time/.test(document.querySelector("#predicted").textContent));
+    const scene = async (change) => { // small: this is about the controls
+      const json = group(page, "JSON");
+      if (!(await json.evaluate((details) => details.open))) await json.locator("summary").click();
+      await page.waitForFunction(() => document.querySelector("#json").value !== "");
+      await page.locator("#json").fill(JSON.stringify(change(JSON.parse(await page.locator("#json").inputValue()))));
+      await json.locator("summary").click();
+      await settled(page);
+    };
+    await scene((document) => ({ ...document, image: { width: 64, height: 48 } }));
+    await panel.getByLabel("Chosen by").selectOption("time_ms");
+    await panel.getByLabel("Time, ms").fill("5000");
+    await settled(page);
+    assert.deepEqual(await shown(), ["/accuracy", "/accuracy/time_ms"]);
+    assert.deepEqual(renders.at(-1).scene.accuracy, { time_ms: 5000 });
+    await panel.getByLabel("Chosen by").selectOption("rung");
+    await panel.getByLabel("Rung").selectOption("additive");
+    await settled(page);
+    assert.deepEqual(renders.at(-1).scene.accuracy, { rung: "additive" });
+    assert.equal(await page.textContent("#rung"), "additive");
+    assert.match(await page.textContent("#error"), /%/);
+    assert.match(await page.textContent("#time"), /ms of .* m?s/);
+
+    // Begun, cancelled, begun anew: only the last comes.
+    const button = page.getByRole("button", { name: "What does accuracy cost?" });
+    await button.click();
+    await page.waitForSelector('#sweep[open][aria-busy="true"]');
+    assert.match(await page.textContent("#sweep-busy"), /truth/);
+    await page.getByRole("button", { name: "Cancel" }).click();
+    await page.waitForSelector("#sweep:not([open])", { state: "attached" });
+    assert.equal(await page.textContent("#alert"), "", "to cancel is no error");
+    await scene((document) => ({ ...document, image: { width: 16, height: 12 } }));
+    await page.waitForTimeout(300); // until the service has seen that nobody waits for the first
+    await button.click();
+    await page.waitForFunction(() => document.querySelector("#sweep-plot").naturalWidth === 1120, null, { timeout: 45_000 });
+    await page.waitForSelector('#sweep[aria-busy="false"]');
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("#sweep:not([open])", { state: "attached" });
+    await choose(page, "cumulus");
+  },
+
   async "works by keyboard alone"(page) {
     await page.goto(`${origin}/#cumulus`);
     await page.reload();

@@ -56,11 +56,16 @@ TEST_F(ServiceTest, ContractNamesEveryRoute) {
     const Response contract = get("/openapi.json");
     ASSERT_EQ(contract.status, 200);
     EXPECT_EQ(contract.header("Content-Type"), "application/json");
-    for (const char* path :
-         {"/v1/particles", "/v1/render", "/v1/plan", "/v1/presets", "/v1/presets/{name}",
-          "/healthz", "/readyz", "/metrics", "/version", "/openapi.json", "/"})
+    for (const char* path : {"/v1/particles", "/v1/render", "/v1/plan", "/v1/accuracy",
+                             "/v1/presets", "/v1/presets/{name}", "/healthz", "/readyz", "/metrics",
+                             "/version", "/openapi.json", "/"})
         EXPECT_NE(contract.body.find("    \"" + std::string(path) + "\": {"), std::string::npos)
             << path;
+    std::string rungs;
+    for (const Rung& rung : ladder())
+        rungs +=
+            (rungs.empty() ? "          \"" : ",\n          \"") + std::string(rung.name) + '"';
+    EXPECT_NE(contract.body.find("\"enum\": [\n" + rungs + "\n        ]"), std::string::npos);
     EXPECT_NE(contract.body.find("\"version\": \"" + std::string(engine_version()) + "\""),
               std::string::npos);
 }

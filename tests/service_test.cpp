@@ -15,7 +15,7 @@ namespace {
 
 TEST_F(ServiceTest, UnknownPathsAre404) {
     for (const char* path :
-         {"/nowhere", "/v1", "/v1/", "/v1/render/", "/v1/accuracy", "/v1/jobs", "/v1/jobs/1",
+         {"/nowhere", "/v1", "/v1/", "/v1/render/", "/v1/accuracy/", "/v1/jobs", "/v1/jobs/1",
           "/v1/presets/", "/v1/presets/none", "/presets/cumulus.json", "", "*"}) {
         expect_problem(get(path), 404);
         expect_problem(post(path), 404);
@@ -158,7 +158,8 @@ TEST_F(ServiceTest, RendersAreDescribedByTheirHeaders) {
     EXPECT_EQ(png.header("Awan-Rung"), "harris");
     EXPECT_EQ(png.header("Awan-Particles"), "20");
     EXPECT_NE(png.header("Awan-Effects").find("self_shadow"), std::string_view::npos);
-    EXPECT_EQ(png.header("Awan-Error"), "") << "nothing is predicted yet";
+    EXPECT_GT(std::stod(std::string(png.header("Awan-Error"))), 0) << "of harris, as predicted";
+    EXPECT_GT(std::stod(std::string(png.header("Awan-Time"))), 0);
     EXPECT_EQ(png.header("Vary"), "Accept");
     const std::string timing(png.header("Server-Timing"));
     std::size_t at = 0;
@@ -184,7 +185,7 @@ TEST_F(ServiceTest, AcceptChoosesTheImageAndElseTheDocument) {
 
 TEST_F(ServiceTest, TagsNameTheAnswerAndNotItsSpelling) {
     const std::string respelled =
-        R"({ "seed": 7.0, "image": {"height": 8, "width": 16}, "fill": "uniform",)"
+        R"({ "seed": 7.0, "accuracy": { "rung" : "harris" }, "image": {"height": 8, "width": 16}, "fill": "uniform",)"
         R"("cubes":[{"radius":5e-1,"size":[2,1,2],"particles":20,"center":[0,0,0]}]})";
     std::set<std::string> tags;
     for (const char* path : {"/v1/particles", "/v1/render", "/v1/plan"}) {
@@ -200,6 +201,21 @@ TEST_F(ServiceTest, TagsNameTheAnswerAndNotItsSpelling) {
     tags.insert(
         std::string(post("/v1/particles", kScene, {{"Accept", "text/csv"}}).header("ETag")));
     EXPECT_EQ(tags.size(), 5u) << "every answer has a tag of its own";
+}
+
+TEST_F(ServiceTest, WhatCannotBeDoneInTimeIsRefusedAtOnce) {
+    Request request =
+        make_request("POST", "/v1/render",
+                     R"({"cubes":[{"particles":20,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],)"
+                     R"("image":{"width":4096,"height":4096},"accuracy":{"rung":"truth"}})");
+    request.deadline.until = Deadline::Clock::now() + std::chrono::seconds(10);
+    const Response refused = service.answer(request);
+    expect_problem(refused, 504);
+    for (const char* const said : {"rung truth would take about", "are left", "smaller picture"})
+        EXPECT_NE(refused.body.find(said), std::string::npos) << refused.body;
+    EXPECT_EQ(renderer.begun(), 0);
+    request.deadline.until = Deadline::Clock::time_point::max();
+    EXPECT_EQ(service.answer(request).status, 200) << "who waits for ever may ask for anything";
 }
 
 // --- load

@@ -52,6 +52,12 @@ export async function particles(text, accept) {
   return (await post("/v1/particles", text, { accept })).blob();
 }
 
+// A PNG of every rung's error over its time; takes up to half a minute.
+export async function accuracyPlot(text, { dark, signal }) {
+  const theme = dark ? "dark" : "light";
+  return (await post(`/v1/accuracy?theme=${theme}`, text, { accept: "image/png", signal })).blob();
+}
+
 // { blob, figures }: the picture and what the answer's headers say about it.
 export async function render(text, { accept = "image/png", signal } = {}) {
   const sent = performance.now();
@@ -65,6 +71,8 @@ export async function render(text, { accept = "image/png", signal } = {}) {
       roundTripMs: performance.now() - sent,
       particles: header("Awan-Particles"),
       rung: header("Awan-Rung"),
+      error: header("Awan-Error"), // both as predicted
+      timeMs: header("Awan-Time"),
       effects: list === null ? null : list.split(",").map((name) => name.trim()).filter(Boolean),
       timing: serverTiming(header("Server-Timing") ?? ""),
     },

@@ -1,5 +1,6 @@
 // What the service says about the picture: how many particles, what ran and why, where time went.
 
+import { percent } from "./accuracy.js";
 import { at } from "./document.js";
 import { byId, el, plain } from "./dom.js";
 
@@ -19,12 +20,15 @@ export function createFigures(store) {
   let choices = []; // [{ name, input }]
 
   // After every picture, small ones too.
-  function picture({ particles, rung, effects, timing, roundTripMs }, width, height) {
+  function picture({ particles, rung, error, timeMs, effects, timing, roundTripMs }, width, height) {
     if (particles !== null) byId("particles").textContent = Number(particles).toLocaleString("en");
     if (rung !== null) byId("rung").textContent = rung;
     if (effects !== null) byId("effects").textContent = effects.map(words).join(", ") || "none";
     byId("pixels").textContent = `${width} × ${height}`;
     byId("total").textContent = milliseconds(roundTripMs);
+    byId("error").textContent = error === null ? "–" : percent(Number(error));
+    const took = timing.filter(({ name }) => ["generate", "survey", "light", "draw"].includes(name)).reduce((sum, { ms }) => sum + ms, 0);
+    byId("time").textContent = timeMs === null ? milliseconds(took) : `${milliseconds(took)} of ${milliseconds(Number(timeMs))}`;
 
     const inside = timing.reduce((sum, { ms }) => sum + ms, 0);
     // What the service did not account for: the way there and back.
@@ -39,7 +43,7 @@ export function createFigures(store) {
   }
 
   // One row an effect: whether it runs, why, and a choice that overrides the plan.
-  function plan({ survey, effects, rung, predicted }) {
+  function plan({ survey, effects, rung }) {
     if (survey?.particles !== undefined) byId("particles").textContent = Number(survey.particles).toLocaleString("en");
     if (rung) byId("rung").textContent = rung;
     const focused = document.activeElement?.dataset?.effect;
@@ -57,14 +61,10 @@ export function createFigures(store) {
         el("td", { class: "reason" }, reason ?? ""));
     });
     const facts = [...figuresOf(survey ?? {})];
-    const expected = [];
-    if (typeof predicted?.error === "number") expected.push(`expected error ${plain(100 * predicted.error, 2)} %`);
-    if (typeof predicted?.time_ms === "number") expected.push(`expected time ${milliseconds(predicted.time_ms)}`);
     body.replaceChildren(
       el("div", { class: "table-scroll" }, el("table", { class: "effects" },
         el("thead", {}, el("tr", {}, ...["effect", "runs", "choice", "because"].map((h) => el("th", { scope: "col" }, h)))),
         el("tbody", {}, ...rows))),
-      ...(expected.length ? [el("p", {}, expected.join(", "))] : []),
       el("h3", {}, "Measured"),
       el("dl", { class: "facts" }, ...facts.map(([name, value]) =>
         el("div", {}, el("dt", {}, name), el("dd", {}, typeof value === "number" ? plain(value, 4) : value ? "yes" : "no")))));

@@ -1,6 +1,7 @@
 // The page: puts the parts together. Everything follows from the document (document.js): an edit
 // refreshes the controls and asks for a picture; nothing else holds state that matters.
 
+import { createAccuracyPanel } from "./accuracy.js";
 import * as api from "./api.js";
 import { boundsOfCubes } from "./camera.js";
 import { group } from "./controls.js";
@@ -69,6 +70,7 @@ byId("go-to-field").addEventListener("click", () => {
 
 const camera = cameraPanel(store, bounds);
 const panels = createPanels(store, camera);
+const accuracy = createAccuracyPanel(store, { failed: fail, open: window.matchMedia("(min-width: 60rem)").matches });
 const layout = createLayoutTable(store);
 const figures = createFigures(store);
 const stage = createStage(camera.nudge);
@@ -77,7 +79,7 @@ const files = createFiles(store, { name: () => presetName || "cloud", failed: fa
 const text = el("textarea", { id: "json", rows: 24, spellcheck: "false", autocomplete: "off", "aria-label": "Scene document as JSON" });
 const jsonGroup = group("JSON", "", false, el("p", { class: "why" }, "The whole document. What is written here is what is sent."), text);
 jsonGroup.addEventListener("toggle", () => refreshText());
-byId("groups").append(...panels.map((panel) => panel.element), layout.element, jsonGroup);
+byId("groups").append(...panels.map((panel) => panel.element), accuracy.element, layout.element, jsonGroup);
 
 text.addEventListener("input", () => {
   try {
@@ -109,6 +111,7 @@ async function askPlan() {
     const answer = await api.plan(store.text, { signal: planFlight.signal });
     if (answer.survey?.bounds) measured = { scene, bounds: answer.survey.bounds };
     figures.plan(answer);
+    accuracy.plan(answer);
     panels.forEach((panel) => panel.refresh());
   } catch (error) {
     if (error.name !== "AbortError") say(`No plan: ${error.message}`);
@@ -149,6 +152,7 @@ const loop = createRenderLoop({
 
 function refreshControls() {
   panels.forEach((panel) => panel.refresh());
+  accuracy.refresh();
   layout.refresh();
   figures.refresh();
   files.refresh();

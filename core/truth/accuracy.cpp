@@ -276,7 +276,7 @@ Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOption
     report.exposure = exposure_of(scene);
 
     steps.begin("planning", 0);
-    auto planned = plan_scene(scene, options.threads, deadline);
+    auto planned = plan_scene(scene, options.threads, deadline, options.speed);
     if (!planned) return planned.error();
     const PictureSize size =
         fitted_size(report.width, report.height, std::max(options.reference_side, 1));

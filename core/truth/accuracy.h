@@ -45,10 +45,11 @@ struct AccuracyReport {
 
 struct AccuracyOptions {
     int threads = 1;
+    MachineSpeed speed;  // for what is predicted
     int runs = 4;  // timed renders of each rung; the first of each is not counted, unless it is the
                    // only one or takes so long that it has to be
     int reference_side = 128;        // pixels of the reference's longer side, at most the scene's
-    std::uint32_t samples = 1024;    // paths a pixel of the reference
+    std::uint32_t samples = 384;     // paths a pixel of the reference
     std::vector<std::string> rungs;  // EMPTY: all but truth, which is the reference
     // About how long all of it may take; 0: as long as it takes. Half of it goes to the reference,
     // which gets as many of the samples as fit; rungs that are then too slow are left out.

@@ -1,0 +1,140 @@
+// How accurate the picture shall be: the choice, what is predicted of it, and what accuracy costs
+// this scene, measured on request.
+
+import * as api from "./api.js";
+import { group, select, slider } from "./controls.js";
+import { at } from "./document.js";
+import { byId, el, plain } from "./dom.js";
+
+const WAYS = [
+  ["error", "the largest error it may have"],
+  ["time_ms", "the longest time it may take"],
+  ["rung", "its name"],
+];
+// What a way begins with, when it is chosen.
+const FIRST = { error: 0.1, time_ms: 500, rung: "harris" };
+
+export const percent = (error) => `${plain(100 * error, 2)} %`;
+export const duration = (ms) => (ms >= 1000 ? `${plain(ms / 1000, 2)} s` : `${plain(ms, 2)} ms`);
+
+const isDark = () => window.matchMedia("(prefers-color-scheme: dark)").matches;
+
+// The plot of what accuracy costs, in a dialog that can be closed while it is made.
+function createSweep(store, failed) {
+  const dialog = byId("sweep");
+  const image = byId("sweep-plot");
+  const busy = byId("sweep-busy");
+  let flight = null;
+  let url = null;
+
+  function forget() {
+    flight?.abort();
+    flight = null;
+    image.hidden = true;
+    image.removeAttribute("src");
+    if (url) URL.revokeObjectURL(url);
+    url = null;
+  }
+  async function begin() {
+    forget();
+    const mine = new AbortController();
+    flight = mine;
+    const started = performance.now();
+    const tick = () => {
+      busy.textContent = `Tracing the truth and timing every rung: ${Math.round((performance.now() - started) / 1000)} s, usually under 30 s.`;
+    };
+    tick();
+    const clock = setInterval(tick, 1000);
+    busy.hidden = false;
+    dialog.setAttribute("aria-busy", "true");
+    byId("sweep-close").textContent = "Cancel";
+    dialog.showModal();
+    try {
+      const blob = await api.accuracyPlot(store.text, { dark: isDark(), signal: mine.signal });
+      url = URL.createObjectURL(blob);
+      image.src = url;
+      await image.decode().catch(() => {});
+      image.hidden = false;
+      busy.hidden = true;
+    } catch (error) {
+      if (mine.signal.aborted) return; // closed, or begun anew
+      dialog.close();
+      failed(error);
+    } finally {
+      clearInterval(clock);
+      if (flight === mine) {
+        flight = null;
+        dialog.setAttribute("aria-busy", "false");
+        byId("sweep-close").textContent = "Close";
+      }
+    }
+  }
+  byId("sweep-close").addEventListener("click", () => dialog.close());
+  dialog.addEventListener("close", forget); // by Escape, too
+  return { begin };
+}
+
+export function createAccuracyPanel(store, { failed, open }) {
+  const way = () => WAYS.map(([name]) => name).find((name) => at(store.scene, `/accuracy/${name}`) !== undefined) ?? "error";
+  const value = (name) => at(store.scene, `/accuracy/${name}`) ?? FIRST[name];
+  const choose = (name, chosen, options) =>
+    store.update((scene) => ({ ...scene, accuracy: { [name]: chosen } }), { key: `/accuracy/${name}`, ...options });
+
+  const fields = {
+    error: slider(store, {
+      label: "Error", pointer: "/accuracy/error", min: 0.2, max: 200, log: true, unit: "%",
+      get: () => Number((100 * value("error")).toPrecision(10)),
+      set: (shown, options) => choose("error", Number((shown / 100).toPrecision(10)), options),
+    }),
+    time_ms: slider(store, {
+      label: "Time", pointer: "/accuracy/time_ms", min: 1, max: 20000, log: true, unit: "ms",
+      get: () => value("time_ms"), set: (ms, options) => choose("time_ms", ms, options),
+    }),
+    rung: select(store, {
+      label: "Rung", pointer: () => "/accuracy/rung", choices: [],
+      get: () => value("rung"), set: (name) => choose("rung", name),
+    }),
+  };
+  const by = select(store, {
+    label: "Chosen by", pointer: () => "/accuracy", choices: WAYS,
+    get: way, set: (name) => choose(name, FIRST[name]),
+  });
+  const rungs = fields.rung.element.querySelector("select");
+  const predicted = el("p", { class: "why", id: "predicted" });
+  const simulates = el("p", { class: "why" });
+  const sweep = createSweep(store, failed);
+  const ask = el("button", { type: "button", id: "ask-accuracy", onclick: sweep.begin }, "What does accuracy cost?");
+
+  // A rung that a document names is there before the first plan, and if there is none of that name.
+  function offer(names) {
+    const all = [...new Set([...names, value("rung")])];
+    if (all.join() === [...rungs.options].map((option) => option.value).join()) return;
+    rungs.replaceChildren(...all.map((name) => el("option", { value: name }, name)));
+  }
+  let known = [];
+
+  return {
+    element: group("Accuracy", "/accuracy", open, by.element, fields.error.element, fields.time_ms.element,
+      fields.rung.element, predicted, simulates, ask),
+    refresh() {
+      offer(known);
+      by.refresh();
+      for (const [name, field] of Object.entries(fields)) {
+        field.element.hidden = name !== way();
+        field.refresh();
+      }
+    },
+    // The answer of /v1/plan.
+    plan({ rung, rung_reason: reason, predicted: expected, rungs: all }) {
+      known = (all ?? []).map((one) => one.rung);
+      const said = [];
+      if (typeof expected?.error === "number") said.push(`error ${percent(expected.error)}`);
+      if (typeof expected?.time_ms === "number") said.push(`time ${duration(expected.time_ms)}`);
+      predicted.textContent = said.length ? `${rung}, predicted: ${said.join(", ")}.` : "";
+      const what = (all ?? []).find((one) => one.rung === rung)?.simulates ?? "";
+      simulates.textContent = [what, reason].filter(Boolean).map((text) => text[0].toUpperCase() + text.slice(1)).join(". ") + (what || reason ? "." : "");
+      offer(known);
+      fields.rung.refresh();
+    },
+  };
+}
