@@ -16,11 +16,12 @@ namespace awan::test {
 
 // Exact, in double, by erfc of arguments of one sign; direction unit.
 inline double half_normal(double low, double high) {  // integral of the normal density
-    if (low > 0) return 0.5 * (std::erfc(low / std::numbers::sqrt2) - std::erfc(high / std::numbers::sqrt2));
+    if (low > 0)
+        return 0.5 * (std::erfc(low / std::numbers::sqrt2) - std::erfc(high / std::numbers::sqrt2));
     return 0.5 * (std::erfc(-high / std::numbers::sqrt2) - std::erfc(-low / std::numbers::sqrt2));
 }
-inline double line_depth(const ParticleSet& set, const glm::dvec3& from, const glm::dvec3& direction,
-                         double least = 0, double most = 1e300) {
+inline double line_depth(const ParticleSet& set, const glm::dvec3& from,
+                         const glm::dvec3& direction, double least = 0, double most = 1e300) {
     double depth = 0;
     for (std::size_t i = 0; i < set.size(); ++i) {
         const glm::dvec3 q = set.center[i] - from;
@@ -67,7 +68,9 @@ inline SunDepth exact_sun(const Scene& scene, const ParticleSet& set, int nodes,
 }
 
 // The share of scattering in the peak, with moments 0..3 on the grid.
-inline double share_of(const Medium& medium) { return std::pow(medium.g, 4); }
+inline double share_of(const Medium& medium) {
+    return std::pow(medium.g, 4);
+}
 
 // A grid whose source function is value(p) (for each band) in all directions.
 template <typename Value>
@@ -86,12 +89,11 @@ TransportLight grid_light(const Scene& scene, const ParticleSet& set, int cells,
         band.moments.resize(n * n * n);
         for (std::size_t c = 0; c < n * n * n; ++c) {
             const glm::dvec3 p =
-                light.origin + light.cell * (glm::dvec3(static_cast<double>(c % n),
-                                                        static_cast<double>(c / n % n),
-                                                        static_cast<double>(c / n / n)) +
-                                             0.5);
-            band.moments[c][0] =
-                static_cast<float>(value(p) * std::sqrt(4 * std::numbers::pi));
+                light.origin +
+                light.cell * (glm::dvec3(static_cast<double>(c % n), static_cast<double>(c / n % n),
+                                         static_cast<double>(c / n / n)) +
+                              0.5);
+            band.moments[c][0] = static_cast<float>(value(p) * std::sqrt(4 * std::numbers::pi));
         }
     }
     return light;

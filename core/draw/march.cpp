@@ -136,6 +136,7 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     march.to_sun = sun_direction(scene->sun);
     march.sun = glm::vec3(scene->sun.color * scene->sun.intensity);
     march.scaled = static_cast<float>(1 - scene->medium.albedo * march.peak.share);
+    march.rest = rest_of(march.medium, march.peak);
     // Steps cost about the square of their length.
     const double finer = std::sqrt(std::clamp(settings.step_error, 1e-5, 0.1) / 0.01);
     march.step = seen.empty() ? 1 : longest_step(light, seen) * std::min(finer, 1.5);

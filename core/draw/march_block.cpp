@@ -22,14 +22,13 @@ AWAN_INLINE void measure_body(const BlockParticles& p, const Floats* ray, const 
     measure(p, ray, spread, a);
 }
 AWAN_INLINE void deposit_body(const BlockParticles& p, const std::vector<ActiveParticle>& active,
-                              int which, const Chunk& chunk, Tile& tile) {
-    for (auto& sample : tile.profile) sample = Floats{};
-    tile.first = kChunk;
-    tile.last = -1;
-    for (const ActiveParticle& a : active) {
-        const float half = a.half[which];
-        if (half > 0.0f) deposit(p, a, half, chunk, tile);
+                              const Chunk& chunk, Tile* tiles) {
+    for (int t = 0; t < kTiles; ++t) {
+        for (auto& sample : tiles[t].profile) sample = Floats{};
+        tiles[t].first = kChunk;
+        tiles[t].last = -1;
     }
+    for (const ActiveParticle& a : active) deposit(p, a, chunk, tiles);
 }
 AWAN_INLINE void ratio_body(const BlockParticles& p, float step,
                             std::vector<ActiveParticle>& active) {
@@ -48,39 +47,38 @@ AWAN_INLINE void ratio_body(const BlockParticles& p, float step,
 struct Kernels {
     void (*measure)(const BlockParticles&, const Floats*, const Floats&, ActiveParticle&);
     void (*ratio)(const BlockParticles&, float, std::vector<ActiveParticle>&);
-    void (*deposit)(const BlockParticles&, const std::vector<ActiveParticle>&, int, const Chunk&,
-                    Tile&);
+    void (*deposit)(const BlockParticles&, const std::vector<ActiveParticle>&, const Chunk&, Tile*);
     int (*too_deep)(const Tile&, float, float);
     void (*spread)(const Bilinear&, const LightAt (*)[kChunk + 2], int, int, bool, TileLight&);
     void (*march)(const Shade&, const TileLight&, int, Tile&);
 };
 
-#define AWAN_KERNELS(name, attribute)                                                    \
-    attribute void measure_##name(const BlockParticles& p, const Floats* ray,            \
-                                  const Floats& spread, ActiveParticle& a) {             \
-        measure_body(p, ray, spread, a);                                                 \
-    }                                                                                    \
-    attribute void ratio_##name(const BlockParticles& p, float step,                     \
-                                std::vector<ActiveParticle>& active) {                   \
-        ratio_body(p, step, active);                                                     \
-    }                                                                                    \
-    attribute void deposit_##name(const BlockParticles& p,                               \
-                                  const std::vector<ActiveParticle>& active, int which,  \
-                                  const Chunk& chunk, Tile& tile) {                      \
-        deposit_body(p, active, which, chunk, tile);                                     \
-    }                                                                                    \
-    attribute int too_deep_##name(const Tile& tile, float scaled, float allowed) {       \
-        return first_too_deep(tile, scaled, allowed);                                    \
-    }                                                                                    \
-    attribute void spread_##name(const Bilinear& b, const LightAt(*corners)[kChunk + 2], \
-                                 int first, int last, bool albedo, TileLight& light) {   \
-        spread_light(b, corners, first, last, albedo, light);                            \
-    }                                                                                    \
-    attribute void march_##name(const Shade& shade, const TileLight& light, int count,   \
-                                Tile& tile) {                                            \
-        march_tile(shade, light, count, tile);                                           \
-    }                                                                                    \
-    constexpr Kernels kKernels_##name{measure_##name,  ratio_##name,  deposit_##name,    \
+#define AWAN_KERNELS(name, attribute)                                                            \
+    attribute void measure_##name(const BlockParticles& p, const Floats* ray,                    \
+                                  const Floats& spread, ActiveParticle& a) {                     \
+        measure_body(p, ray, spread, a);                                                         \
+    }                                                                                            \
+    attribute void ratio_##name(const BlockParticles& p, float step,                             \
+                                std::vector<ActiveParticle>& active) {                           \
+        ratio_body(p, step, active);                                                             \
+    }                                                                                            \
+    attribute void deposit_##name(const BlockParticles& p,                                       \
+                                  const std::vector<ActiveParticle>& active, const Chunk& chunk, \
+                                  Tile* tiles) {                                                 \
+        deposit_body(p, active, chunk, tiles);                                                   \
+    }                                                                                            \
+    attribute int too_deep_##name(const Tile& tile, float scaled, float allowed) {               \
+        return first_too_deep(tile, scaled, allowed);                                            \
+    }                                                                                            \
+    attribute void spread_##name(const Bilinear& b, const LightAt(*corners)[kChunk + 2],         \
+                                 int first, int last, bool albedo, TileLight& light) {           \
+        spread_light(b, corners, first, last, albedo, light);                                    \
+    }                                                                                            \
+    attribute void march_##name(const Shade& shade, const TileLight& light, int count,           \
+                                Tile& tile) {                                                    \
+        march_tile(shade, light, count, tile);                                                   \
+    }                                                                                            \
+    constexpr Kernels kKernels_##name{measure_##name,  ratio_##name,  deposit_##name,            \
                                       too_deep_##name, spread_##name, march_##name};
 
 AWAN_KERNELS(plain, )
@@ -119,7 +117,8 @@ struct BlockRoom {
     TileLight light;
     LightAt corners[kMostCorners][kChunk + 2];
     Bilinear bilinear[std::size(kSpacings)][kTiles];
-    Floats middle[3], spread;  // of the tiles' rays, a tile a lane
+    Floats middle[3], spread;               // of the tiles' rays, a tile a lane
+    glm::dvec3 directions[kTiles][kLanes];  // of the pixels, in the eye's frame
     BlockParticles particles;
     std::vector<ActiveParticle> active;
     std::vector<float> rows;
@@ -189,7 +188,7 @@ class BlockMarch {
                      room_.middle[2], center);
             double spread = 0;
             for (int lane = 0; lane < kLanes; ++lane) {
-                glm::dvec3 d(0);
+                glm::dvec3& d = room_.directions[t][lane];
                 set_lane(x + lane % 4 + 0.5, y + lane / 4 + 0.5, lane, tile.x, tile.y, tile.z, d);
                 spread = std::max(spread, glm::dot(d - center, d - center));
             }
@@ -259,8 +258,7 @@ class BlockMarch {
                 ActiveParticle a;
                 a.index = static_cast<std::uint32_t>(next);
                 kernels_.measure(p, room_.middle, room_.spread, a);
-                if (a.end >= p.place[next] && static_cast<double>(a.end) > from)
-                    active.push_back(a);
+                if (static_cast<double>(a.end) > from) active.push_back(a);
             }
             kernels_.ratio(p, static_cast<float>(step), active);
             const Chunk chunk{static_cast<float>(from), static_cast<float>(step),
@@ -268,10 +266,9 @@ class BlockMarch {
             int count = kChunk;
             bool fine = true;  // far finer than it need be
             const float allowed = scene_.step_depth;
-            for (int t = 0; t < kTiles; ++t) {
-                Tile& tile = room_.tiles[t];
+            kernels_.deposit(p, active, chunk, room_.tiles);
+            for (const Tile& tile : room_.tiles) {
                 if (!tile.alive) continue;
-                kernels_.deposit(p, active, t, chunk, tile);
                 if (step > shortest_)
                     count = std::min(count, kernels_.too_deep(tile, scene_.scaled, allowed));
                 if (step < longest_ && fine)
@@ -327,8 +324,8 @@ class BlockMarch {
         const double pixel =
             distance * 2 * scene_.view.tan_half_fov / scene_.height;  // at the middle: the widest
         const TransportLight& light = *scene_.light.light;
-        double cell = light.cell > 0 ? 0.7 * light.cell : 1e300;
-        if (light.sun.cell > 0) cell = std::min(cell, light.sun.cell);
+        double cell = light.cell > 0 ? 0.75 * light.cell : 1e300;
+        if (light.sun.cell > 0) cell = std::min(cell, 1.5 * light.sun.cell);
         for (int s = 0; s < static_cast<int>(std::size(kSpacings)); ++s)
             if (kSpacings[s] * pixel <= cell && kSpacings[s] * pixel <= 0.2 * distance) return s;
         return -1;
@@ -381,11 +378,9 @@ class BlockMarch {
         room_.rows.resize(kTiles * kLanes * columns);
         const glm::dvec3 sun = to_frame(scene_.view, scene_.to_sun);
         for (int lane = 0; lane < kLanes; ++lane) {
-            const glm::dvec3 d = frame_direction(scene_, left_ + t % 4 * kTileSide + lane % 4 + 0.5,
-                                                 top_ + t / 4 * kTileSide + lane / 4 + 0.5);
+            const glm::dvec3& d = room_.directions[t][lane];
             const double ahead = glm::length(d - sun), behind = glm::length(d + sun);
-            tile.rest_phase[lane] =
-                static_cast<float>(rest_of_phase(scene_.medium, scene_.peak, ahead, behind));
+            tile.rest_phase[lane] = static_cast<float>(rest_of_phase(scene_.rest, ahead, behind));
             if (columns == 0) continue;
             const RowAt row = row_at(table, ahead, behind);
             const float* a = table.values.data() + static_cast<std::size_t>(row.row) * columns;

@@ -22,6 +22,7 @@ struct MarchScene {
     EyeLight light;
     Medium medium;
     Peak peak;
+    RestOfPhase rest;
     PeakTable table;
     glm::dvec3 to_sun{0, 1, 0};
     glm::vec3 sun{0};      // irradiance

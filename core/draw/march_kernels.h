@@ -28,9 +28,11 @@ struct BlockParticles {
     }
 };
 
-// How far before and behind `place` a particle has matter, in each tile; < 0: none.
+// Where a particle has matter in each tile (a tile a lane): `half` before and behind `center`, which is relative to the
+// block's reference distance; half < 0: none.
 struct alignas(64) ActiveParticle {
-    Floats half;
+    Floats center, half;
+    Floats shift;  // center less `place`
     std::uint32_t index;
     float end;    // no matter beyond
     float ratio;  // exp(-(step / s)^2)
@@ -70,77 +72,122 @@ constexpr float kLeastRecurrence =
 constexpr float kUnseen = 1e-4f;    // scaled transmittance below which a ray has ended
 constexpr float kMostDepth = 1e5f;  // of one sample; more looks the same
 
-// Samples far from `from` by u steps: floor, kept in -1..kChunk.
-AWAN_INLINE int sample_of(float u) {
-    const float kept = u < -1.0f ? -1.0f : u > static_cast<float>(kChunk) ? kChunk : u;
-    return static_cast<int>(kept + 1.0f) - 1;
+// The ray's closest point to a particle's centre: b^2, and how much farther than `along` it is.
+struct Closest {
+    Floats b2, shift;
+};
+AWAN_INLINE Closest closest(const BlockParticles& p, std::size_t i, const Floats& x,
+                            const Floats& y, const Floats& z) {
+    const float along = p.along[i];
+    const Floats wx = p.x[i] - along * x, wy = p.y[i] - along * y, wz = -along * z;
+    const Floats shift = wx * x + wy * y + wz * (1.0f + z);
+    return {simd::max(wx * wx + wy * wy + wz * wz - shift * shift, Floats{}), shift};
 }
 
-// Adds one particle to one tile's profile.
-AWAN_INLINE void deposit(const BlockParticles& p, const ActiveParticle& a, float half,
-                         const Chunk& chunk, Tile& tile) {
-    const std::size_t i = a.index;
-    const float step = chunk.step, s = p.s[i];
-    const float rel = p.place[i] - chunk.from;
-    const float per_step = 1.0f / step;
-    const int reach_first = sample_of((rel - half) * per_step);
-    const int reach_last = sample_of((rel + half) * per_step);
-    const int first = reach_first < 0 ? 0 : reach_first;
-    const int last = reach_last > kChunk - 1 ? kChunk - 1 : reach_last;
-    if (first > last) return;
-    // The ray's closest point to the centre: |offset| = b, at `place` + shift.
-    const float along = p.along[i];
-    const Floats wx = p.x[i] - along * tile.x, wy = p.y[i] - along * tile.y, wz = -along * tile.z;
-    const Floats shift = wx * tile.x + wy * tile.y + wz * (1.0f + tile.z);
-    const Floats b2 = simd::max(wx * wx + wy * wy + wz * wz - shift * shift, Floats{});
-    const float per_s2 = 1.0f / (s * s);
-    const Floats center = rel + shift;
-    tile.first = first < tile.first ? first : tile.first;
-    tile.last = last > tile.last ? last : tile.last;
+// Sums of midpoints miss the integral where the spacing changes: Euler & Maclaurin's first two terms there.
+AWAN_INLINE void join(float extinction, float s, float before, float after, const Floats& b2,
+                      const Floats& center, Tile& tile) {
+    const float h2 = before * before - after * after;
+    const float h4 = before * before * before * before - after * after * after * after;
+    const float per_s = 1.0f / s;
+    const Floats v = -center * per_s;
+    const Floats value = extinction * simd::exp((b2 * (per_s * per_s) + v * v) * -0.5f);
+    const Floats slope = -v * value * per_s;
+    const Floats third = (3.0f * v - v * v * v) * value * (per_s * per_s * per_s);
+    tile.profile[0] += slope * (h2 * (1.0f / 24)) - third * (h4 * (7.0f / 5760));
+}
 
-    const bool joins = chunk.joined && reach_first < 0;
+// Adds one particle to the profiles of all tiles. What is the same for a tile's pixels is found for all tiles at once; the
+// closest points of a tile's pixels differ by little, which only moves mass between neighbouring samples or enters a
+// short series.
+AWAN_INLINE void deposit(const BlockParticles& p, const ActiveParticle& a, const Chunk& chunk,
+                         Tile* tiles) {
+    const std::size_t i = a.index;
+    const float step = chunk.step, s = p.s[i], per_step = 1.0f / step, per_s = 1.0f / s;
+    const float per_s2 = per_s * per_s;
+    const Floats center = a.center - chunk.from;
+    // First and last sample, kept in -1..kChunk.
+    const Floats most = simd::all(kChunk + 1), none = Floats{};
+    const Floats low = simd::min(simd::max((center - a.half) * per_step + 1.0f, none), most);
+    const Floats high = simd::min(simd::max((center + a.half) * per_step + 1.0f, none), most);
+    const Ints low_at = __builtin_convertvector(low, Ints) - 1;
+    const Ints high_at = __builtin_convertvector(high, Ints) - 1;
+    const Ints first = low_at < 0 ? Ints{} : low_at;
+    const Ints last = high_at > kChunk - 1 ? Ints{} + (kChunk - 1) : high_at;
+    int touched[kTiles], count = 0, least = kChunk, greatest = -1;
+    for (int t = 0; t < kTiles; ++t) {
+        if (!(a.half[t] > 0.0f) || first[t] > last[t] || !tiles[t].alive) continue;
+        touched[count++] = t;
+        least = first[t] < least ? first[t] : least;
+        greatest = last[t] > greatest ? last[t] : greatest;
+        Tile& tile = tiles[t];
+        tile.first = first[t] < tile.first ? first[t] : tile.first;
+        tile.last = last[t] > tile.last ? last[t] : tile.last;
+    }
+    if (count == 0) return;
     const bool masses = s < kLeastRecurrence * step;
     if (masses) {
-        const Floats mass = (p.extinction[i] * s * kRootTwoPi) * simd::exp(b2 * (-0.5f * per_s2));
-        const float per_s = 1.0f / s;
-        Floats below = reach_first < 0 ? simd::normal_cdf(-center * per_s) : Floats{};
-        for (int k = first; k < last; ++k) {
-            const Floats next =
-                simd::normal_cdf((static_cast<float>(k + 1) * step - center) * per_s);
-            tile.profile[k] += mass * (next - below);
+        Floats share[kChunk];  // of the mass, in each sample and tile
+        Floats below{};
+        for (int k = least; k <= greatest + 1; ++k) {
+            const Floats cdf = simd::normal_cdf((static_cast<float>(k) * step - center) * per_s);
+            const Floats next = low_at >= k ? Floats{} : (high_at < k ? simd::all(1.0f) : cdf);
+            if (k > least) share[k - 1] = next - below;
             below = next;
         }
-        const Floats top = reach_last >= kChunk ? simd::normal_cdf((kChunk * step - center) * per_s)
-                                                : simd::all(1.0f);
-        tile.profile[last] += mass * (top - below);
+        const float whole = p.extinction[i] * s * kRootTwoPi;
+        for (int n = 0; n < count; ++n) {
+            const int t = touched[n];
+            Tile& tile = tiles[t];
+            const Closest at = closest(p, i, tile.x, tile.y, tile.z);
+            const Floats mass = whole * simd::exp(at.b2 * (-0.5f * per_s2));
+            for (int k = first[t]; k <= last[t]; ++k) tile.profile[k] += mass * share[k][t];
+            // The eye cuts each pixel's ray where it cuts it.
+            if (chunk.joined && chunk.before == 0.0f && low_at[t] < 0)
+                tile.profile[0] +=
+                    mass * (simd::normal_cdf(simd::all(-center[t] * per_s)) -
+                            simd::normal_cdf((a.shift[t] - center[t] - at.shift) * per_s));
+        }
     } else {
         const float amplitude = p.extinction[i] * step;
-        Floats u = (static_cast<float>(first) + 0.5f) * step - center;
-        if (a.direct) {
-            for (int k = first; k <= last; ++k, u += step)
-                tile.profile[k] += amplitude * simd::exp((b2 + u * u) * (-0.5f * per_s2));
-        } else {
-            Floats value = amplitude * simd::exp((b2 + u * u) * (-0.5f * per_s2));
-            Floats factor = simd::exp((u * step + 0.5f * step * step) * -per_s2);
-            const float ratio = a.ratio;
-            for (int k = first; k <= last; ++k) {
-                tile.profile[k] += value;
-                value *= factor;
-                factor *= ratio;
+        const Floats u = (__builtin_convertvector(first, Floats) + 0.5f) * step - center;
+        const Floats factors = simd::exp((u * step + 0.5f * step * step) * -per_s2);
+        Floats value[kTiles], factor[kTiles];
+        for (int n = 0; n < count; ++n) {
+            const int t = touched[n];
+            Tile& tile = tiles[t];
+            const Closest at = closest(p, i, tile.x, tile.y, tile.z);
+            const Floats off = at.shift - a.shift[t];
+            const Floats v = u[t] - off;
+            if (a.direct) {
+                Floats w = v;
+                for (int k = first[t]; k <= last[t]; ++k, w += step)
+                    tile.profile[k] += amplitude * simd::exp((at.b2 + w * w) * (-0.5f * per_s2));
+                continue;
+            }
+            value[n] = amplitude * simd::exp((at.b2 + v * v) * (-0.5f * per_s2));
+            const Floats y = off * (step * per_s2);
+            factor[n] = factors[t] * (1.0f + y * (1.0f + y * (0.5f + y * (1.0f / 6))));
+        }
+        const float ratio = a.ratio;
+        for (int n = 0; n < count && !a.direct; ++n) {
+            const int t = touched[n];
+            Floats* const profile = tiles[t].profile;
+            Floats v = value[n], f = factor[n];
+            for (int k = first[t]; k <= last[t]; ++k) {
+                profile[k] += v;
+                v *= f;
+                f *= ratio;
             }
         }
     }
-    if (joins) {
-        // Sums of midpoints miss the integral where the spacing changes: Euler & Maclaurin's first two terms there.
-        const float before = s < kLeastRecurrence * chunk.before ? 0.0f : chunk.before;
-        const float after = masses ? 0.0f : step;
-        const float h2 = before * before - after * after;
-        const float h4 = before * before * before * before - after * after * after * after;
-        const Floats v = -center * (1.0f / s);
-        const Floats value = p.extinction[i] * simd::exp((b2 * per_s2 + v * v) * -0.5f);
-        const Floats slope = -v * value * (1.0f / s);
-        const Floats third = (3.0f * v - v * v * v) * value * (per_s2 / s);
-        tile.profile[0] += slope * (h2 * (1.0f / 24)) - third * (h4 * (7.0f / 5760));
+    if (!chunk.joined) return;
+    for (int n = 0; n < count; ++n) {
+        const int t = touched[n];
+        if (low_at[t] >= 0) continue;
+        const Closest at = closest(p, i, tiles[t].x, tiles[t].y, tiles[t].z);
+        join(p.extinction[i], s, s < kLeastRecurrence * chunk.before ? 0.0f : chunk.before,
+             masses ? 0.0f : step, at.b2, center[t] + (at.shift - a.shift[t]), tiles[t]);
     }
 }
 
@@ -291,22 +338,24 @@ AWAN_INLINE void measure(const BlockParticles& p, const Floats ray[3], const Flo
     const std::size_t i = a.index;
     const float along = p.along[i], reach = p.reach[i];
     const float distance = std::sqrt(p.x[i] * p.x[i] + p.y[i] * p.y[i] + along * along);
-    const Floats wx = p.x[i] - along * ray[0], wy = p.y[i] - along * ray[1], wz = -along * ray[2];
-    const Floats shift = wx * ray[0] + wy * ray[1] + wz * (1.0f + ray[2]);
-    const Floats b2 = simd::max(wx * wx + wy * wy + wz * wz - shift * shift, Floats{});
+    const Closest at = closest(p, i, ray[0], ray[1], ray[2]);
     Floats b;
-    for (int tile = 0; tile < kTiles; ++tile) b[tile] = std::sqrt(b2[tile]);
+    for (int tile = 0; tile < kTiles; ++tile) b[tile] = std::sqrt(at.b2[tile]);
     // A point of a tile's rays is off its middle ray by at most spread * distance; the closest points, to second order.
     const Floats least = simd::max(b - spread * distance, Floats{});
     const Floats chord2 = reach * reach - least * least;
     const Floats slack = spread * (b + 2.0f * spread * distance);
+    // Two s more than the sphere: at its rim the ray would lose half of what little it meets.
+    const float more = 4.0f * p.s[i] * p.s[i];
     Floats half;
     for (int tile = 0; tile < kTiles; ++tile)
-        half[tile] = std::sqrt(chord2[tile] > 0.0f ? chord2[tile] : 0.0f);
-    half += simd::abs(shift) + slack;
-    a.half = chord2 > 0.0f ? half : simd::all(-1.0f);
-    a.end = p.place[i] + simd::largest(a.half);
-    a.direct = simd::largest(simd::abs(shift) + slack) > p.s[i];
+        half[tile] = std::sqrt(chord2[tile] > 0.0f ? chord2[tile] + more : 0.0f);
+    a.shift = at.shift;
+    a.center = p.place[i] + at.shift;
+    a.half = chord2 > 0.0f ? half + slack : simd::all(-1.0f);
+    const Floats end = chord2 > 0.0f ? a.center + a.half : simd::all(-1e30f);
+    a.end = simd::largest(end);
+    a.direct = simd::largest(slack) > 0.15f * p.s[i];
 }
 
 }  // namespace awan

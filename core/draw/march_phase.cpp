@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPer4Pi = 1 / (4 * std::numbers::pi);
 constexpr int kMostTerms = 4096;      // of a Legendre sum
-constexpr double kRowStep = 0.02;     // of asinh: a steep phase function goes with exp(-3 of it)
+constexpr double kRowStep = 0.012;    // of asinh: a steep phase function goes with exp(-3 of it)
 constexpr double kSeriesDepth = 32;   // up to here orders of scattering, beyond moments
 constexpr double kNegligible = 1e-6;  // of a term, relative to 1
 constexpr int kMostOctaves = 13;
@@ -159,13 +159,21 @@ double phase_of_chords(const Medium& medium, double ahead, double behind) {
     return 1.5 * (1 + mu * mu) / (2 + medium.g * medium.g) * hg;
 }
 
-double rest_of_phase(const Medium& medium, const Peak& peak, double ahead, double behind) {
-    if (peak.share == 0) return phase_of_chords(medium, ahead, behind);
+RestOfPhase rest_of(const Medium& medium, const Peak& peak) {
+    RestOfPhase rest{medium, {}};
+    for (int l = 0; l < peak.from && peak.share != 0; ++l)
+        rest.moments.push_back((2 * l + 1) * kPer4Pi * (phase_moment(medium, l) - peak.share));
+    return rest;
+}
+
+double rest_of_phase(const RestOfPhase& rest, double ahead, double behind) {
+    if (rest.moments.empty()) return phase_of_chords(rest.medium, ahead, behind);
     const double mu = cosine_of(ahead);
     double sum = 0, p = 1, before = 0;
-    for (int l = 0; l < peak.from; ++l) {
-        sum += (2 * l + 1) * kPer4Pi * (phase_moment(medium, l) - peak.share) * p;
-        const double next = ((2 * l + 1) * mu * p - l * before) / (l + 1);
+    for (std::size_t l = 0; l < rest.moments.size(); ++l) {
+        const auto n = static_cast<double>(l);
+        sum += rest.moments[l] * p;
+        const double next = ((2 * n + 1) * mu * p - n * before) / (n + 1);
         before = p;
         p = next;
     }

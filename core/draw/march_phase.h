@@ -23,7 +23,12 @@ struct Peak {
 };
 
 // p1: the phase function / 4 pi of scattering that is not the peak's; the whole phase function if share is 0.
-double rest_of_phase(const Medium& medium, const Peak& peak, double ahead, double behind);
+struct RestOfPhase {
+    Medium medium;
+    std::vector<double> moments;  // (2l + 1) / 4 pi (chi_l - f); empty: there is no peak
+};
+RestOfPhase rest_of(const Medium& medium, const Peak& peak);
+double rest_of_phase(const RestOfPhase& rest, double ahead, double behind);
 
 // F2(t), radiance per optical depth of the light that the peak alone has scattered, at least once, on the way through
 // depth t: sum over l <= L of (2l+1)/4pi f exp(-t (1 - a f)) P_l + sum over l > L of (2l+1)/4pi chi_l exp(-t (1 - a chi_l)) P_l.

@@ -45,12 +45,9 @@ AWAN_INLINE Floats exp(const Floats& at) {
     const Floats shifted = x * 1.44269504f + kShift;
     const Floats n = shifted - kShift;
     const Floats r = (x - n * 0.693359375f) + n * 2.12194440e-4f;
-    Floats p = r * (1.0f / 720) + (1.0f / 120);
-    p = p * r + (1.0f / 24);
-    p = p * r + (1.0f / 6);
-    p = p * r + 0.5f;
-    p = p * r + 1.0f;
-    p = p * r + 1.0f;
+    const Floats rr = r * r;  // Estrin's scheme: a short chain
+    const Floats p = ((1.0f + r) + rr * (0.5f + r * (1.0f / 6))) +
+                     (rr * rr) * (((1.0f / 24) + r * (1.0f / 120)) + rr * (1.0f / 720));
     return floats(bits(p) + (bits(shifted) << 23));
 }
 

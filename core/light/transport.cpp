@@ -19,8 +19,11 @@ namespace awan {
 namespace {
 
 constexpr int kOrders = 4;  // l = 0..3
-constexpr double kLeftOut =
-    0.02;  // optical depth that the grid may leave out, relative to the cloud's if that is < 1
+// Optical depth that the grid may leave out: up to here smaller cells gain more than what is outside loses; of a thin cloud's
+// depth no more than a share.
+constexpr double kLeftOut = 0.5;
+constexpr double kLeftOutShare = 0.02;
+constexpr double kSkyTolerance = 4;  // times the sun's: it is a fifth of the light, and smooth
 constexpr double kDiffusionTolerance = 0.05;  // of the preconditioner's own solve
 constexpr int kBasis = 12;                    // vectors that GMRES keeps
 constexpr double kMaxFineWork =
@@ -146,8 +149,11 @@ Result<std::vector<float>> solve(const Matter& matter, const Ordinates& ordinate
             unsettled[i] = matter.scattered[i] * vector[i * harmonics_count];
         solve_diffusion(diffusion, unsettled, kDiffusionTolerance, addition);
     };
-    const auto outcome = gmres(product, {harmonics_count, diffuse}, right,
-                               {settings.tolerance, settings.max_sweeps, kBasis}, threads, moments);
+    const auto outcome =
+        gmres(product, {harmonics_count, diffuse}, right,
+              {shine.beam ? settings.tolerance : kSkyTolerance * settings.tolerance,
+               settings.max_sweeps, kBasis},
+              threads, moments);
     if (!outcome.ok()) return outcome.error();
     light.sweeps += outcome->products + 1;
     light.residual = std::max(light.residual, outcome->residual);
@@ -228,7 +234,7 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
     // Of the lights' lines only: the eye's would tie the light to a camera.
     const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
     const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
-    const double rest = kLeftOut * std::min(1.0, deepest);
+    const double rest = std::min(kLeftOut, kLeftOutShare * deepest);
     Lattice coarse = lattice_around_matter(particles, x, y, z, rest, settings.cells, threads);
     int sub = settings.cells <= 32 ? 3 : 2;
     while (sub > 1 && lattice_work(particles, coarse.cell / sub, coarse.cells * sub) > kMaxFineWork)

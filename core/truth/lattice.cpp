@@ -58,13 +58,13 @@ void add_to_slab(float* values, const glm::ivec3& nodes, const LatticeGaussian& 
             const double left = reach * reach - dz * dz - dy * dy;
             if (left <= 0) continue;
             const Range x = covered(g.center.x, std::sqrt(left), all_x.first, all_x.last);
-            const float scale =
-                static_cast<float>(g.peak) * profiles[1][static_cast<std::size_t>(j - y.first)] *
-                profiles[2][static_cast<std::size_t>(k - z.first)];
-            float* row = values + static_cast<std::size_t>(nodes.x) *
-                                      (static_cast<std::size_t>(j) +
-                                       static_cast<std::size_t>(nodes.y) *
-                                           static_cast<std::size_t>(k));
+            const float scale = static_cast<float>(g.peak) *
+                                profiles[1][static_cast<std::size_t>(j - y.first)] *
+                                profiles[2][static_cast<std::size_t>(k - z.first)];
+            float* row =
+                values + static_cast<std::size_t>(nodes.x) *
+                             (static_cast<std::size_t>(j) +
+                              static_cast<std::size_t>(nodes.y) * static_cast<std::size_t>(k));
             add_scaled(row + x.first, profiles[0].data() + (x.first - all_x.first), scale,
                        x.last - x.first + 1);
         }

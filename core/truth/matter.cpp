@@ -12,11 +12,11 @@
 namespace awan::truth {
 namespace {
 
-constexpr double kMaxSide = 176;                       // cells along the longest side: larger lattices leave the caches
+constexpr double kMaxSide = 176;  // cells along the longest side: larger lattices leave the caches
 constexpr double kMaxNodes = 12e6, kMaxColored = 6e6;  // of a lattice: 48 MB each
 constexpr double kMinSide = 64;
-constexpr double kCellsPerS = 10;    // wanted of the particles that matter
-constexpr double kAllowed = 0.01;    // of the largest extinction, by one particle
+constexpr double kCellsPerS = 10;   // wanted of the particles that matter
+constexpr double kAllowed = 0.008;  // of the largest extinction, by one particle
 
 // Everything about a particle that does not depend on the lattice. Scene units, about the cloud's centre.
 struct Source {
@@ -164,8 +164,7 @@ void list_by_column(Matter& m) {
                        for (int x = column_of(one.center.x - reach, m.columns.x);
                             x <= column_of(one.center.x + reach, m.columns.x); ++x)
                            put(static_cast<std::size_t>(x) +
-                               static_cast<std::size_t>(m.columns.x) *
-                                   static_cast<std::size_t>(y));
+                               static_cast<std::size_t>(m.columns.x) * static_cast<std::size_t>(y));
                });
 }
 
@@ -182,12 +181,12 @@ void find_most(Matter& m, int threads) {
                 for (int k = a.z; k <= b.z; ++k)
                     for (int j = a.y; j <= b.y; ++j)
                         for (int i = a.x; i <= b.x; ++i)
-                            most = std::max(
-                                most, m.extinction[static_cast<std::size_t>(i) +
-                                                   static_cast<std::size_t>(m.nodes.x) *
-                                                       (static_cast<std::size_t>(j) +
-                                                        static_cast<std::size_t>(m.nodes.y) *
-                                                            static_cast<std::size_t>(k))]);
+                            most = std::max(most,
+                                            m.extinction[static_cast<std::size_t>(i) +
+                                                         static_cast<std::size_t>(m.nodes.x) *
+                                                             (static_cast<std::size_t>(j) +
+                                                              static_cast<std::size_t>(m.nodes.y) *
+                                                                  static_cast<std::size_t>(k))]);
                 m.most[m.brick({x, y, z})] = most * 1.00001f;  // interpolation rounds
             }
     });
@@ -212,8 +211,7 @@ void gather_along_sun(std::vector<float>& values, const glm::ivec3& n) {
 // Rows: two axes across the sun's rays, and the way its light goes.
 glm::dmat3 axes_along(const glm::dvec3& to_sun) {
     const glm::dvec3 w = -to_sun;
-    const glm::dvec3 aside =
-        std::abs(w.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 aside = std::abs(w.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(aside, w)), v = glm::cross(w, u);
     return glm::transpose(glm::dmat3(u, v, w));
 }
@@ -238,9 +236,8 @@ double listed_depth(const Matter::Listed& one, const glm::dvec3& o, const glm::d
         part = std::erfc(-b * per) - std::erfc(-a * per);
     else
         part = std::erf(b * per) - std::erf(a * per);
-    return std::max(one.peak * one.s * std::sqrt(std::numbers::pi / 2) *
-                        std::exp(-b2 * per * per) * part,
-                    0.0);
+    return std::max(
+        one.peak * one.s * std::sqrt(std::numbers::pi / 2) * std::exp(-b2 * per * per) * part, 0.0);
 }
 
 Result<Matter> make_matter(const ParticleSet& particles, const glm::dvec3& to_sun, int threads,
@@ -273,10 +270,8 @@ Result<Matter> make_matter(const ParticleSet& particles, const glm::dvec3& to_su
         box.hold(g.center, g.cut * g.s);
         sun_box.hold(axes * g.center, g.cut * g.s);
     }
-    const double wanted =
-        std::min(typical_s(sources) / kCellsPerS, box.longest() / kMinSide);
-    const double cell =
-        std::max(wanted, smallest_cell(box, m.colored ? kMaxColored : kMaxNodes));
+    const double wanted = std::min(typical_s(sources) / kCellsPerS, box.longest() / kMinSide);
+    const double cell = std::max(wanted, smallest_cell(box, m.colored ? kMaxColored : kMaxNodes));
     const double sun_cell = std::max(wanted, smallest_cell(sun_box, kMaxNodes));
     const double largest = about_largest(sources, box);
 
@@ -304,8 +299,7 @@ Result<Matter> make_matter(const ParticleSet& particles, const glm::dvec3& to_su
             colors.push_back(g.color);
         } else {
             m.listed.push_back({c, s, g.peak * cell, g.cut * g.cut * s * s, g.color});
-            m.to_sun.push_back({at_sun, sun_s,
-                                g.peak * g.s * std::sqrt(2 * std::numbers::pi),
+            m.to_sun.push_back({at_sun, sun_s, g.peak * g.s * std::sqrt(2 * std::numbers::pi),
                                 g.cut * g.cut * sun_s * sun_s});
         }
     }
@@ -341,10 +335,10 @@ double extinction(const Matter& m, const glm::dvec3& p) {
     if (m.empty || glm::any(glm::lessThan(p, glm::dvec3(0))) ||
         glm::any(glm::greaterThan(p, m.top)))
         return 0;
-    double sum = m.extinction.empty()
-                     ? 0.0
-                     : static_cast<double>(
-                           interpolated(m.extinction.data(), m.nodes, p.x, p.y, p.z));
+    double sum =
+        m.extinction.empty()
+            ? 0.0
+            : static_cast<double>(interpolated(m.extinction.data(), m.nodes, p.x, p.y, p.z));
     if (m.listed.empty()) return sum;
     const std::size_t b = m.brick(brick_of(p, m.bricks));
     for (std::uint32_t i = m.brick_begin[b]; i < m.brick_begin[b + 1]; ++i) {
@@ -361,15 +355,14 @@ double depth_to_sun(const Matter& m, const glm::dvec3& p) {
     const glm::dvec3 q = m.sun_axes * p + m.sun_origin;
     if (q.x < 0 || q.y < 0 || q.z < 0 || q.x > m.sun_nodes.x - 1 || q.y > m.sun_nodes.y - 1)
         return 0;
-    double depth = m.sun_depth.empty()
-                       ? 0.0
-                       : static_cast<double>(
-                             interpolated(m.sun_depth.data(), m.sun_nodes, q.x, q.y, q.z));
+    double depth =
+        m.sun_depth.empty()
+            ? 0.0
+            : static_cast<double>(interpolated(m.sun_depth.data(), m.sun_nodes, q.x, q.y, q.z));
     if (m.listed.empty()) return depth;
-    const std::size_t column =
-        static_cast<std::size_t>(column_of(q.x, m.columns.x)) +
-        static_cast<std::size_t>(m.columns.x) *
-            static_cast<std::size_t>(column_of(q.y, m.columns.y));
+    const std::size_t column = static_cast<std::size_t>(column_of(q.x, m.columns.x)) +
+                               static_cast<std::size_t>(m.columns.x) *
+                                   static_cast<std::size_t>(column_of(q.y, m.columns.y));
     for (std::uint32_t i = m.column_begin[column]; i < m.column_begin[column + 1]; ++i) {
         const Matter::ListedToSun& one = m.to_sun[m.column_items[i]];
         const double x = q.x - one.center.x, y = q.y - one.center.y, b2 = x * x + y * y;
@@ -389,8 +382,8 @@ glm::dvec3 color_at(const Matter& m, const glm::dvec3& p) {
     if (!m.extinction.empty()) {
         whole = static_cast<double>(interpolated(m.extinction.data(), m.nodes, p.x, p.y, p.z));
         for (std::size_t c = 0; c < 3; ++c)
-            sum[static_cast<int>(c)] = static_cast<double>(
-                interpolated(m.color[c].data(), m.nodes, p.x, p.y, p.z));
+            sum[static_cast<int>(c)] =
+                static_cast<double>(interpolated(m.color[c].data(), m.nodes, p.x, p.y, p.z));
     }
     if (!m.listed.empty()) {
         const std::size_t b = m.brick(brick_of(p, m.bricks));

@@ -16,10 +16,10 @@ namespace {
 double erf_between(double a, double b) {
     if (!(a < b)) return 0;
     if (b - a < 0.1) {  // a difference would lose digits: Gauss-Legendre, 8 points
-        static constexpr double kX[4] = {0.1834346424956498, 0.5255324099163290,
-                                         0.7966664774136267, 0.9602898564975363};
-        static constexpr double kW[4] = {0.3626837833783620, 0.3137066458778873,
-                                         0.2223810344533745, 0.1012285362903763};
+        static constexpr double kX[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+                                         0.9602898564975363};
+        static constexpr double kW[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+                                         0.1012285362903763};
         const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
         double sum = 0;
         for (int i = 0; i < 4; ++i) {
@@ -155,8 +155,7 @@ glm::dvec3 single_scattering(const Scene& scene, const ParticleSet& particles,
             const glm::dvec3 v = (p - particles.center[i]) / gaussian_s(particles, i);
             const double one =
                 static_cast<double>(particles.density[i]) * std::exp(-0.5 * glm::dot(v, v));
-            sum += particles.color.empty() ? glm::dvec3(one)
-                                           : one * glm::dvec3(particles.color[i]);
+            sum += particles.color.empty() ? glm::dvec3(one) : one * glm::dvec3(particles.color[i]);
         }
         return sum * std::exp(-line_optical_depth(particles, p, to_sun, 0, INFINITY) - depth(t));
     };

@@ -23,9 +23,9 @@ class PathRandom {
     // Two numbers uniform in (-1, 1), 32 bits each.
     Pair signed_pair() {
         const std::uint64_t x = bits();
-        return {static_cast<double>(static_cast<std::int32_t>(x >> 32)) * 0x1p-31 + 0x1p-32,
-                static_cast<double>(static_cast<std::int32_t>(x & 0xffffffffu)) * 0x1p-31 +
-                    0x1p-32};
+        return {
+            static_cast<double>(static_cast<std::int32_t>(x >> 32)) * 0x1p-31 + 0x1p-32,
+            static_cast<double>(static_cast<std::int32_t>(x & 0xffffffffu)) * 0x1p-31 + 0x1p-32};
     }
 
   private:

@@ -20,8 +20,8 @@ using truth::Matter;
 using truth::Setting;
 using truth::Tally;
 
-constexpr int kTile = 8;              // pixels; particles are looked up by tile
-constexpr std::uint32_t kLook = 32;   // paths between two looks at the deadline
+constexpr int kTile = 8;             // pixels; particles are looked up by tile
+constexpr std::uint32_t kLook = 32;  // paths between two looks at the deadline
 
 struct Sums {
     glm::dvec3 half[2] = {glm::dvec3(0), glm::dvec3(0)};
@@ -97,8 +97,8 @@ Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles,
         const PixelRay ray = pixel_ray(view, width, height, x, y);
         const glm::dvec3 o = (ray.origin - matter->origin) / matter->cell;
         const double ground = ground_ahead(setting, o, ray.direction);  // cells
-        const double depth = line_optical_depth(near, ray.origin, ray.direction, 0,
-                                                ground * matter->cell);
+        const double depth =
+            line_optical_depth(near, ray.origin, ray.direction, 0, ground * matter->cell);
         const double covered = -std::expm1(-depth), through = std::exp(-depth);
         Sums sums;
         Tally tally;
@@ -106,8 +106,7 @@ Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles,
         if (covered > 0 && primary.meets()) {
             const std::uint32_t paths = worthwhile_paths(samples, covered);
             const bool done = average(
-                key, paths, deadline, stop, sums,
-                [&](truth::PathRandom& random, double stratum) {
+                key, paths, deadline, stop, sums, [&](truth::PathRandom& random, double stratum) {
                     const glm::dvec3 p = o + primary.first_meeting(stratum) * ray.direction;
                     return covered * walk_from_matter(setting, p, ray.direction, random, tally);
                 });
@@ -122,11 +121,11 @@ Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles,
             glm::dvec3 p = o + ground * ray.direction;
             p.y = setting.ground_height;
             Tally unused;
-            const bool done = average(keyed(key, 1), samples, deadline, stop, sums,
-                                      [&](truth::PathRandom& random, double) {
-                                          return through *
-                                                 walk_from_ground(setting, p, random, unused);
-                                      });
+            const bool done =
+                average(keyed(key, 1), samples, deadline, stop, sums,
+                        [&](truth::PathRandom& random, double) {
+                            return through * walk_from_ground(setting, p, random, unused);
+                        });
             if (!done) return;
         }
         store(truth.half_a, at, sums.half[0], opaque ? 1 : covered);

@@ -93,8 +93,8 @@ ParticleSet particles_near(const ParticleSet& particles, const glm::dvec3& eye,
     const glm::dvec3 axis = glm::normalize(corners[0] + corners[1] + corners[2] + corners[3]);
     double half = 0;
     for (const glm::dvec3& corner : corners)
-        half = std::max(half, std::atan2(glm::length(glm::cross(axis, corner)),
-                                         glm::dot(axis, corner)));
+        half = std::max(half,
+                        std::atan2(glm::length(glm::cross(axis, corner)), glm::dot(axis, corner)));
     half += 1e-6;
     ParticleSet near;
     for (std::size_t i = 0; i < particles.size(); ++i) {

@@ -69,21 +69,20 @@ Flight free_flight(const Matter& m, const glm::dvec3& o, const glm::dvec3& d, do
         next[a] = ((at[a] + (up ? 1 : 0)) * kBrick - o[a]) * inverse[a];
         delta[a] = kBrick * std::abs(inverse[a]);
     }
-    const std::size_t stride[3] = {1, static_cast<std::size_t>(m.bricks.x),
-                                   static_cast<std::size_t>(m.bricks.x) *
-                                       static_cast<std::size_t>(m.bricks.y)};
+    const std::size_t stride[3] = {
+        1, static_cast<std::size_t>(m.bricks.x),
+        static_cast<std::size_t>(m.bricks.x) * static_cast<std::size_t>(m.bricks.y)};
     const float* values = m.extinction.data();
     const bool has_list = !m.listed.empty();
     double left = static_cast<double>(-std::log(random.unit_float()));
-    double listed_left =
-        has_list ? static_cast<double>(-std::log(random.unit_float())) : 0.0;
+    double listed_left = has_list ? static_cast<double>(-std::log(random.unit_float())) : 0.0;
     std::uint32_t tentative = 0;
     for (;;) {
         const std::size_t brick = static_cast<std::size_t>(at[0]) +
                                   stride[1] * static_cast<std::size_t>(at[1]) +
                                   stride[2] * static_cast<std::size_t>(at[2]);
-        const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2)
-                                           : (next[1] < next[2] ? 1 : 2);
+        const int axis =
+            next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
         double leave = std::min(next[axis], end);
         bool listed = false;
         if (has_list && m.brick_begin[brick] != m.brick_begin[brick + 1] && t < leave) {
@@ -104,8 +103,8 @@ Flight free_flight(const Matter& m, const glm::dvec3& o, const glm::dvec3& d, do
                 const double further = t + left * per_most;
                 if (!(further < leave)) break;
                 t = further;
-                const float here = interpolated(values, m.nodes, o.x + t * d.x, o.y + t * d.y,
-                                                o.z + t * d.z);
+                const float here =
+                    interpolated(values, m.nodes, o.x + t * d.x, o.y + t * d.y, o.z + t * d.z);
                 if (random.unit_float() * m.most[brick] < here) return {true, t};
                 if (++tentative > kMaxTentative) return {};
                 left = static_cast<double>(-std::log(random.unit_float()));
@@ -158,15 +157,14 @@ struct Walk {
             e[static_cast<std::size_t>(i)] =
                 scattered(s.phase, e[static_cast<std::size_t>(i - 1)], random);
         const auto at = [&](std::uint32_t i) { return i % kRing; };
-        phase[at(k)] =
-            phase_value(s.phase, glm::dot(d, e[static_cast<std::size_t>(m)]));
+        phase[at(k)] = phase_value(s.phase, glm::dot(d, e[static_cast<std::size_t>(m)]));
         tried[at(k)] = worth_here;
         glm::dvec3 here = p;
         double depth = 0;
         for (int i = m; i >= 1; --i) {
             const glm::dvec3& along = e[static_cast<std::size_t>(i)];
-            const Flight flight = free_flight(*s.matter, here, along, 0,
-                                              ground_ahead(s, here, along), random);
+            const Flight flight =
+                free_flight(*s.matter, here, along, 0, ground_ahead(s, here, along), random);
             if (!flight.collided) return;
             here += flight.t * along;
             depth = depth_to_sun(*s.matter, here);
@@ -220,8 +218,7 @@ struct Walk {
                 lose(before, weight);
                 if (weight == glm::dvec3(0)) return;
                 if (sun && s.to_sun.y > 0)
-                    radiance += weight *
-                                (s.to_sun.y / pi * std::exp(-depth_to_sun(matter, p))) *
+                    radiance += weight * (s.to_sun.y / pi * std::exp(-depth_to_sun(matter, p))) *
                                 s.sun_irradiance;
                 since_start = 0;
                 on = off_ground();

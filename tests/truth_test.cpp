@@ -1,0 +1,762 @@
+// The truth against what is known exactly: laws, integrals, limits. No renderer is needed.
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "core/generate/generate.h"
+#include "core/truth/oracles.h"
+#include "core/truth/path_tracer.h"
+#include "core/truth/primary_ray.h"
+#include "core/truth/walk.h"
+#include "tests/scenes.h"
+
+namespace awan {
+namespace {
+
+using std::numbers::pi;
+using test::Ball;
+using truth::PathRandom;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+ParticleSet particles_of(const SceneDraft& draft) {
+    return generate(test::valid(draft), 1, {}).value();
+}
+
+ParticleSet particles_of(const std::vector<Ball>& list) {
+    return particles_of(test::balls(list));
+}
+
+TruthImage traced(const SceneDraft& draft, const TruthOptions& options) {
+    const Scene scene = test::valid(draft);
+    const ParticleSet particles = particles_of(draft);
+    const View view = resolve_view(draft.camera, draft.image, bounds_of(particles));
+    auto truth = trace_truth(scene, particles, view, options, {}, {});
+    if (!truth.ok()) {
+        ADD_FAILURE() << truth.error().message;
+        std::abort();
+    }
+    return *std::move(truth);
+}
+
+double mean_red(const Image& image) {
+    double sum = 0;
+    for (std::size_t i = 0; i < image.pixel_count(); ++i)
+        sum += static_cast<double>(image.pixels[4 * i]);
+    return sum / static_cast<double>(image.pixel_count());
+}
+
+double simpson(double a, double b, int n, const std::function<double(double)>& f) {
+    double sum = f(a) + f(b);
+    for (int i = 1; i < n; ++i) sum += (i % 2 == 0 ? 2 : 4) * f(a + (b - a) * i / n);
+    return sum * (b - a) / n / 3;
+}
+
+glm::dvec3 any_direction(PathRandom& random) {
+    const double z = 2 * random.unit() - 1, angle = 2 * pi * random.unit();
+    const double r = std::sqrt(1 - z * z);
+    return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
+// --- optical depth
+
+TEST(OpticalDepth, OfOneGaussianIsItsQuadrature) {
+    const ParticleSet one = particles_of({{{0.5, -0.25, 1}, 2, 0.75}});
+    const glm::dvec3 o(-3, 1, -6), d = glm::normalize(glm::dvec3(0.6, -0.1, 1));
+    for (const auto& [from, to] : {std::pair{0.0, 20.0}, {6.0, 7.5}, {7.0, 7.001}, {9.0, 14.0}}) {
+        const double sum =
+            simpson(from, to, 4000, [&](double t) { return extinction_at(one, o + t * d); });
+        EXPECT_NEAR(line_optical_depth(one, o, d, from, to) / sum, 1, 1e-9) << from;
+    }
+}
+
+TEST(OpticalDepth, OfTheWholeLineIsKnown) {
+    const ParticleSet one = particles_of({{{0, 0, 0}, 2, 0.75}});
+    const double central = 0.75 * std::sqrt(2 * pi);
+    EXPECT_NEAR(line_optical_depth(one, {0, 0, -50}, {0, 0, 1}, 0, kInfinite) / central, 1, 1e-12);
+    EXPECT_NEAR(line_optical_depth(one, {0, 0, 0}, {0, 0, 1}, 0, kInfinite) / central, 0.5, 1e-12);
+    EXPECT_NEAR(
+        line_optical_depth(one, {3, 0, -50}, {0, 0, 1}, 0, kInfinite) / (central * std::exp(-4.5)),
+        1, 1e-12);
+    // 12 s aside, and from 12 s behind: tails keep their relative accuracy.
+    EXPECT_NEAR(line_optical_depth(one, {12, 0, -50}, {0, 0, 1}, 0, kInfinite) /
+                    (central * std::exp(-72.0)),
+                1, 1e-12);
+    EXPECT_NEAR(line_optical_depth(one, {0, 0, 12}, {0, 0, 1}, 0, kInfinite) /
+                    (0.5 * central * std::erfc(12 / std::sqrt(2.0))),
+                1, 1e-12);
+}
+
+TEST(OpticalDepth, AddsUpAlongALine) {
+    const ParticleSet cloud = particles_of(test::table_4_4());
+    const glm::dvec3 o(-12, -2, 1), d = glm::normalize(glm::dvec3(1, 0.03, -0.05));
+    double pieces = 0;
+    for (int i = 0; i < 500; ++i)
+        pieces += line_optical_depth(cloud, o, d, 0.06 * i, 0.06 * (i + 1));
+    EXPECT_NEAR(pieces / line_optical_depth(cloud, o, d, 0, 30), 1, 1e-12);
+}
+
+// --- phase functions
+
+TEST(Phase, MeanIsOneAndMeanCosineIsG) {
+    for (const PhaseFunction phase :
+         {PhaseFunction::kHenyeyGreenstein, PhaseFunction::kCornetteShanks})
+        for (const double g : {0.0, 1e-4, 0.3, -0.5, 0.85, -0.85, 0.99, 0.999, -0.999}) {
+            Medium medium;
+            medium.g = g;
+            medium.phase = phase;
+            // Cosines spaced by 1 - cos = 2 x^6, which spreads the peak at either end out.
+            double sum = 0, cosines = 0;
+            for (const double sign : {1.0, -1.0}) {
+                const auto at = [&](double x, double power) {
+                    const double cosine = sign * (1 - std::pow(x, 6));
+                    return phase_value(medium, cosine) * std::pow(cosine, power) * 3 *
+                           std::pow(x, 5);
+                };
+                sum += simpson(0, 1, 20000, [&](double x) { return at(x, 0); });
+                cosines += simpson(0, 1, 20000, [&](double x) { return at(x, 1); });
+            }
+            EXPECT_NEAR(sum, 1, 1e-6) << g;
+            // Cornette & Shanks 1992, eq. 10.
+            const double mean = phase == PhaseFunction::kHenyeyGreenstein
+                                    ? g
+                                    : g * 3 * (4 + g * g) / (5 * (2 + g * g));
+            EXPECT_NEAR(cosines, mean, 1e-6) << g;
+        }
+}
+
+TEST(Phase, SamplesHaveTheMeanCosineAndTheDensity) {
+    for (const bool cornette : {false, true})
+        for (const double g : {0.0, 1e-9, 1e-4, -1e-4, 0.5, -0.7, 0.85, 0.999, -0.999}) {
+            const truth::PhaseLaw law{g, cornette};
+            PathRandom random(7);
+            const int n = 200'000;
+            double sum = 0, square = 0, beyond = 0;
+            for (int i = 0; i < n; ++i) {
+                const glm::dvec3 d = any_direction(random);
+                const glm::dvec3 e = scattered(law, d, random);
+                ASSERT_NEAR(glm::length(e), 1, 1e-9);
+                const double cosine = glm::dot(d, e);
+                sum += cosine;
+                square += cosine * cosine;
+                beyond += cosine > 0.8;
+            }
+            const double mean = cornette ? g * 3 * (4 + g * g) / (5 * (2 + g * g)) : g;
+            const double noise = std::sqrt(std::max(square / n - mean * mean, 1e-12) / n);
+            EXPECT_NEAR(sum / n, mean, 5 * noise) << g;
+            const double share =
+                0.5 * simpson(0.8, 1, 100'000, [&](double c) { return phase_value(law, c); });
+            if (std::abs(g) < 0.99) {
+                EXPECT_NEAR(beyond / n, share, 5 * std::sqrt(0.25 / n)) << g;
+            }
+        }
+}
+
+// --- matter as the paths see it
+
+struct MatterErrors {
+    double peak = 0, extinction = 0, depth = 0;  // depth: over max(.5%, .005) of the exact one
+};
+
+MatterErrors matter_errors(const ParticleSet& particles, const glm::dvec3& to_sun, int points) {
+    const truth::Matter matter = truth::make_matter(particles, to_sun, 1, {}).value();
+    PathRandom random(3);
+    MatterErrors errors;
+    for (int i = 0; i < points; ++i) {
+        // Half of the points anywhere, half about the particles.
+        glm::dvec3 p = glm::dvec3(random.unit(), random.unit(), random.unit()) * matter.top;
+        if (i % 2 == 1) {
+            const auto k =
+                static_cast<std::size_t>(random.unit() * static_cast<double>(particles.size()));
+            const double reach = 2.0 * static_cast<double>(particles.radius[k]) * random.unit();
+            p = (particles.center[k] - matter.origin + reach * any_direction(random)) / matter.cell;
+        }
+        const glm::dvec3 q = matter.origin + matter.cell * p;
+        // As far as coordinates go: what double makes of q.
+        const glm::dvec3 back = (q - matter.origin) / matter.cell;
+        const double exact = extinction_at(particles, q);
+        errors.peak = std::max(errors.peak, exact);
+        errors.extinction = std::max(
+            errors.extinction, std::abs(truth::extinction(matter, back) / matter.cell - exact));
+        const double depth = line_optical_depth(particles, q, to_sun, 0, kInfinite);
+        errors.depth = std::max(errors.depth, std::abs(truth::depth_to_sun(matter, back) - depth) /
+                                                  std::max(0.005 * depth, 0.005));
+    }
+    return errors;
+}
+
+void expect_true_matter(const ParticleSet& particles, const char* what) {
+    const MatterErrors errors =
+        matter_errors(particles, glm::normalize(glm::dvec3(0.5, 0.7, 0.4)), 2000);
+    EXPECT_GT(errors.peak, 0) << what;
+    EXPECT_LT(errors.extinction / errors.peak, 0.003) << what;
+    EXPECT_LT(errors.depth, 1) << what;
+}
+
+TEST(Matter, IsThatOfTheParticles) {
+    expect_true_matter(particles_of({{{0, 0, 0}, 2, 0.5}}), "one");
+    expect_true_matter(particles_of({{{1, 2, 3}, 1e-6, 1e6}}), "very small");
+    expect_true_matter(particles_of({{{1, 2, 3}, 1e6, 1e-6}}), "very large");
+    expect_true_matter(particles_of({{{0, 0, 0}, 2, 0.5}, {{1e6, 0, 0}, 1, 0.5}}), "far apart");
+    expect_true_matter(particles_of({{{0, 0, 0}, 100, 0.01}, {{60, 0, 0}, 0.02, 40}}), "unlike");
+    expect_true_matter(
+        particles_of({{{1e9, -1e9, 1e9}, 200, 0.005}, {{1e9 - 300, -1e9, 1e9}, 100, 0.008}}),
+        "offset");
+    expect_true_matter(particles_of(std::vector<Ball>(3000, {{0, 1, 0}, 1, 0.001})), "coincident");
+}
+
+TEST(Matter, OfTable44) {
+    expect_true_matter(particles_of(test::table_4_4()), "table 4.4");
+}
+
+TEST(Matter, OfManySmallParticles) {
+    SceneDraft draft = test::balls({});
+    draft.clouds[0].model = CloudModel::kCubes;
+    draft.clouds[0].ready = {};
+    draft.clouds[0].cubes = {{20'000, {10, 6, 8}, {0, 0, 0}, 0.5, 1, {}}};
+    draft.density = 0.2;
+    const MatterErrors errors = matter_errors(particles_of(draft), {0, 1, 0}, 400);
+    EXPECT_LT(errors.extinction / errors.peak, 0.01);  // a lattice much coarser than the particles
+    EXPECT_LT(errors.depth, 4);
+}
+
+TEST(Matter, ColorsAreMeansByExtinction) {
+    const ParticleSet two = particles_of(
+        {{{0, 0, 0}, 2, 1, {1, 0.5f, 0}}, {{1, 0, 0}, 2, 1, {0, 0.5f, 1}}, {{0, 0, 0}, 0.01, 0}});
+    const truth::Matter matter = truth::make_matter(two, {0, 1, 0}, 1, {}).value();
+    const auto at = [&](double x) {
+        return truth::color_at(matter, (glm::dvec3(x, 0, 0) - matter.origin) / matter.cell);
+    };
+    EXPECT_NEAR(at(0.5).x, 0.5, 0.005);
+    EXPECT_NEAR(at(0.5).y, 0.5, 1e-5);
+    EXPECT_NEAR(at(0).x, 1 / (1 + std::exp(-0.5)), 0.005);
+    EXPECT_NEAR(at(0).z, 1 - 1 / (1 + std::exp(-0.5)), 0.005);
+}
+
+TEST(Matter, FreeFlightsLeaveTheTransmittance) {
+    // On the lattice, listed, and both.
+    for (const auto& list : std::vector<std::vector<Ball>>{
+             {{{0, 0, 0}, 2, 0.5}},
+             {{{0, 0, 0}, 2, 0.5}, {{200, 0, 0}, 1, 0.7}, {{-300, 0.5, 0}, 1.5, 0.3}},
+             {{{0, 0, 0}, 100, 0.004}, {{60, 0, 0}, 0.02, 60}}}) {
+        const ParticleSet particles = particles_of(list);
+        const truth::Matter matter = truth::make_matter(particles, {0, 1, 0}, 1, {}).value();
+        const glm::dvec3 o(-1e3, 0.003, -0.002), d(1, 0, 0);
+        const double exact = std::exp(-line_optical_depth(particles, o, d, 0, kInfinite));
+        const glm::dvec3 start = (o - matter.origin) / matter.cell;
+        PathRandom random(11);
+        const int n = 200'000;
+        int left = 0;
+        double before = 0;
+        for (int i = 0; i < n; ++i) {
+            const truth::Flight flight = truth::free_flight(matter, start, d, 0, kInfinite, random);
+            left += !flight.collided;
+            before += flight.collided && (flight.t * matter.cell < 1e3);
+        }
+        EXPECT_NEAR(left / static_cast<double>(n), exact, 4.5 * std::sqrt(0.25 / n) + 0.001);
+        const double half = 1 - std::exp(-line_optical_depth(particles, o, d, 0, 1e3));
+        EXPECT_NEAR(before / n, half, 4.5 * std::sqrt(0.25 / n) + 0.001);
+        // The tabulated first meeting has the same distribution.
+        const truth::PrimaryRay primary(matter, start, d, kInfinite);
+        const double share = half / (1 - exact);
+        const double t = primary.first_meeting(share) * matter.cell;
+        EXPECT_NEAR((1 - std::exp(-line_optical_depth(particles, o, d, 0, t))) / (1 - exact), share,
+                    0.004);
+    }
+}
+
+// --- laws of light
+
+TEST(Furnace, IsWhiteThroughNextEventsAndEscapes) {
+    SceneDraft draft = test::balls({{{0, 0, 0}, 2, 1}, {{1, 0.5, 0}, 1, 1}});
+    draft.sky.none = false;
+    draft.sky.zenith = draft.sky.horizon = {1, 1, 1};
+    draft.sky.intensity = 1;
+    draft.sun.intensity = 0;
+    draft.medium.g = 0.5;
+    draft.camera.eye = {0, 0, 6};
+    draft.image.width = draft.image.height = 16;
+    draft.image.background = Background::kSky;
+    TruthOptions options;
+    options.samples = 4096;
+    options.sky = SkySampling::kNextEvent;
+    EXPECT_NEAR(mean_red(mean_of(traced(draft, options))), 1, 1e-3);
+    // Escaping paths of albedo 1 bring exactly 1 each: this counts no light, only losses.
+    options.sky = SkySampling::kEscape;
+    options.samples = 64;
+    const Image escaped = mean_of(traced(draft, options));
+    for (std::size_t i = 0; i < escaped.pixel_count(); ++i)
+        ASSERT_NEAR(escaped.pixels[4 * i], 1, 1e-5);
+}
+
+TEST(Sky, EscapesAndNextEventsAgree) {
+    SceneDraft draft = test::balls({{{0, 0, 0}, 2, 1}});
+    draft.sky.none = false;
+    draft.sun.intensity = 0;
+    draft.medium.albedo = 0.9;
+    draft.camera.eye = {0, 3, 6};
+    draft.image.width = draft.image.height = 12;
+    draft.image.background = Background::kTransparent;
+    TruthOptions options;
+    options.samples = 2048;
+    const double by_escape = mean_red(mean_of(traced(draft, options)));
+    options.sky = SkySampling::kNextEvent;
+    EXPECT_NEAR(mean_red(mean_of(traced(draft, options))) / by_escape, 1, 0.01);
+}
+
+TEST(Walk, AbsorbedAndEscapedIsAll) {
+    const SceneDraft draft = test::balls({{{0, 0, 0}, 2, 3}});
+    const truth::Matter matter = truth::make_matter(particles_of(draft), {0, 1, 0}, 1, {}).value();
+    for (const double albedo : {1.0, 0.95, 0.3}) {
+        truth::Setting setting;
+        setting.matter = &matter;
+        setting.albedo = albedo;
+        setting.phase.g = 0.6;
+        truth::Tally tally;
+        const int n = 20'000;
+        PathRandom random(5);
+        for (int i = 0; i < n; ++i)
+            walk_from_matter(setting, 0.5 * matter.top, {0, 0, 1}, random, tally);
+        EXPECT_NEAR((tally.absorbed + tally.escaped) / n, 1, albedo == 1 ? 1e-12 : 0.01);
+        EXPECT_EQ(tally.cut_off, 0);
+        // By hand for weak scattering: of what leaves the middle, e^-tau escapes unscattered.
+        if (albedo == 0.3) {
+            const double straight =
+                0.3 * std::exp(-3 * std::sqrt(pi / 2));  // and 9% of the rest at most
+            EXPECT_GT(tally.escaped / n, straight);
+            EXPECT_LT(tally.escaped / n, straight + 0.09);
+        }
+    }
+}
+
+TEST(Light, GoesBothWays) {
+    // Sun and eye change places: a far eye sees the same flux.
+    const glm::dvec3 a = glm::normalize(glm::dvec3(0.3, 0.2, 1)),
+                     b = glm::normalize(glm::dvec3(1, 0.4, -0.2));
+    double seen[2];
+    for (int way = 0; way < 2; ++way) {
+        SceneDraft draft =
+            test::balls({{{0, 0, 0}, 2, 2}, {{1.5, 0.3, -0.5}, 1, 5}, {{-1, 0.8, 1}, 1.4, 1}});
+        draft.medium.g = 0.7;
+        draft.sun.direction = way == 0 ? a : b;
+        draft.camera.eye = 3000.0 * (way == 0 ? b : a);
+        draft.camera.fov = 2 * std::atan(5.0 / 3000) * 180 / pi;
+        draft.image.width = draft.image.height = 32;
+        draft.image.background = Background::kTransparent;
+        TruthOptions options;
+        options.samples = 512;
+        seen[way] = mean_red(mean_of(traced(draft, options)));
+    }
+    EXPECT_NEAR(seen[0] / seen[1], 1, 0.01);
+}
+
+TEST(Light, OfOrderOneIsTheLineIntegral) {
+    for (const double g : {0.0, 0.85}) {
+        SceneDraft draft = test::balls({{{0, 0, 0}, 2, 1, {1, 0.8f, 0.5f}},
+                                        {{1.5, 0.3, -0.5}, 1, 4, {0.2f, 1, 1}},
+                                        {{-1, 0.8, 1}, 1.4, 1}});
+        draft.medium.g = g;
+        draft.medium.albedo = 0.9;
+        draft.sun.intensity = 10;
+        draft.camera.eye = {1, 2, 9};
+        draft.image.width = 10;
+        draft.image.height = 8;
+        draft.image.background = Background::kTransparent;
+        TruthOptions options;
+        options.samples = 2048;
+        options.max_orders = 1;
+        const Image image = mean_of(traced(draft, options));
+        const Scene scene = test::valid(draft);
+        const ParticleSet particles = particles_of(draft);
+        const View view = resolve_view(draft.camera, draft.image, bounds_of(particles));
+        double brightest = 0;
+        for (const float v : image.pixels) brightest = std::max(brightest, static_cast<double>(v));
+        for (int y = 0; y < 8; ++y)
+            for (int x = 0; x < 10; ++x) {
+                const PixelRay ray = pixel_ray(view, 10, 8, x, y);
+                const glm::dvec3 exact =
+                    single_scattering(scene, particles, ray.origin, ray.direction);
+                const test::Pixel p = test::pixel(image, x, y);
+                EXPECT_NEAR(p.r, exact.x, 0.006 * exact.x + 0.001 * brightest);
+                EXPECT_NEAR(p.g, exact.y, 0.006 * exact.y + 0.001 * brightest);
+                EXPECT_NEAR(p.b, exact.z, 0.006 * exact.z + 0.001 * brightest);
+            }
+    }
+}
+
+TEST(Light, OfThinMatterIsTheFormula) {
+    SceneDraft draft = test::balls({{{0, 0, 0}, 2, 1e-5}});
+    draft.medium.g = 0.3;
+    draft.image.width = draft.image.height = 1;
+    draft.image.background = Background::kTransparent;
+    draft.sun.direction = glm::dvec3(0.6, 0, 0.8);
+    TruthOptions options;
+    options.samples = 256;
+    const test::Pixel p = test::pixel(mean_of(traced(draft, options)), 0, 0);
+    const double depth = 1e-5 * std::sqrt(2 * pi);
+    EXPECT_NEAR(p.a / depth, 1, 1e-4);
+    EXPECT_NEAR(p.r / (depth * phase_value(draft.medium, -0.8) / (4 * pi)), 1, 1e-3);
+}
+
+TEST(Light, DrawnFromTheSunsSideIsTheSame) {
+    // Whatever number of directions is drawn from the sun's side, the mean stays, also of each order.
+    const SceneDraft draft = test::balls({{{0, 0, 0}, 2, 4}, {{1.5, 0.3, -0.5}, 1, 8}});
+    const glm::dvec3 to_sun = glm::normalize(glm::dvec3(0.5, 0.7, -0.4));
+    const truth::Matter matter = truth::make_matter(particles_of(draft), to_sun, 1, {}).value();
+    for (const std::uint32_t orders : {2u, 5u, kMaxOrders})
+        for (const double g : {0.6, -0.5, 0.8}) {
+            double mean[3], noise[3];
+            const int choices[3] = {0, 1, 7};
+            for (int c = 0; c < 3; ++c) {
+                truth::Setting setting;
+                setting.matter = &matter;
+                setting.phase.g = g;
+                setting.phase.cornette_shanks = g == 0.6;
+                setting.to_sun = to_sun;
+                setting.sun_irradiance = glm::dvec3(1);
+                setting.max_orders = orders;
+                setting.from_sun = choices[c];
+                truth::Tally tally;
+                PathRandom random(static_cast<std::uint64_t>(c));
+                const int n = 40'000;
+                double sum = 0, square = 0;
+                for (int i = 0; i < n; ++i) {
+                    const double v =
+                        walk_from_matter(setting, 0.4 * matter.top, {0, 0, -1}, random, tally).x;
+                    sum += v;
+                    square += v * v;
+                }
+                mean[c] = sum / n;
+                noise[c] = std::sqrt((square / n - mean[c] * mean[c]) / n);
+            }
+            for (int c = 1; c < 3; ++c) {
+                EXPECT_NEAR(mean[c], mean[0], 4.5 * std::hypot(noise[0], noise[c]))
+                    << g << ' ' << orders;
+                EXPECT_LT(noise[c], 0.05 * mean[0]);
+            }
+        }
+}
+
+// --- ground
+
+truth::Setting over_ground(const truth::Matter& matter, double height) {
+    truth::Setting setting;
+    setting.matter = &matter;
+    setting.has_ground = true;
+    setting.ground_height = height;
+    return setting;
+}
+
+TEST(Ground, AloneIsLambertian) {
+    const truth::Matter nothing;
+    truth::Setting setting = over_ground(nothing, 0);
+    setting.ground_albedo = {0.2, 0.5, 1};
+    setting.to_sun = glm::normalize(glm::dvec3(1, 1, 0));
+    setting.sun_irradiance = glm::dvec3(3);
+    setting.sky_zenith = setting.sky_horizon = glm::dvec3(0.7);
+    for (const SkySampling sky : {SkySampling::kEscape, SkySampling::kNextEvent}) {
+        setting.sky = sky;
+        PathRandom random(1);
+        truth::Tally tally;
+        glm::dvec3 sum(0);
+        for (int i = 0; i < 2000; ++i) sum += walk_from_ground(setting, {0, 0, 0}, random, tally);
+        const double white = 3 * std::sqrt(0.5) / pi + 0.7;
+        EXPECT_NEAR(sum.x / 2000, 0.2 * white, 1e-9);
+        EXPECT_NEAR(sum.z / 2000, white, 1e-9);
+    }
+    setting.to_sun = {0.6, -0.8, 0};  // a sun below: no light of it
+    PathRandom random(1);
+    truth::Tally tally;
+    EXPECT_NEAR(walk_from_ground(setting, {0, 0, 0}, random, tally).z, 0.7, 1e-9);
+}
+
+TEST(Ground, HasTheCloudsShadow) {
+    const ParticleSet one = particles_of({{{0, 5, 0}, 2, 2}});
+    const glm::dvec3 to_sun = glm::normalize(glm::dvec3(1, 1, 0));
+    const truth::Matter matter = truth::make_matter(one, to_sun, 1, {}).value();
+    const auto cells = [&](const glm::dvec3& p) { return (p - matter.origin) / matter.cell; };
+    truth::Setting setting = over_ground(matter, cells({0, -3, 0}).y);
+    setting.ground_albedo = glm::dvec3(0.5);
+    setting.to_sun = to_sun;
+    setting.sun_irradiance = glm::dvec3(1);
+    setting.albedo = 0;  // nothing scattered: only what comes straight through
+    for (const double x : {-8.0, -7.3, -6.0, 3.0}) {
+        PathRandom random(1);
+        truth::Tally tally;
+        const glm::dvec3 p(x, -3, 0.2);
+        const double through = std::exp(-line_optical_depth(one, p, to_sun, 0, kInfinite));
+        EXPECT_NEAR(walk_from_ground(setting, cells(p), random, tally).x,
+                    0.5 / pi * to_sun.y * through, 0.003 / pi);
+    }
+}
+
+TEST(Ground, OfAWhiteFurnaceIsWhite) {
+    const SceneDraft draft = test::balls({{{0, 0, 0}, 2, 2}});
+    const truth::Matter matter = truth::make_matter(particles_of(draft), {0, 1, 0}, 1, {}).value();
+    truth::Setting setting = over_ground(matter, 0.3 * matter.top.y);
+    setting.ground_albedo = setting.sky_horizon = setting.sky_zenith = glm::dvec3(1);
+    for (const SkySampling sky : {SkySampling::kEscape, SkySampling::kNextEvent}) {
+        setting.sky = sky;
+        PathRandom random(1);
+        truth::Tally tally;
+        double sum = 0;
+        const int n = 40'000;
+        for (int i = 0; i < n; ++i)
+            sum +=
+                i % 2 == 0
+                    ? walk_from_ground(setting, {0.4 * matter.top.x, setting.ground_height, 20},
+                                       random, tally)
+                          .x
+                    : walk_from_matter(setting, 0.5 * matter.top, {0, 0.6, 0.8}, random, tally).x;
+        EXPECT_NEAR(sum / n, 1, sky == SkySampling::kEscape ? 1e-9 : 0.02);
+        EXPECT_NEAR(tally.escaped / n, 1, 1e-9);
+    }
+}
+
+TEST(Ground, IsSeenFromAboveOnly) {
+    const truth::Matter nothing;
+    const truth::Setting setting = over_ground(nothing, 2);
+    EXPECT_NEAR(ground_ahead(setting, {0, 5, 0}, {0, -1, 0}), 3, 1e-12);
+    EXPECT_EQ(ground_ahead(setting, {0, 5, 0}, {0, 1, 0}), kInfinite);
+    EXPECT_EQ(ground_ahead(setting, {0, 1, 0}, {0, 1, 0}), kInfinite);
+    EXPECT_EQ(ground_ahead(setting, {0, 2, 0}, {1, 0, 0}), kInfinite);
+}
+
+TEST(Ground, StandsInThePicture) {
+    SceneDraft draft = test::balls({{{0, 5, 0}, 2, 1}});
+    draft.ground = Ground{-3, glm::dvec3(0.5)};
+    draft.accuracy.rung = "truth";
+    draft.image.width = draft.image.height = 12;
+    draft.image.background = Background::kSky;
+    draft.camera.eye = {0, 8, 30};
+    auto scene = validate(draft);
+    if (!scene.ok()) GTEST_SKIP() << "this version refuses grounds";
+    const ParticleSet particles = generate(*scene, 1, {}).value();
+    const View view = resolve_view(draft.camera, draft.image, bounds_of(particles));
+    TruthOptions options;
+    options.samples = 64;
+    const Image image = mean_of(trace_truth(*scene, particles, view, options, {}, {}).value());
+    const test::Pixel corner = test::pixel(image, 0, 11);
+    EXPECT_EQ(corner.a, 1);
+    EXPECT_NEAR(corner.r, 0.5 / pi * sun_direction(draft.sun).y, 0.1 * corner.r);
+}
+
+// --- pictures
+
+SceneDraft small_table() {
+    SceneDraft draft = test::table_4_4();
+    draft.image.width = 20;
+    draft.image.height = 14;
+    draft.image.background = Background::kTransparent;
+    return draft;
+}
+
+TEST(Picture, DoesNotDependOnThreads) {
+    TruthOptions options;
+    options.samples = 8;
+    const TruthImage one = traced(small_table(), options);
+    options.threads = 3;
+    const TruthImage three = traced(small_table(), options);
+    EXPECT_EQ(one.half_a.pixels, three.half_a.pixels);
+    EXPECT_EQ(one.half_b.pixels, three.half_b.pixels);
+    EXPECT_EQ(one.scatterings, three.scatterings);
+    options.seed = 2;
+    EXPECT_NE(traced(small_table(), options).half_a.pixels, one.half_a.pixels);
+}
+
+TEST(Picture, HalvesAreIndependent) {
+    SceneDraft draft = small_table();
+    draft.medium.g = 0.3;
+    TruthOptions options;
+    options.samples = 32;
+    const TruthImage truth = traced(draft, options);
+    options.samples = 1024;
+    options.seed = 99;
+    const Image known = mean_of(traced(draft, options));
+    double product = 0, squares = 0, product_square = 0;
+    for (std::size_t i = 0; i < known.pixel_count(); ++i) {
+        const double a = static_cast<double>(truth.half_a.pixels[4 * i] - known.pixels[4 * i]);
+        const double b = static_cast<double>(truth.half_b.pixels[4 * i] - known.pixels[4 * i]);
+        product += a * b;
+        product_square += a * a * b * b;
+        squares += 0.5 * (a * a + b * b);
+    }
+    EXPECT_GT(squares, 0);
+    // The known picture's own noise is in both: 1 / 64 of a half's.
+    EXPECT_NEAR(product / squares, 1.0 / 64, 4 * std::sqrt(product_square) / squares);
+}
+
+TEST(Picture, AlphaIsExactAndTheSkyStandsBehind) {
+    SceneDraft draft = small_table();
+    const ParticleSet particles = particles_of(draft);
+    const View view = resolve_view(draft.camera, draft.image, bounds_of(particles));
+    TruthOptions options;
+    options.samples = 4;
+    const Image clear = mean_of(traced(draft, options));
+    draft.image.background = Background::kSky;
+    const Image opaque = mean_of(traced(draft, options));
+    EXPECT_TRUE(opaque.opaque);
+    EXPECT_FALSE(clear.opaque);
+    for (int y = 0; y < 14; ++y)
+        for (int x = 0; x < 20; ++x) {
+            const PixelRay ray = pixel_ray(view, 20, 14, x, y);
+            const double depth =
+                line_optical_depth(particles, ray.origin, ray.direction, 0, kInfinite);
+            const test::Pixel p = test::pixel(clear, x, y), q = test::pixel(opaque, x, y);
+            EXPECT_NEAR(p.a, -std::expm1(-depth), 1e-7 + 1e-6 * p.a);
+            EXPECT_EQ(q.a, 1);
+            const double up = std::max(ray.direction.y, 0.0);
+            const double share = 1.09 * up * up / (up * up + 0.09);
+            const double blue = (0.95 + share * (0.72 - 0.95)) * 1.7;
+            EXPECT_NEAR(q.b - p.b, std::exp(-depth) * blue, 1e-5);
+        }
+}
+
+TEST(Picture, StopsWhenNobodyWaits) {
+    const Scene scene = test::valid(test::table_4_4());
+    const ParticleSet particles = particles_of(test::table_4_4());
+    const View view = resolve_view(scene->camera, scene->image, bounds_of(particles));
+    Deadline deadline;
+    deadline.until = Deadline::Clock::now() + std::chrono::milliseconds(300);
+    TruthOptions options;
+    options.samples = 1u << 20;
+    options.threads = 2;
+    const auto late = trace_truth(scene, particles, view, options, {}, deadline);
+    ASSERT_FALSE(late.ok());
+    EXPECT_EQ(late.error().code, ErrorCode::kOverDeadline);
+    EXPECT_LT(Deadline::Clock::now() - deadline.until, std::chrono::seconds(2));
+    deadline = {};
+    deadline.cancelled = std::make_shared<std::atomic<bool>>(true);
+    EXPECT_EQ(trace_truth(scene, particles, view, options, {}, deadline).error().code,
+              ErrorCode::kCancelled);
+}
+
+TEST(Picture, TellsItsProgress) {
+    SceneDraft draft = small_table();
+    const Scene scene = test::valid(draft);
+    const ParticleSet particles = particles_of(draft);
+    const View view = resolve_view(scene->camera, scene->image, bounds_of(particles));
+    TruthOptions options;
+    options.samples = 2;
+    options.threads = 2;
+    std::vector<double> told;
+    ASSERT_TRUE(
+        trace_truth(scene, particles, view, options, [&](double d) { told.push_back(d); }, {})
+            .ok());
+    ASSERT_FALSE(told.empty());
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_EQ(told.back(), 1);
+}
+
+// --- hard cases
+
+void expect_physical(const SceneDraft& draft, double most, const char* what) {
+    TruthOptions options;
+    options.samples = 4;
+    const Image image = mean_of(traced(draft, options));
+    for (const float v : image.pixels) {
+        ASSERT_TRUE(std::isfinite(v)) << what;
+        ASSERT_GE(v, 0) << what;
+        ASSERT_LE(static_cast<double>(v), most) << what;
+    }
+}
+
+SceneDraft hard(const std::vector<Ball>& list) {
+    SceneDraft draft = test::balls(list);
+    draft.image.width = draft.image.height = 6;
+    draft.image.background = Background::kTransparent;
+    draft.medium.g = 0.5;
+    draft.camera.eye = {0, 0, 6};
+    return draft;
+}
+
+TEST(Hard, OpticalDepths) {
+    for (const double depth : {1e3, 1e6, 1e12}) {
+        SceneDraft draft = hard({{{0, 0, 0}, 2, 1}});
+        draft.clouds[0].ready.radii = {static_cast<float>(std::min(depth, 1e6))};
+        draft.clouds[0].ready.densities = {static_cast<float>(depth / std::min(depth, 1e6))};
+        draft.camera.eye = {0, 0, 4.0 * std::min(depth, 1e6)};
+        for (const double albedo : {1.0, 0.9999, 0.5, 0.0}) {
+            draft.medium.albedo = albedo;
+            expect_physical(draft, 50, "thick");
+        }
+    }
+    SceneDraft draft = hard({{{0, 0, 0}, 2, 1e-12}});
+    expect_physical(draft, 1e-9, "thin");
+}
+
+TEST(Hard, Anisotropy) {
+    for (const double g : {0.999, -0.999})
+        for (const PhaseFunction phase :
+             {PhaseFunction::kHenyeyGreenstein, PhaseFunction::kCornetteShanks}) {
+            SceneDraft draft = hard({{{0, 0, 0}, 2, 5}});
+            draft.medium.g = g;
+            draft.medium.phase = phase;
+            expect_physical(draft, 1e6, "g");
+            draft.sun.direction = glm::dvec3(0, 0, -1);  // straight into the eye
+            expect_physical(draft, 1e6, "g");
+        }
+}
+
+TEST(Hard, SunsAndEyes) {
+    for (const double elevation : {90.0, -90.0, 0.0}) {
+        SceneDraft draft = hard({{{0, 0, 0}, 2, 5}});
+        draft.sun.elevation = elevation;
+        draft.sky.none = false;
+        expect_physical(draft, 50, "sun");
+    }
+    SceneDraft draft = hard({{{0, 0, 0}, 2, 5}, {{1, 0, 0}, 1e-6, 1e6}});
+    draft.camera.eye = {0, 0, 0};
+    draft.camera.target = {0, 0, -1};
+    expect_physical(draft, 50, "eye in a centre");
+    draft.camera.eye = {1, 0, 0};
+    draft.camera.target = {0, 0, -1};
+    expect_physical(draft, 50, "eye in a small centre");
+    draft.image.width = draft.image.height = 1;
+    expect_physical(draft, 50, "one pixel");
+}
+
+TEST(Hard, SizesAndPlaces) {
+    SceneDraft small = hard({{{0, 0, 0}, 1e-6, 1e6}});
+    small.camera.eye = {0, 0, 4e-6};
+    expect_physical(small, 50, "small");
+    SceneDraft far = hard({{{1e9, 1e9, 1e9}, 2, 3}});
+    far.camera.eye = {1e9, 1e9, 1e9 - 9};
+    far.camera.target = {1e9, 1e9, 1e9};
+    expect_physical(far, 50, "far");
+    expect_physical(hard({{{0, 0, 0}, 2, 5}, {{1e9, 0, 0}, 1e-6, 1e6}, {{-1e9, 0, 0}, 1e6, 1}}), 50,
+                    "apart");
+    expect_physical(hard(std::vector<Ball>(5000, {{0.3, 0, 0}, 2, 2e-3})), 50, "coincident");
+    expect_physical(hard({{{0, 0, 0}, 2, 0}}), 0, "nothing");
+    expect_physical(hard({}), 0, "no particles");
+    // A picture of the far cloud is that of the near one.
+    SceneDraft near = hard({{{0, 0, 0}, 2, 3}});
+    near.camera.eye = {0, 0, -9};
+    TruthOptions options;
+    options.samples = 512;
+    EXPECT_NEAR(mean_red(mean_of(traced(far, options))) / mean_red(mean_of(traced(near, options))),
+                1, 0.05);
+}
+
+TEST(Hard, ThickMatterGivesLightBack) {
+    // An optical depth of 1000 with nothing absorbed reflects nearly all: a ball lit from the eye's side, seen
+    // under the same sky from everywhere, is as bright as the sky.
+    SceneDraft draft = hard({{{0, 0, 0}, 2, 400}});
+    draft.sun.intensity = 0;
+    draft.sky.none = false;
+    draft.sky.zenith = draft.sky.horizon = {1, 1, 1};
+    draft.sky.intensity = 1;
+    draft.medium.g = 0;
+    draft.image.background = Background::kSky;
+    draft.image.width = draft.image.height = 1;
+    TruthOptions options;
+    options.samples = 256;
+    options.sky = SkySampling::kNextEvent;
+    const Image image = mean_of(traced(draft, options));
+    EXPECT_NEAR(image.pixels[0], 1, 0.25);
+}
+
+}  // namespace
+}  // namespace awan
