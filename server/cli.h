@@ -40,6 +40,7 @@ struct AccuracyCommand {
     std::uint32_t samples = 384;
     std::vector<std::string> rungs;  // empty: all but truth
     int runs = 4;
+    double within_seconds = 0;  // of each scene; 0: as long as it takes
     int threads = 1;
     DeviceChoice device = DeviceChoice::kAuto;
 };

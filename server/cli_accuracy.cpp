@@ -28,6 +28,7 @@ AccuracyOptions options_of(const AccuracyCommand& command) {
     options.reference_side = command.side;
     options.samples = command.samples;
     options.rungs = command.rungs;
+    options.time_ms = 1000 * command.within_seconds;
     return options;
 }
 

@@ -161,6 +161,9 @@ Run add_accuracy(CLI::App& app) {
         ->check(CLI::IsMember(rung_names()));
     add(*accuracy, "--runs", command->runs, "timed renders of a rung; the first does not count")
         ->check(CLI::Range(1, 1000));
+    add(*accuracy, "--within", command->within_seconds,
+        "seconds that a scene may take: the reference is then as good as fits; 0 is no limit")
+        ->check(CLI::Range(0.0, 1e6));
     add_threads(*accuracy, command->threads);
     add_device(*accuracy, command->device);
     return [command] { return run_accuracy(*command); };

@@ -48,6 +48,7 @@ struct FakeRungs {
     std::map<std::string, int> own_runs;
     std::vector<std::string> calls;
     Background own_background = Background::kTransparent;
+    Image truth;  // at the reference's size, traced once
 
     RenderScene renderer(const Scene& whole) {
         return [this, width = whole->image.width](const Scene& scene,
@@ -69,13 +70,16 @@ struct FakeRungs {
                 return rendered;
             }
             EXPECT_EQ(scene->image.background, Background::kTransparent);
-            TruthOptions options;
-            options.samples = 256;
-            options.threads = 2;
-            auto truth = trace_truth(scene, planned->particles, planned->survey.view, options,
-                                     Progress{}, deadline);
-            if (!truth) return truth.error();
-            rendered.image = mean_of(*truth);
+            if (truth.pixels.empty()) {
+                TruthOptions options;
+                options.samples = 256;
+                options.threads = 2;
+                auto traced = trace_truth(scene, planned->particles, planned->survey.view, options,
+                                          Progress{}, deadline);
+                if (!traced) return traced.error();
+                truth = mean_of(*traced);
+            }
+            rendered.image = truth;
             for (std::size_t i = 0; i < rendered.image.pixels.size(); ++i)
                 if (i % 4 != 3) rendered.image.pixels[i] *= static_cast<float>(rung.gain);
             return rendered;

@@ -20,6 +20,9 @@ namespace {
 using Clock = Deadline::Clock;
 
 constexpr std::array<std::uint32_t, 2> kPilotSamples = {2, 6};  // to know what a sample takes
+constexpr int kPilotSide = 32;                                  // pixels
+constexpr std::uint32_t kGoodSamples = 64;    // above, more pixels are worth more than more samples
+constexpr int kLeastSide = 24;                // pixels
 constexpr std::uint32_t kFewestSamples = 16;  // below, the noise is all there is to see
 constexpr double kReferenceShare = 0.5;       // of the time allowed
 constexpr double kLongRunMs = 500;  // a first run this long is counted: the picture at the
@@ -129,31 +132,67 @@ struct Reference {
     std::vector<std::uint8_t> shown;  // the samples of its PNG, over the sky
 };
 
-// How many samples fit into `allowed_ms`. Two short runs tell what a sample takes from what every
-// picture takes before its first (the tracer's tables).
-Result<std::uint32_t> fitting_samples(const Reference& reference, const ParticleSet& particles,
-                                      TruthOptions options, double allowed_ms, double& expected_ms,
-                                      const Deadline& deadline) {
-    const std::uint32_t wanted = options.samples;
+// How large the reference is and how many paths a pixel it has.
+struct ReferenceShape {
+    PictureSize size;
+    std::uint32_t samples = 2;
+    double expected_ms = 0;  // 0: unknown
+};
+
+double pixels_of(PictureSize size) {
+    return static_cast<double>(size.width) * size.height;
+}
+
+// As asked for, or what fits into `allowed_ms`: fewer samples first, then fewer pixels. Two short
+// runs of a small picture tell what a path takes from what every picture takes before its first
+// (the tracer's tables): paths of thick clouds take a hundred times those of thin ones.
+Result<ReferenceShape> reference_shape(const Scene& scene, const Planned& planned,
+                                       const AccuracyOptions& options, double allowed_ms,
+                                       const Deadline& deadline) {
+    const auto fitted = [&](int side) {
+        return fitted_size(scene->image.width, scene->image.height, std::max(side, 1));
+    };
+    ReferenceShape shape{fitted(options.reference_side), std::max(options.samples / 2 * 2, 2u)};
+    if (!std::isfinite(allowed_ms) && shape.samples <= 2 * kPilotSamples.back()) return shape;
+
+    const PictureSize pilot_size = fitted(std::min(options.reference_side, kPilotSide));
+    const auto pilot_scene = reference_sized(scene, pilot_size);
+    if (!pilot_scene) return pilot_scene.error();
+    const View view =
+        resolve_view((*pilot_scene)->camera, (*pilot_scene)->image, planned.survey.bounds);
     std::array<double, kPilotSamples.size()> took_ms{};
     for (std::size_t i = 0; i < kPilotSamples.size(); ++i) {
-        options.samples = kPilotSamples[i];
+        TruthOptions pilot;
+        pilot.samples = kPilotSamples[i];
+        pilot.threads = options.threads;
         const auto start = Clock::now();
-        auto pilot =
-            trace_truth(reference.scene, particles, reference.view, options, Progress{}, deadline);
-        if (!pilot) return pilot.error();
+        const auto traced =
+            trace_truth(*pilot_scene, planned.particles, view, pilot, Progress{}, deadline);
+        if (!traced) return traced.error();
         took_ms[i] = ms_since(start);
     }
+    const double paths = pixels_of(pilot_size) * kPilotSamples[1];
+    const double more_paths = paths - pixels_of(pilot_size) * kPilotSamples[0];
     // Not below a part of the whole: on a busy machine the longer run may seem the shorter.
-    const double more_samples = kPilotSamples[1] - kPilotSamples[0];
-    const double sample_ms = std::max(
-        {(took_ms[1] - took_ms[0]) / more_samples, 0.2 * took_ms[1] / kPilotSamples[1], 1e-6});
-    const double fixed_ms = std::max(took_ms[1] - sample_ms * kPilotSamples[1], 0.0);
-    const double fitting =
-        std::clamp((allowed_ms - fixed_ms) / sample_ms, double{kFewestSamples}, 4e9);
-    const std::uint32_t samples = std::min(wanted, static_cast<std::uint32_t>(fitting) / 2 * 2);
-    expected_ms = fixed_ms + sample_ms * samples;
-    return samples;
+    const double path_ms =
+        std::max({(took_ms[1] - took_ms[0]) / more_paths, 0.2 * took_ms[1] / paths, 1e-9});
+    const double fixed_ms = std::max(took_ms[1] - path_ms * paths, 0.0);
+
+    const auto fitting_samples = [&] {
+        const double fitting = (allowed_ms - fixed_ms) / path_ms / pixels_of(shape.size);
+        return std::clamp(fitting, 1.0, static_cast<double>(shape.samples));
+    };
+    const double enough = std::min<double>(shape.samples, kGoodSamples);
+    if (const double fitting = fitting_samples(); fitting < enough) {
+        const int side = std::max(shape.size.width, shape.size.height);
+        const int smaller = static_cast<int>(side * std::sqrt(fitting / enough));
+        shape.size = fitted(std::clamp(smaller, std::min(kLeastSide, side), side));
+    }
+    shape.samples =
+        std::min(shape.samples,
+                 std::max(static_cast<std::uint32_t>(fitting_samples()) / 2 * 2, kFewestSamples));
+    shape.expected_ms = fixed_ms + path_ms * pixels_of(shape.size) * shape.samples;
+    return shape;
 }
 
 // --- one rung
@@ -291,8 +330,14 @@ Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOption
     steps.begin("planning", 0);
     auto planned = plan_scene(scene, options.threads, deadline, options.speed);
     if (!planned) return planned.error();
-    const PictureSize size =
-        fitted_size(report.width, report.height, std::max(options.reference_side, 1));
+    steps.begin("sizing the reference", 0);
+    const double allowed_ms = options.time_ms > 0
+                                  ? kReferenceShare * options.time_ms - ms_since(start)
+                                  : std::numeric_limits<double>::infinity();
+    const auto shape = reference_shape(scene, *planned, options, allowed_ms, deadline);
+    if (!shape) return shape.error();
+    const PictureSize size = shape->size;
+    const double reference_ms = shape->expected_ms;
     auto small = reference_sized(scene, size);
     if (!small) return small.error();
     const View view = resolve_view((*small)->camera, (*small)->image, planned->survey.bounds);
@@ -300,20 +345,9 @@ Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOption
 
     // The reference.
     TruthOptions truth_options;
-    truth_options.samples = std::max(options.samples / 2 * 2, 2u);
+    truth_options.samples = shape->samples;
     truth_options.threads = options.threads;
     truth_options.seed = kReferenceSeed;
-    steps.begin("sizing the reference", 0);
-    double reference_ms = 0;
-    if (truth_options.samples > 2 * kPilotSamples.back()) {
-        const double allowed_ms = options.time_ms > 0
-                                      ? kReferenceShare * options.time_ms - ms_since(start)
-                                      : std::numeric_limits<double>::infinity();
-        const auto samples = fitting_samples(reference, planned->particles, truth_options,
-                                             allowed_ms, reference_ms, deadline);
-        if (!samples) return samples.error();
-        truth_options.samples = *samples;
-    }
     steps.expect(reference_ms);
     std::vector<double> expected;
     for (const Rung* const rung : *rungs) {

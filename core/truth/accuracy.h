@@ -53,7 +53,7 @@ struct AccuracyOptions {
     std::uint32_t samples = 384;     // paths a pixel of the reference
     std::vector<std::string> rungs;  // EMPTY: all but truth, which is the reference
     // About how long all of it may take; 0: as long as it takes. Half of it goes to the reference,
-    // which gets as many of the samples as fit; rungs that are then too slow are left out.
+    // which gets as many of the samples, and then of the pixels, as fit; rungs that are then too slow are left out.
     double time_ms = 0;
     std::function<void(const std::string&)> on_step;  // told what is done now; may be empty
 };
