@@ -25,6 +25,7 @@ constexpr std::uint32_t kGoodSamples = 64;    // above, more pixels are worth mo
 constexpr int kLeastSide = 24;                // pixels
 constexpr std::uint32_t kFewestSamples = 16;  // below, the noise is all there is to see
 constexpr double kReferenceShare = 0.5;       // of the time allowed
+constexpr double kRungShare = 0.6;            // of what is left, for one rung at most
 constexpr double kLongRunMs = 500;  // a first run this long is counted: the picture at the
                                     // reference's size has warmed up what there is to warm
 constexpr double kEnoughMs = 3000;  // of counted runs of one rung
@@ -208,7 +209,11 @@ Status time_rung(const Scene& scene, int runs, const RenderScene& render, const 
     double all_ms = 0;
     for (int i = 0; i < std::max(runs, 1); ++i) {
         auto rendered = render(scene, deadline);
-        if (!rendered) return rendered.error();
+        if (!rendered) {
+            // Fewer runs than wanted are better than none.
+            if (rendered.error().code == ErrorCode::kOverDeadline && !timed.empty()) break;
+            return rendered.error();
+        }
         timed.push_back({whole_ms(rendered->times), rendered->times});
         steps.tell(share_before + (1 - share_before) * (i + 1) / std::max(runs, 1));
         all_ms += timed.back().whole_ms;
@@ -377,11 +382,6 @@ Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOption
     report.reference.picture = scene->image.background == Background::kSky ? seen : reference.mean;
 
     // Every rung.
-    Deadline slice = deadline;
-    if (options.time_ms > 0)
-        slice.until =
-            std::min(slice.until, start + std::chrono::microseconds(static_cast<std::int64_t>(
-                                              std::min(options.time_ms, 1e12) * 1e3)));
     for (std::size_t i = 0; i < rungs->size(); ++i) {
         const Rung& rung = *(*rungs)[i];
         if (auto over = deadline.over()) return *over;
