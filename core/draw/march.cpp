@@ -13,7 +13,7 @@
 namespace awan {
 namespace {
 
-constexpr double kStepDepth = 0.7;  // scaled optical depth of a step that costs 1% (march_test)
+constexpr double kStepDepth = 0.5;  // scaled optical depth of a step that costs 1% (march_test)
 
 // Rooms for blocks: as many as threads ask for at a time.
 class Rooms {

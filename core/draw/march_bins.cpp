@@ -11,7 +11,7 @@
 namespace awan {
 namespace {
 
-constexpr double kFaintDepth = 1e-4;
+constexpr double kFaintDepth = 3e-5;
 constexpr double kLeastCut = 3.8, kMostCut = 9;  // of s
 constexpr double kMinWidthPixels = 0.6;          // as in core/draw/splats.h
 constexpr std::size_t kMaxEntries = 1u << 23;    // of the lists, 4 bytes each

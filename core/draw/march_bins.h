@@ -30,7 +30,7 @@ struct SeenParticle {
 };
 
 // Those in the picture, nearest first (ties: the set's order). A Gaussian is cut where the optical depth across it falls
-// below 1e-4, but neither within 3.8 s nor beyond 9, and scaled so that its mass stays whole; one with s below .6 pixels is widened to
+// below 3e-5, but neither within 3.8 s nor beyond 9, and scaled so that its mass stays whole; one with s below .6 pixels is widened to
 // that, its optical depth times area kept.
 std::vector<SeenParticle> see_particles(const ParticleSet& particles, const View& view, int width,
                                         int height, int threads);

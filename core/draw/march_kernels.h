@@ -142,11 +142,6 @@ AWAN_INLINE void deposit(const BlockParticles& p, const ActiveParticle& a, const
             const Closest at = closest(p, i, tile.x, tile.y, tile.z);
             const Floats mass = whole * simd::exp(at.b2 * (-0.5f * per_s2));
             for (int k = first[t]; k <= last[t]; ++k) tile.profile[k] += mass * share[k][t];
-            // The eye cuts each pixel's ray where it cuts it.
-            if (chunk.joined && chunk.before == 0.0f && low_at[t] < 0)
-                tile.profile[0] +=
-                    mass * (simd::normal_cdf(simd::all(-center[t] * per_s)) -
-                            simd::normal_cdf((a.shift[t] - center[t] - at.shift) * per_s));
         }
     } else {
         const float amplitude = p.extinction[i] * step;
@@ -186,6 +181,15 @@ AWAN_INLINE void deposit(const BlockParticles& p, const ActiveParticle& a, const
         const int t = touched[n];
         if (low_at[t] >= 0) continue;
         const Closest at = closest(p, i, tiles[t].x, tiles[t].y, tiles[t].z);
+        // Masses are cut at the tile's middle, recurrences (and the eye's end of a ray) at each pixel's own place.
+        const bool were_masses = chunk.before > 0.0f && s < kLeastRecurrence * chunk.before;
+        if (masses != were_masses) {
+            const Floats missing = simd::normal_cdf(simd::all(-center[t] * per_s)) -
+                                   simd::normal_cdf((a.shift[t] - center[t] - at.shift) * per_s);
+            const Floats mass =
+                (p.extinction[i] * s * kRootTwoPi) * simd::exp(at.b2 * (-0.5f * per_s2));
+            tiles[t].profile[0] += (masses ? mass : -mass) * missing;
+        }
         join(p.extinction[i], s, s < kLeastRecurrence * chunk.before ? 0.0f : chunk.before,
              masses ? 0.0f : step, at.b2, center[t] + (at.shift - a.shift[t]), tiles[t]);
     }

@@ -40,6 +40,14 @@ double predicted_bytes(const Rung& rung, const TimeFigures& figures) {
     return 32e6 + 64 * particles + 32 * figures[4];
 }
 
+// Time with so many threads over that of the calibration; `serial`: share that threads do not shorten.
+constexpr int kCalibratedThreads = 2;
+constexpr double kMarchSerial = 0.25;
+double stretch(int threads, double serial) {
+    const auto time = [&](int n) { return serial + (1 - serial) / std::max(n, 1); };
+    return time(threads) / time(kCalibratedThreads);
+}
+
 const ErrorModel& error_model(const Rung& rung) {
     switch (rung.method) {
         case Method::kSplats:
@@ -65,17 +73,17 @@ RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey
     double ms = predicted_ms(kPrepareTime, times);
     switch (rung.method) {
         case Method::kSplats:
-            ms += predicted_ms(kSplatTime, times);
+            ms += &rung == find_rung("additive") ? predicted_ms(kAdditiveTime, times)
+                                                 : predicted_ms(kHarrisLightTime, times) +
+                                                       predicted_ms(kHarrisDrawTime, times);
             break;
-        case Method::kMarch: {
-            // Most of it runs on all threads.
-            const double spread = kSerialShare + (1 - kSerialShare) / std::max(threads, 1);
-            ms += predicted_ms(kMarchTime, times) * spread;
+        case Method::kMarch:
+            ms += (predicted_ms(kMarchLightTime, times) + predicted_ms(kMarchDrawTime, times)) *
+                  stretch(threads, kMarchSerial);
             break;
-        }
         case Method::kPaths:
             forecast.error /= std::sqrt(std::max(samples, 1U));
-            ms += predicted_ms(kPathTime, times) / std::max(threads, 1);
+            ms += predicted_ms(kPathTime, times) * stretch(threads, 0);
             break;
     }
     forecast.time_ms = ms * speed.slowness;

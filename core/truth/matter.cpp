@@ -18,6 +18,11 @@ constexpr double kMinSide = 64;
 constexpr double kCellsPerS = 10;   // wanted of the particles that matter
 constexpr double kAllowed = 0.008;  // of the largest extinction, by one particle
 
+// Particles that misplace more optical depth than this on a lattice are plainly seen. Lists of bricks are filled with these
+// up to so many entries, and with the others up to fewer: every entry costs each path that comes by.
+constexpr double kMisplaced = 0.05;
+constexpr double kMaxPlainEntries = 1e6, kMaxFineEntries = 20e3;
+
 // Everything about a particle that does not depend on the lattice. Scene units, about the cloud's centre.
 struct Source {
     glm::dvec3 center;
@@ -110,11 +115,38 @@ double lattice_error(double s_in_cells) {
     return s_in_cells < kNarrowest ? 1.0 : std::min(0.25 / (s_in_cells * s_in_cells), 1.0);
 }
 
-bool belongs_on_lattice(const Source& g, double cell, double largest) {
-    const double s = g.s / cell;
-    // Narrow and dense: a majorant of such a peak would make a walk stop everywhere in its bricks.
-    if (s < 4 && g.peak * kBrick * cell > 1000) return false;
-    return s >= kCellsPerS / 2 || g.peak * lattice_error(s) <= kAllowed * largest;
+// Which of the sources are to be listed, by index; the others go on the lattice.
+std::vector<bool> choose_listed(const std::vector<Source>& sources, double cell, double largest) {
+    std::vector<bool> listed(sources.size(), false);
+    // Those that would be good to list: what it spares (optical depth misplaced) for a brick that has it on its list.
+    std::vector<std::pair<double, std::size_t>> plain, fine;
+    const auto entries_of = [cell](const Source& g) {
+        return std::pow(2 * g.cut * g.s / (kBrick * cell) + 1, 3);
+    };
+    double entries = 0;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        const Source& g = sources[i];
+        const double s = g.s / cell, error = lattice_error(s);
+        const double misplaced = error * g.peak * g.s * std::sqrt(2 * std::numbers::pi);
+        if (s >= kCellsPerS / 2 || g.peak * error <= kAllowed * largest) continue;
+        // Narrow and dense: a majorant of such a peak would make a walk stop everywhere in its bricks.
+        const bool dense = s < 4 && g.peak * kBrick * cell > 1000;
+        if (dense)
+            listed[i] = true;
+        else
+            (misplaced > kMisplaced ? plain : fine).emplace_back(-misplaced / entries_of(g), i);
+    }
+    const auto list_best = [&](std::vector<std::pair<double, std::size_t>>& wanted, double most) {
+        std::sort(wanted.begin(), wanted.end());
+        for (const auto& [merit, i] : wanted) {
+            entries += entries_of(sources[i]);
+            if (entries > most) return;
+            listed[i] = true;
+        }
+    };
+    list_best(plain, kMaxPlainEntries);
+    list_best(fine, kMaxFineEntries);
+    return listed;
 }
 
 // Lists of those of n items that touch each of the cells first(i)..last(i), as begin/items.
@@ -289,11 +321,13 @@ Result<Matter> make_matter(const ParticleSet& particles, const glm::dvec3& to_su
 
     std::vector<LatticeGaussian> on_lattice, on_sun_lattice;
     std::vector<glm::vec3> colors;
-    for (const Source& g : sources) {
+    const std::vector<bool> listed = choose_listed(sources, std::max(cell, sun_cell), largest);
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        const Source& g = sources[i];
         const glm::dvec3 c = (g.center - box.low) / cell;
         const glm::dvec3 at_sun = (axes * g.center - sun_box.low) / sun_cell;
         const double s = g.s / cell, sun_s = g.s / sun_cell;
-        if (belongs_on_lattice(g, std::max(cell, sun_cell), largest)) {
+        if (!listed[i]) {
             on_lattice.push_back({c, s, g.cut, g.peak * cell});
             on_sun_lattice.push_back({at_sun, sun_s, g.cut, g.peak * sun_cell});
             colors.push_back(g.color);

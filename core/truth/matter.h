@@ -1,11 +1,14 @@
 // The cloud's matter as the path tracer walks through it, in units of its own: lengths in cells of the
 // density lattice, from that lattice's first node; extinction per cell. Scene axes.
 //
-// Particles at least about two cells wide (in s) are summed on a lattice (lattice.h). Narrower ones are kept as they are and
-// summed exactly, by lists of those near each brick of the lattice, unless they are too thin to be
-// seen there: they are then widened, their mass kept. Error of the extinction anywhere: below .3% of the
-// cloud's largest, and of mean 0 over a few cells; of a Gaussian's cut tails: 1e-5 of its peak.
-// Optical depth towards the sun: below .5% or .005, whichever is larger; measured by truth_test.
+// Particles at least about two cells wide (in s) are summed on a lattice (lattice.h) of at most 176 cells a side. Of the
+// narrower ones, those that would be seen are kept as they are and summed exactly, by lists of those near each brick of the
+// lattice, as many as lists of bounded length hold (of those that misplace an optical depth of .05 some ten thousand or more,
+// of the others some hundreds); the rest are widened to about a cell, their mass kept.
+//
+// Error of the extinction: below .35% of the cloud's largest as long as the lists hold all that would be seen; with tens of
+// thousands of narrow, thin particles what is finer than a cell is smoothed. Its mean over a few cells is exact in any case. Of
+// a Gaussian's cut tails: 1e-5 of its peak. Optical depth towards the sun: below .5% or .005, whichever is larger.
 #pragma once
 
 #include <array>

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/truth/brick_walk.h"
+
 namespace awan::truth {
 namespace {
 
@@ -17,9 +19,19 @@ struct Met {
     double from, to;
 };
 
-std::vector<Met> listed_along(const Matter& m, const glm::dvec3& o, const glm::dvec3& d) {
+std::vector<Met> listed_along(const Matter& m, const glm::dvec3& o, const glm::dvec3& d,
+                              double from, double to) {
     std::vector<Met> met;
-    for (const Matter::Listed& one : m.listed) {
+    if (m.listed.empty()) return met;
+    std::vector<std::uint32_t> near;
+    for (BrickWalk walk(m, o, d, from, to); walk.inside(); walk.advance()) {
+        const auto list = m.brick_begin.begin() + static_cast<std::ptrdiff_t>(walk.brick());
+        near.insert(near.end(), m.brick_items.begin() + list[0], m.brick_items.begin() + list[1]);
+    }
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    for (const std::uint32_t i : near) {
+        const Matter::Listed& one = m.listed[i];
         const glm::dvec3 v = one.center - o;
         const double along = glm::dot(v, d);
         const glm::dvec3 aside = v - along * d;
@@ -35,15 +47,11 @@ std::vector<Met> listed_along(const Matter& m, const glm::dvec3& o, const glm::d
 
 PrimaryRay::PrimaryRay(const Matter& m, const glm::dvec3& o, const glm::dvec3& d, double end) {
     if (m.empty) return;
-    double t = 0;
-    for (int a = 0; a < 3; ++a) {
-        const double slope = std::abs(d[a]) < 1e-30 ? std::copysign(1e-30, d[a]) : d[a];
-        const double u = -o[a] / slope, v = (m.top[a] - o[a]) / slope;
-        t = std::max(t, std::min(u, v));
-        end = std::min(end, std::max(u, v));
-    }
-    if (!(t < end)) return;
-    const std::vector<Met> met = listed_along(m, o, d);
+    const BrickWalk inside(m, o, d, 0, end);
+    if (!inside.inside()) return;
+    double t = inside.enter();
+    end = inside.end();
+    const std::vector<Met> met = listed_along(m, o, d, t, end);
     const auto on_lattice = [&](double at) {
         if (m.extinction.empty()) return 0.0;
         const glm::dvec3 p = o + at * d;

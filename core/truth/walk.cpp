@@ -16,16 +16,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/truth/brick_walk.h"
+
 namespace awan::truth {
 namespace {
 
 using std::numbers::pi;
 
 constexpr double kNoSun = 60;  // optical depth: e^-60 of the sun is none
-
-double away_from_zero(double x) {
-    return std::abs(x) < 1e-30 ? std::copysign(1e-30, x) : x;
-}
 
 // t in [a, b] at which the listed particles of a brick have given optical depth `left` from a on.
 double where_listed(const Matter& m, std::size_t brick, const glm::dvec3& o, const glm::dvec3& d,
@@ -47,43 +45,16 @@ double where_listed(const Matter& m, std::size_t brick, const glm::dvec3& o, con
 Flight free_flight(const Matter& m, const glm::dvec3& o, const glm::dvec3& d, double from,
                    double to, PathRandom& random) {
     if (m.empty) return {};
-    const double inverse[3] = {1 / away_from_zero(d.x), 1 / away_from_zero(d.y),
-                               1 / away_from_zero(d.z)};
-    double t = from, end = to;
-    for (int a = 0; a < 3; ++a) {
-        const double u = -o[a] * inverse[a], v = (m.top[a] - o[a]) * inverse[a];
-        t = std::max(t, std::min(u, v));
-        end = std::min(end, std::max(u, v));
-    }
-    if (!(t < end)) return {};
-
-    // Amanatides & Woo 1987, with every t counted from o.
-    int at[3], step[3], last[3];
-    double next[3], delta[3];
-    for (int a = 0; a < 3; ++a) {
-        const int n = m.bricks[a];
-        at[a] = std::clamp(static_cast<int>((o[a] + t * d[a]) * (1.0 / kBrick)), 0, n - 1);
-        const bool up = d[a] >= 0;
-        step[a] = up ? 1 : -1;
-        last[a] = up ? n : -1;
-        next[a] = ((at[a] + (up ? 1 : 0)) * kBrick - o[a]) * inverse[a];
-        delta[a] = kBrick * std::abs(inverse[a]);
-    }
-    const std::size_t stride[3] = {
-        1, static_cast<std::size_t>(m.bricks.x),
-        static_cast<std::size_t>(m.bricks.x) * static_cast<std::size_t>(m.bricks.y)};
+    BrickWalk walk(m, o, d, from, to);
+    if (!walk.inside()) return {};
     const float* values = m.extinction.data();
     const bool has_list = !m.listed.empty();
     double left = static_cast<double>(-std::log(random.unit_float()));
     double listed_left = has_list ? static_cast<double>(-std::log(random.unit_float())) : 0.0;
     std::uint32_t tentative = 0;
-    for (;;) {
-        const std::size_t brick = static_cast<std::size_t>(at[0]) +
-                                  stride[1] * static_cast<std::size_t>(at[1]) +
-                                  stride[2] * static_cast<std::size_t>(at[2]);
-        const int axis =
-            next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
-        double leave = std::min(next[axis], end);
+    for (; walk.inside(); walk.advance()) {
+        const std::size_t brick = walk.brick();
+        double t = walk.enter(), leave = walk.leave();
         bool listed = false;
         if (has_list && m.brick_begin[brick] != m.brick_begin[brick + 1] && t < leave) {
             double depth = 0;
@@ -112,12 +83,8 @@ Flight free_flight(const Matter& m, const glm::dvec3& o, const glm::dvec3& d, do
             left -= std::max(leave - t, 0.0) * most;
         }
         if (listed) return {true, leave};
-        t = std::max(t, leave);
-        if (!(t < end)) return {};
-        at[axis] += step[axis];
-        if (at[axis] == last[axis]) return {};
-        next[axis] += delta[axis];
     }
+    return {};
 }
 
 namespace {

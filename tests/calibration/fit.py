@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+"""Fits the forecasts of core/plan to measured scenes and writes core/plan/forecast_tables.h.
+
+    fit.py ERRORS.csv TIMES.csv > core/plan/forecast_tables.h
+
+ERRORS.csv and TIMES.csv come from build/release/tests/calibrate; see README.md here. Plain Python: a few hundred rows.
+"""
+import csv
+import math
+import sys
+
+RIDGE = 2.0  # pull of coefficients towards 0, in rows
+QUANTILE = 0.97  # share of the fitted scenes that must stay under the forecast
+FLOOR = 0.003  # smallest error that the references resolve
+
+
+def solve(matrix, right):
+    """Gauss elimination with pivots; small dense systems."""
+    n = len(right)
+    a = [row[:] + [right[i]] for i, row in enumerate(matrix)]
+    for i in range(n):
+        pivot = max(range(i, n), key=lambda r: abs(a[r][i]))
+        a[i], a[pivot] = a[pivot], a[i]
+        for r in range(i + 1, n):
+            factor = a[r][i] / a[i][i]
+            for c in range(i, n + 1):
+                a[r][c] -= factor * a[i][c]
+    x = [0.0] * n
+    for i in reversed(range(n)):
+        x[i] = (a[i][n] - sum(a[i][c] * x[c] for c in range(i + 1, n))) / a[i][i]
+    return x
+
+
+def ridge(rows, targets, weights):
+    """Weighted least squares; the first figure is 1 and not pulled. Figures are scaled by their spread."""
+    n = len(rows[0])
+    total = sum(weights)
+    mean = [sum(w * r[i] for r, w in zip(rows, weights)) / total for i in range(n)]
+    spread = [math.sqrt(sum(w * (r[i] - mean[i]) ** 2 for r, w in zip(rows, weights)) / total) for i in range(n)]
+    used = [0] + [i for i in range(1, n) if spread[i] > 1e-9]
+    scaled = [[1.0] + [(r[i] - mean[i]) / spread[i] for i in used[1:]] for r in rows]
+    m = len(used)
+    normal = [[sum(w * r[i] * r[j] for r, w in zip(scaled, weights)) + (RIDGE if i == j and i > 0 else 0)
+               for j in range(m)] for i in range(m)]
+    right = [sum(w * r[i] * t for r, t, w in zip(scaled, targets, weights)) for i in range(m)]
+    x = solve(normal, right)
+    coefficients = [0.0] * n
+    coefficients[0] = x[0]
+    for k, i in enumerate(used[1:], 1):
+        coefficients[i] = x[k] / spread[i]
+        coefficients[0] -= x[k] * mean[i] / spread[i]
+    return coefficients
+
+
+def nonnegative(rows, targets, steps=4000):
+    """Least squares of relative errors with coefficients >= 0, by coordinate descent."""
+    scaled = [[v / t for v in r] for r, t in zip(rows, targets)]
+    n = len(rows[0])
+    x = [0.0] * n
+    left = [1.0] * len(rows)
+    norms = [sum(r[i] ** 2 for r in scaled) for i in range(n)]
+    for _ in range(steps):
+        for i in range(n):
+            if norms[i] <= 0:
+                continue
+            change = max(sum(r[i] * l for r, l in zip(scaled, left)) / norms[i], -x[i])
+            x[i] += change
+            left = [l - change * r[i] for r, l in zip(scaled, left)]
+    return x
+
+
+def read(path):
+    with open(path) as file:
+        return list(csv.DictReader(file))
+
+
+def figures(row, prefix):
+    return [float(v) for k, v in row.items() if k.startswith(prefix)]
+
+
+def quantile(values, share):
+    ordered = sorted(values)
+    return ordered[min(int(math.ceil(share * len(ordered))) - 1, len(ordered) - 1)]
+
+
+def error_model(rows):
+    """Coefficients of log(error), the margin in the first."""
+    kept, targets = [], []
+    for row in rows:
+        error, noise = float(row["error"]), float(row["error_noise"])
+        kept.append(figures(row, "e_"))
+        # Where the noise hides the error, it is taken as large as half of what would have been seen.
+        targets.append(math.log(max(error, 0.5 * noise, FLOOR)))
+    weights = [1.0] * len(kept)
+    coefficients = ridge(kept, targets, weights)
+    residuals = [t - sum(c * f for c, f in zip(coefficients, r)) for r, t in zip(kept, targets)]
+    coefficients[0] += quantile(residuals, QUANTILE)
+    return coefficients
+
+
+def table(name, kind, coefficients):
+    values = ", ".join(f"{c:.6g}" for c in coefficients)
+    print(f"inline constexpr {kind} {name} = {{{{{values}}}}};")
+
+
+def main():
+    errors, times = read(sys.argv[1]), read(sys.argv[2])
+    print("""// Coefficients of the forecasts, written by tests/calibration/fit.py from scenes measured by tests/calibration. Not to be
+// edited by hand: measure and fit anew when a rung changes.
+// clang-format off
+#pragma once
+
+#include <array>
+
+#include "core/plan/forecast_figures.h"
+
+namespace awan {
+
+// log(error) = sum of coefficient x figure, the margin included.
+struct ErrorModel {
+    ErrorFigures coefficient;
+};""")
+    transport = [r for r in errors if r["rung"].startswith("transport")]
+    for name, rows in (("kAdditiveError", [r for r in errors if r["rung"] == "additive"]),
+                       ("kHarrisError", [r for r in errors if r["rung"] == "harris"]),
+                       ("kSingleError", [r for r in errors if r["rung"] == "single"]),
+                       ("kTransportError", transport)):
+        table(name, "ErrorModel", error_model(rows))
+    print("// Of rung truth: rms noise of a pixel with one path.")
+    noise = []
+    for row in errors:
+        if row["rung"] == "truth":
+            row = dict(row)
+            row["error"] = float(row["error"]) * math.sqrt(float(row["samples"]))
+            row["error_noise"] = 0
+            noise.append(row)
+    table("kPathNoise", "ErrorModel", error_model(noise))
+
+    print("""
+// ms = sum of coefficient x figure, with two threads on the machine of the calibration.
+struct TimeModel {
+    TimeFigures coefficient;
+};""")
+    def timed(rungs, part, keep):
+        rows = [r for r in times if r["rung"].startswith(rungs)]
+        kept = [[f if i in keep else 0.0 for i, f in enumerate(figures(r, "t_"))] for r in rows]
+        return nonnegative(kept, [max(part(r), 0.05) for r in rows])
+    def field(name):
+        return lambda r: float(r[name])
+    def rest(r):
+        return float(r["time_ms"]) - float(r["light_ms"]) - float(r["draw_ms"])
+    print("// Generate, survey and plan.")
+    table("kPrepareTime", "TimeModel", timed(("transport", "harris"), rest, (0, 2, 3)))
+    table("kAdditiveTime", "TimeModel", timed(("additive",), field("draw_ms"), (0, 2, 3, 4)))
+    table("kHarrisLightTime", "TimeModel", timed(("harris",), field("light_ms"), (0, 2)))
+    table("kHarrisDrawTime", "TimeModel", timed(("harris",), field("draw_ms"), (0, 2, 3, 4)))
+    table("kMarchLightTime", "TimeModel", timed(("transport", "single"), field("light_ms"), (0, 2, 5, 6)))
+    table("kMarchDrawTime", "TimeModel", timed(("transport", "single"), field("draw_ms"), (0, 1, 2, 3, 4)))
+    table("kPathTime", "TimeModel", timed(("truth",), field("draw_ms"), (0, 2, 4, 7)))
+    print("""
+}  // namespace awan""")
+
+
+main()

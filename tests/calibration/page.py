@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""Writes the page of the forecasts' check: page.py FIT.csv CHECK.csv > RESULTS.md
+
+Under: the measured error is at most the predicted one, or its distance is within the reference's noise (one standard error).
+Loose: predicted over measured, where the measured error is more than its own noise.
+"""
+import csv
+import sys
+
+RUNGS = ["additive", "harris", "single", "transport-16", "transport-24", "transport-32", "transport-48", "transport-64"]
+
+
+def read(path):
+    with open(path) as file:
+        return [r for r in csv.DictReader(file) if r["rung"] in RUNGS]
+
+
+def number(row, name):
+    return float(row[name])
+
+
+def percent(value):
+    return f"{100 * value:.3g}%"
+
+
+def median(values):
+    ordered = sorted(values)
+    return ordered[len(ordered) // 2] if ordered else float("nan")
+
+
+def quantile(values, share):
+    ordered = sorted(values)
+    return ordered[min(int(share * len(ordered)), len(ordered) - 1)] if ordered else float("nan")
+
+
+def under(row):
+    return number(row, "error") - number(row, "error_noise") <= number(row, "predicted_error")
+
+
+def strictly_under(row):
+    return number(row, "error") <= number(row, "predicted_error")
+
+
+def seen(row):
+    return number(row, "error") > number(row, "error_noise")
+
+
+def looseness(row):
+    return number(row, "predicted_error") / number(row, "error")
+
+
+def summary(rows):
+    print("| rung | scenes | under | under, noise aside | measured above noise | predicted / measured: median | 10% to 90% | measured: median | largest |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    for rung in RUNGS + ["all"]:
+        mine = [r for r in rows if rung in ("all", r["rung"])]
+        loose = [looseness(r) for r in mine if seen(r)]
+        errors = [number(r, "error") for r in mine]
+        print(f"| {rung} | {len(mine)} | {percent(sum(map(strictly_under, mine)) / len(mine))} "
+              f"| {percent(sum(map(under, mine)) / len(mine))} | {len(loose)} | {median(loose):.2f} "
+              f"| {quantile(loose, .1):.2f} to {quantile(loose, .9):.2f} | {percent(median(errors))} | {percent(max(errors))} |")
+    print()
+
+
+def scenes(rows):
+    print("| scene | particles | depth | g | albedo | sun cosine | " + " | ".join(RUNGS) + " |")
+    print("|---" * (6 + len(RUNGS)) + "|")
+    by_scene = {}
+    for row in rows:
+        by_scene.setdefault(int(row["index"]), {})[row["rung"]] = row
+    for index in sorted(by_scene):
+        mine = by_scene[index]
+        any_row = next(iter(mine.values()))
+        cells = []
+        for rung in RUNGS:
+            row = mine.get(rung)
+            if not row:
+                cells.append("")
+                continue
+            shown = percent(number(row, "error")) if seen(row) else f"< {percent(number(row, 'error_noise'))}"
+            mark = "" if under(row) else " **over**"
+            cells.append(f"{shown} / {percent(number(row, 'predicted_error'))}{mark}")
+        print(f"| {index} {any_row['kind']} | {any_row['particles']} | {number(any_row, 'depth_eye'):.3g} | {any_row['g']} "
+              f"| {any_row['albedo']} | {number(any_row, 'sun_cosine'):.2f} | " + " | ".join(cells) + " |")
+    print()
+
+
+fit, check = read(sys.argv[1]), read(sys.argv[2])
+print("""# How far the forecasts can be trusted
+
+Made by the commands of [README.md](README.md); not written by hand. Errors are nRMSE against the path tracer, noise
+corrected (`core/truth/error_measures.h`), of pictures of 80 x 60 pixels.
+
+## On scenes that the forecasts were not fitted to
+""")
+summary(check)
+print("## On the scenes that they were fitted to\n")
+summary(fit)
+print("## Every scene of the check: measured / predicted\n")
+scenes(check)
