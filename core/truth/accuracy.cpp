@@ -394,6 +394,13 @@ Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOption
                                 seconds_text(std::max(left_ms, 0.0)) + " were left"});
             continue;
         }
+        Deadline slice =
+            deadline;  // so that one that is slower than predicted leaves some to others
+        if (options.time_ms > 0)
+            slice.until =
+                std::min(slice.until,
+                         Clock::now() + std::chrono::microseconds(static_cast<std::int64_t>(
+                                            1e3 * kRungShare * std::clamp(left_ms, 0.0, 1e12))));
         auto cost =
             measure_rung(scene, rung, reference, report.exposure, options, render, steps, slice);
         if (!cost) {
