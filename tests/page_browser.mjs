@@ -78,7 +78,7 @@ export async function open(where = "/") {
 export async function settled(page) {
   await page.waitForFunction(() =>
     document.querySelector("#stage").getAttribute("aria-busy") === "false" &&
-    document.querySelector("#picture").naturalWidth > 0, null, { polling: 30 });
+    document.querySelector("#picture").naturalWidth > 0, null, { polling: 30, timeout: 40_000 }); // on a busy machine
 }
 
 // Size, mean, variance and a hash of the pixels on the screen, or of a PNG given as base64.
