@@ -14,7 +14,7 @@ namespace {
 constexpr int kSpacings[] = {16, 8, 4};  // pixels between rays along which light is looked up
 constexpr int kMostCorners = 25;
 constexpr double kMostSamples = 2048;  // about, of a ray
-constexpr double kFinest = 256;        // the longest step over the shortest
+constexpr double kFinest = 4096;       // the longest step over the shortest: these end soon, in opacity
 
 // --- the inner loops, once a target; the results are the same bit for bit --------------------------------------------
 AWAN_INLINE void measure_body(const BlockParticles& p, const Floats* ray, const Floats& spread,
@@ -233,7 +233,7 @@ class BlockMarch {
         }
         longest_ = scene_.step;
         while (longest_ * kMostSamples < length) longest_ *= 2;
-        shortest_ = std::max(scene_.step / kFinest, length / kMostSamples);
+        shortest_ = scene_.step / kFinest;
     }
 
     void march() {
