@@ -16,6 +16,9 @@ constexpr int kMostCorners = 25;
 constexpr double kMostSamples = 2048;  // about, of a ray
 constexpr double kFinest = 4096;       // the longest step over the shortest: these end soon, in opacity
 
+constexpr float kRise = 1.0f;  // largest change of depth towards the sun in a step, over the largest depth of a step
+constexpr float kDark = 7.0f;  // scaled depth towards the sun behind which the beam is not seen
+
 // --- the inner loops, once a target; the results are the same bit for bit --------------------------------------------
 AWAN_INLINE void measure_body(const BlockParticles& p, const Floats* ray, const Floats& spread,
                               ActiveParticle& a) {
@@ -274,6 +277,7 @@ class BlockMarch {
                 if (step < longest_ && fine)
                     fine = kernels_.too_deep(tile, scene_.scaled, allowed * 0.3f) == kChunk;
             }
+            if (step > shortest_) count = std::min(count, first_too_shaded(from, step, count));
             if (count > 0) {
                 march_tiles(from, step, count);
                 marched = step;
@@ -287,6 +291,32 @@ class BlockMarch {
                 at /= 2;
             }
         }
+    }
+
+    // The first sample with matter over which the depth towards the sun changes by more than a step may cost: there the
+    // beam is not what it is in the step's middle, however thin the step is towards the eye. kChunk: none. By the block's
+    // middle ray.
+    int first_too_shaded(double from, double step, int count) {
+        int first = kChunk, last = -1;
+        for (const Tile& tile : room_.tiles) {
+            if (!has_matter(tile, count)) continue;
+            first = std::min(first, tile.first);
+            last = std::max(last, std::min(tile.last, count - 1));
+        }
+        if (first > last) return kChunk;
+        const auto h = static_cast<float>(step);
+        LightAt at[kChunk + 2];
+        const LightRay ray =
+            ray_of(left_ + kBlockSide / 2.0, top_ + kBlockSide / 2.0, reference_ + from);
+        light_along(scene_.light, ray, (static_cast<float>(first) - 0.5f) * h, h, last - first + 3,
+                    at);
+        const float allowed = kRise * scene_.step_depth / scene_.scaled;
+        for (int k = first; k <= last; ++k) {
+            const LightAt* const sample = at + (k - first);
+            if (sample[1].depth * scene_.scaled > kDark) continue;  // no beam is left
+            if (0.5f * std::abs(sample[2].depth - sample[0].depth) > allowed) return k;
+        }
+        return kChunk;
     }
 
     void march_tiles(double from, double step, int count) {

@@ -53,19 +53,27 @@ ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& s
             std::clamp(survey.max_extinction * (1 - scene->medium.albedo * f) * cell, 0.0, 1e6);
         coarseness = std::clamp(std::log2(cell / mean_s(survey)), -4.0, 4.0);
     }
-    const double into_sun = std::max(survey.sun_cosine, 0.0);
+    const double into_sun = std::max(survey.sun_cosine, 0.0), backlit = into_sun * into_sun;
+    const double thin = std::log(depth / (1 + depth)), thick = std::log1p(depth);
+    const double cells = std::log1p(cell_depth), forward = std::abs(g);
     return {1,
-            std::log(depth / (1 + depth)),
-            std::log1p(depth),
-            std::log1p(cell_depth),
-            std::abs(g),
+            thin,
+            thick,
+            cells,
+            forward,
             g * g,
-            into_sun * into_sun,
-            g * g * into_sun * into_sun,
+            backlit,
+            g * g * backlit,
             coarseness,
             survey.eye_inside ? 1.0 : 0.0,
             sun_share(scene),
-            std::log10(std::clamp(1 - scene->medium.albedo, 1e-4, 1.0)) + 4};
+            std::log10(std::clamp(1 - scene->medium.albedo, 1e-4, 1.0)) + 4,
+            thin * forward,
+            thick * forward,
+            thick * backlit,
+            thick * thick,
+            cells * cells,
+            thin * thin};
 }
 
 TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& survey,

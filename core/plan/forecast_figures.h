@@ -10,15 +10,16 @@
 
 namespace awan {
 
-inline constexpr std::size_t kErrorFigureCount = 12;
+inline constexpr std::size_t kErrorFigureCount = 18;
 using ErrorFigures = std::array<double, kErrorFigureCount>;
 // 1; log of depth / (1 + depth) and log(1 + depth) towards the eye; log(1 + scaled depth of the densest cell); |g|; g^2;
 // how far one looks into the sun (cosine^2, 0 when it is behind); that times g^2; log2 of cell over mean s; eye inside;
-// the sun's share of the light; log10 of what is absorbed.
+// the sun's share of the light; log10 of what is absorbed; products of these.
 ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& survey);
 inline constexpr std::array<const char*, kErrorFigureCount> kErrorFigureNames = {
-    "one",     "thin",       "thick",      "cell_depth", "g",         "g2",
-    "backlit", "g2_backlit", "coarseness", "inside",     "sun_share", "absorbed"};
+    "one",     "thin",       "thick",         "cell_depth", "g",           "g2",
+    "backlit", "g2_backlit", "coarseness",    "inside",     "sun_share",   "absorbed",
+    "thin_g",  "thick_g",    "thick_backlit", "thick2",     "cell_depth2", "thin2"};
 
 inline constexpr std::size_t kTimeFigureCount = 8;
 using TimeFigures = std::array<double, kTimeFigureCount>;

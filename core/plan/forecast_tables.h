@@ -13,24 +13,24 @@ namespace awan {
 struct ErrorModel {
     ErrorFigures coefficient;
 };
-inline constexpr ErrorModel kAdditiveError = {{-0.739129, 0.521582, 0.899561, 0, -1.31656, 0.833945, 2.38495, -1.78595, 0, -0.433189, 1.61951, 0.0996577}};
-inline constexpr ErrorModel kHarrisError = {{-1.64443, 0.633518, 0.291114, 0, -0.731068, 1.64559, -0.821806, 1.85743, 0, 0.0257171, 2.88591, -0.0877938}};
-inline constexpr ErrorModel kSingleError = {{3.21566, 0.204387, 0.127068, 0, 0.271945, 0.543851, -0.958535, 0.715249, 0, -0.372387, -3.59906, -0.0686816}};
-inline constexpr ErrorModel kTransportError = {{-4.13559, 0.178366, 0.043076, 0.568059, 1.23484, -0.760815, -0.485584, 1.21847, 0.27976, -0.605146, 2.08091, -0.132308}};
+inline constexpr ErrorModel kAdditiveError = {{-0.469926, 1.11971, 0.954591, 0, -1.40067, 0.511352, 0.974837, -1.62337, 0, -0.286768, 0.476775, 0.129474, -0.658738, 0.0115956, 0.796904, -0.0304579, 0, 0.0908109}};
+inline constexpr ErrorModel kHarrisError = {{-1.74345, 1.10589, 0.567465, 0, -0.777319, 2.47147, -0.573343, -0.742494, 0, 0.111607, 2.19353, -0.106596, -0.229077, -0.495571, 0.423989, -0.0283148, 0, 0.0977549}};
+inline constexpr ErrorModel kSingleError = {{4.16012, 0.245684, 0.283546, 0, -0.0694361, 1.26087, -1.76563, 0.487904, 0, 0.0402418, -4.49584, -0.02482, 0.0503371, -0.133567, 0.501098, -0.0428973, 0, -0.0177763}};
+inline constexpr ErrorModel kTransportError = {{-3.46371, 0.336838, 0.181986, 0.366289, -0.152399, 0.624312, -0.372394, 0.677223, 0.241236, -0.378792, 1.26606, -0.0683939, -0.0983924, 0.00943965, -0.0965088, -0.0534661, 0.140714, 0.0177579}};
 // Of rung truth: rms noise of a pixel with one path.
-inline constexpr ErrorModel kPathNoise = {{-1.26729, 0.217487, 0.222599, 0, 0.0965947, 0.269381, -0.369081, -0.124298, 0, -0.0184165, 1.32224, -0.118306}};
+inline constexpr ErrorModel kPathNoise = {{-1.13627, 0.0791088, 0.240225, 0, -0.189842, 0.846479, -0.533638, 0.8749, 0, 0.0881408, 1.12698, -0.106072, 0.228596, -0.0398772, 0.0323733, -0.00663909, 0, -0.0431367}};
 
 // ms = sum of coefficient x figure, with two threads on the machine of the calibration.
 struct TimeModel {
     TimeFigures coefficient;
 };
 // Generate, survey and plan.
-inline constexpr TimeModel kPrepareTime = {{0.584599, 0, 0.000863295, 1.52017e-05, 0, 0, 0, 0}};
-inline constexpr TimeModel kAdditiveTime = {{0.398299, 0, 0.000667601, 7.01336e-06, 1.84743e-07, 0, 0, 0}};
-inline constexpr TimeModel kHarrisLightTime = {{0.0580244, 0, 0, 0, 0, 0, 0, 0}};
-inline constexpr TimeModel kHarrisDrawTime = {{0.269342, 0, 0.000763221, 4.14321e-06, 1.18146e-20, 0, 0, 0}};
-inline constexpr TimeModel kMarchLightTime = {{0.529841, 0, 0.00366338, 0, 0, 0.00585193, 4.21172e-07, 0}};
-inline constexpr TimeModel kMarchDrawTime = {{3.71323, 0.000134743, 0.000995438, 1.59846e-05, 2.23353e-05, 0, 0, 0}};
-inline constexpr TimeModel kPathTime = {{74.6634, 0, 0.0450811, 0, 0, 0, 0, 0.00148719}};
+inline constexpr TimeModel kPrepareTime = {{0.581976, 0, 0.00089669, 1.84978e-05, 0, 0, 0, 0}};
+inline constexpr TimeModel kAdditiveTime = {{0.41752, 0, 0.000772695, 6.78007e-06, 2.23005e-18, 0, 0, 0}};
+inline constexpr TimeModel kHarrisLightTime = {{0.0611738, 0, 0, 0, 0, 0, 0, 0}};
+inline constexpr TimeModel kHarrisDrawTime = {{0.271815, 0, 0.000744202, 4.54995e-06, 0, 0, 0, 0}};
+inline constexpr TimeModel kMarchLightTime = {{0.503313, 0, 0.0028039, 0, 0, 0.00594627, 5.64959e-07, 0}};
+inline constexpr TimeModel kMarchDrawTime = {{1.46065, 0.00082522, 0.00120849, 1.56389e-05, 2.2478e-05, 0, 0, 0}};
+inline constexpr TimeModel kPathTime = {{91.3047, 0, 0.048252, 0, 1.07171e-14, 0, 0, 0.000960613}};
 
 }  // namespace awan

@@ -188,9 +188,12 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
             2 * static_cast<std::uint32_t>(std::clamp(pairs, 1.0, double{kMaxTruthSamples} / 2));
     }
     std::vector<RungForecast> candidates;
+    // A scene that asks for nothing is not made to wait for paths.
+    const bool asked = accuracy.error || accuracy.time_ms || accuracy.rung;
     for (const Rung& rung : ladder()) {
         plan.forecasts.push_back(forecast(rung, scene, survey, plan.samples, threads, speed));
-        if (rung.method == Method::kSplats || !wants_splats(scene))
+        if (rung.method == Method::kSplats ||
+            (!wants_splats(scene) && (asked || rung.method != Method::kPaths)))
             candidates.push_back(plan.forecasts.back());
     }
     Choice choice;
