@@ -73,7 +73,11 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
     std::vector<float> spare;
 
     const Device::Programs& programs = device.programs();
-    (plan.on(Effect::kInterior) ? programs.splat_interior : programs.splat).use();
+    // A deep particle reaches farther than the 4 s that make an interior: one behind the eye would be seen before it.
+    const bool half_lines =
+        plan.on(Effect::kInterior) ||
+        (list.reaches_eye && scene->effects[static_cast<int>(Effect::kInterior)] != Switch::kOff);
+    (half_lines ? programs.splat_interior : programs.splat).use();
     set_uniforms(scene, view, plan);
     const auto status = gl::for_each_region(
         list.tiles, (image.width + kTileWidth - 1) / kTileWidth,

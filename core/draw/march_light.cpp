@@ -75,7 +75,7 @@ Rgb4 along_ray(const TransportLight& light, const Corners& c, const LightRay& ra
     for (const LightBand& band : light.bands) {
         const float s =
             between(c, [&](std::size_t i) { return dot(band.moments[i], ray.harmonics); });
-        sum += std::max(s, 0.0f) * rgb4(band.color);
+        sum += std::clamp(s, 0.0f, band.most) * rgb4(band.color);
     }
     return sum;
 }
@@ -102,7 +102,7 @@ EyeLight source_towards(const TransportLight& light, const glm::dvec3& eye, int 
             const auto y = harmonics_f(glm::normalize(place - center));
             glm::vec3 sum(0);
             for (const LightBand& band : light.bands)
-                sum += band.color * std::max(0.0f, dot(band.moments[row * nx + i], y));
+                sum += band.color * std::clamp(dot(band.moments[row * nx + i], y), 0.0f, band.most);
             result.source[row * nx + i] = rgb4(sum);
         }
     });

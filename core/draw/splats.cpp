@@ -19,7 +19,6 @@ constexpr double kMinReach = 3.5;     // of s; 0.2% of the mass lies beyond
 constexpr double kFaintDepth = 5e-4;  // optical depth at which a particle is cut
 constexpr double kMinWidthPixels =
     0.6;  // of s: sampled at pixel centres it sums to its whole within 1%
-constexpr double kCloseReaches = 2;  // an eye within so many reaches needs the half line
 
 // Radiance that a white, opaque particle in full light scatters, by where the light comes from.
 struct LightSources {
@@ -33,7 +32,7 @@ LightSources light_sources(const Scene& scene, const Plan& plan) {
     const Sky& sky = scene->sky;
     LightSources sources{scene->sun.color * (scene->sun.intensity / (4 * std::numbers::pi)),
                          glm::dvec3(0), glm::dvec3(0), scene->medium.albedo};
-    if (plan.on(Effect::kSkyLight)) {
+    if (plan.on(Effect::kSkyLight) && !sky.none) {
         sources.above =
             0.5 * sky.intensity * glm::dvec3(shader::sky_mean_above(sky.zenith, sky.horizon));
         sources.below = 0.5 * sky.intensity * sky.horizon;
@@ -195,6 +194,7 @@ void radix_sort(std::vector<std::uint64_t>& keys) {
 SplatList make_splats(const Scene& scene, const ParticleSet& particles, const View& view,
                       const Plan& plan, const Lighting& lighting) {
     const LightSources sources = light_sources(scene, plan);
+    SplatList list;
     std::vector<Seen> seen(particles.size());
     std::vector<std::uint64_t> order;
     order.reserve(particles.size());
@@ -202,6 +202,7 @@ SplatList make_splats(const Scene& scene, const ParticleSet& particles, const Vi
         seen[i] = see(scene, particles, i, view);
         const gl::TileBox& tiles = seen[i].tiles;
         if (tiles.last_x < tiles.first_x || tiles.last_y < tiles.first_y) continue;
+        if (seen[i].distance <= seen[i].reach) list.reaches_eye = true;
         // Bits of a positive float sort as the float does.
         const std::uint64_t key =
             std::bit_cast<std::uint32_t>(static_cast<float>(seen[i].distance));
@@ -210,7 +211,6 @@ SplatList make_splats(const Scene& scene, const ParticleSet& particles, const Vi
     const bool sorted = plan.on(Effect::kViewExtinction);
     if (sorted) radix_sort(order);
 
-    SplatList list;
     list.splats.reserve(order.size());
     list.tiles.reserve(order.size());
     std::size_t previous = particles.size();  // none

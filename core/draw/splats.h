@@ -17,6 +17,7 @@ struct Splat {
 struct SplatList {
     std::vector<Splat> splats;       // nearest first when sorted
     std::vector<gl::TileBox> tiles;  // of kTileWidth x kTileHeight pixels, as long as splats
+    bool reaches_eye = false;        // one of them is not cut before it gets to the eye
 };
 inline constexpr int kTileWidth = 8, kTileHeight = 16;  // as in splat.glsl
 

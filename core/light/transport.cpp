@@ -28,6 +28,8 @@ constexpr double kDiffusionTolerance = 0.05;  // of the preconditioner's own sol
 constexpr int kBasis = 12;                    // vectors that GMRES keeps
 constexpr double kMaxFineWork =
     3e8;  // cell updates of the density from which the beam's source is averaged
+constexpr double kMaxCoarseWork = 6e8;  // and of the grid's own
+constexpr int kColorCells = 64;         // of the grid that rung single has for colours
 
 // What one solve needs to know; all colours share it unless particles are coloured.
 struct Matter {
@@ -204,6 +206,39 @@ int channel_of(const Shine& shine) {
     return shine.color.x > 0 ? 0 : shine.color.y > 0 ? 1 : 2;
 }
 
+// Albedo of each cell: of the particles in it, each by its share of the extinction.
+std::vector<glm::vec3> colored_albedo(const Scene& scene, const ParticleSet& particles,
+                                      const Lattice& lattice, const std::vector<float>& mean,
+                                      int threads) {
+    const auto white = static_cast<float>(scene->medium.albedo);
+    std::vector<glm::vec3> albedo(mean.size(), glm::vec3(white));
+    for (int c = 0; c < 3; ++c) {
+        const std::vector<float> tinted = colored_extinction_in(particles, lattice, c, threads);
+        for (std::size_t i = 0; i < mean.size(); ++i)
+            if (mean[i] > 0) albedo[i][c] = white * std::clamp(tinted[i] / mean[i], 0.F, 1.F);
+    }
+    return albedo;
+}
+
+// Without a grid of light the eye pass still needs the particles' colours, and has them from a grid.
+void color_only(const Scene& scene, const ParticleSet& particles, int threads,
+                TransportLight& light) {
+    int count = kColorCells;
+    const auto around = [&] {
+        return lattice_around_matter(particles, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0, count, threads);
+    };
+    Lattice lattice = around();
+    while (count > 8 && lattice_work(particles, lattice.cell, lattice.cells) > kMaxFineWork) {
+        count = count * 3 / 4;
+        lattice = around();
+    }
+    light.origin = lattice.origin;
+    light.cell = lattice.cell;
+    light.cells = lattice.cells;
+    light.albedo = colored_albedo(scene, particles, lattice,
+                                  extinction_in(particles, lattice, threads), threads);
+}
+
 }  // namespace
 
 std::size_t TransportLight::bytes() const {
@@ -221,7 +256,10 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
     if (particles.size() == 0 || !(survey.total_mass > 0)) return light;
     const glm::dvec3 towards_sun = sun_direction(scene->sun);
     light.sun = sun_depth(particles, towards_sun, settings.sun_cells, threads);
-    if (settings.cells == 0) return light;
+    if (settings.cells == 0) {
+        if (!particles.color.empty()) color_only(scene, particles, threads, light);
+        return light;
+    }
 
     const std::vector<double> chi = legendre_moments(scene->medium, kOrders);
     const double g = scene->medium.g, albedo = scene->medium.albedo;
@@ -235,7 +273,13 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
     const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
     const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     const double rest = std::min(kLeftOut, kLeftOutShare * deepest);
-    Lattice coarse = lattice_around_matter(particles, x, y, z, rest, settings.cells, threads);
+    int count = settings.cells;
+    Lattice coarse = lattice_around_matter(particles, x, y, z, rest, count, threads);
+    // A great many particles that are large beside a cell: what they add up to is smooth.
+    while (count > 8 && lattice_work(particles, coarse.cell, coarse.cells) > kMaxCoarseWork) {
+        count = count * 3 / 4;
+        coarse = lattice_around_matter(particles, x, y, z, rest, count, threads);
+    }
     int sub = settings.cells <= 32 ? 3 : 2;
     while (sub > 1 && lattice_work(particles, coarse.cell / sub, coarse.cells * sub) > kMaxFineWork)
         --sub;
@@ -263,19 +307,7 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
     matter.grid.depth.resize(mean.size());
     matter.scattered.resize(mean.size());
     matter.albedo.resize(mean.size());
-    std::array<std::vector<float>, 3> tinted;
-    if (colored) {
-        light.albedo.resize(mean.size());
-        for (int c = 0; c < 3; ++c)
-            tinted[static_cast<std::size_t>(c)] =
-                colored_extinction_in(particles, coarse, c, threads);
-        for (std::size_t i = 0; i < mean.size(); ++i)
-            for (int c = 0; c < 3; ++c) {
-                const float tint =
-                    mean[i] > 0 ? tinted[static_cast<std::size_t>(c)][i] / mean[i] : 1.F;
-                light.albedo[i][c] = static_cast<float>(albedo) * std::clamp(tint, 0.F, 1.F);
-            }
-    }
+    if (colored) light.albedo = colored_albedo(scene, particles, coarse, mean, threads);
     const Ordinates ordinates = make_ordinates();
     for (const Shine& shine : parts) {
         for (std::size_t i = 0; i < mean.size(); ++i) {
@@ -292,6 +324,9 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
         if (!moments.ok()) return moments.error();
         LightBand band;
         band.color = shine.color;
+        if (!shine.beam)
+            band.most =
+                static_cast<float>(albedo * (1 - f) * std::max(shine.zenith, shine.horizon));
         band.moments.resize(mean.size());
         const auto count = static_cast<std::size_t>(matter.grid.harmonics);
         for (std::size_t i = 0; i < mean.size(); ++i) {

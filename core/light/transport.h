@@ -7,6 +7,7 @@
 
 #include <array>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -40,13 +41,18 @@ struct LightBand {
     // Source function of each cell (x fastest, then y, then z), radiance per unit optical depth of ALL extinction:
     // toward direction o (from the cell, unit, the way the light goes) it is sum_i moments[cell][i] * Y_i(o).
     std::vector<std::array<float, kHarmonics>> moments;
+    // Of sky light alone no source is brighter than what comes in; the ordinates' may be, by a few percent. The eye pass
+    // takes no more than this.
+    float most = std::numeric_limits<float>::infinity();
 };
 
 // View-independent: kept while the camera moves.
 struct TransportLight {
     glm::dvec3 origin{
         0};  // corner of cell 0, scene units; light at a point: trilinear between cell centres, clamped outside
-    double cell = 0;  // side of a cubic cell, scene units; 0: there is no grid (rung `single`)
+    double cell =
+        0;  // side of a cubic cell, scene units; 0: there is no grid (rung `single`, unless particles have colours:
+            // then there are no bands, only `albedo`)
     glm::ivec3 cells{0};
     std::vector<LightBand> bands;
     std::vector<glm::vec3> albedo;  // of each cell, for the beam; EMPTY: medium.albedo everywhere

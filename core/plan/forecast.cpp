@@ -29,7 +29,7 @@ double predicted_bytes(const Rung& rung, const TimeFigures& figures) {
     const double pairs = figures[3], particles = figures[2];
     switch (rung.method) {
         case Method::kSplats:
-            return 160 * particles + 8 * pairs / 128;
+            return 1e6 + 160 * particles + 8 * pairs / 128;
         case Method::kMarch:
             return std::pow(rung.cells, 3) * 64 * kVectors *
                        std::min(1.0, figures[5] / std::max(std::pow(rung.cells, 3), 1.0)) +

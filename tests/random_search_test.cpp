@@ -1,0 +1,78 @@
+// Random scenes through the whole pipeline, against what must hold for every one: finite, within physical bounds, the same
+// bytes again, in bounded time and memory. A failure names its seed; AWAN_SEARCH_SEED=<seed> AWAN_SEARCH_COUNT=1 renders that
+// scene alone, AWAN_SEARCH_COUNT=<n> more or fewer of them.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+
+#include "tests/physical_bounds.h"
+#include "tests/random_scenes.h"
+#include "tests/scenes.h"
+
+namespace awan {
+namespace {
+
+using test::RandomScene;
+
+constexpr std::uint64_t kFirstSeed = 1;
+constexpr std::uint64_t kCount = 400;
+constexpr double kMaxSeconds = 10;       // a scene, of one thread
+constexpr long kMaxMemoryKib = 3 << 19;  // of the process at its peak: 1.5 GiB
+
+std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
+    const char* text = std::getenv(name);
+    return text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+Rendered render(const Scene& scene, int threads) {
+    auto rendered = render_scene(scene, {&test::device(), threads, nullptr, {}, {}}, {});
+    if (!rendered.ok()) {
+        ADD_FAILURE() << rendered.error().message;
+        return {};
+    }
+    return *std::move(rendered);
+}
+
+TEST(RandomSearch, EverySceneKeepsTheLaws) {
+    const std::uint64_t first = from_environment("AWAN_SEARCH_SEED", kFirstSeed);
+    const std::uint64_t count = from_environment("AWAN_SEARCH_COUNT", kCount);
+    int failed = 0;
+    std::map<std::string, std::pair<int, double>> spent;  // by rung: scenes, seconds
+    for (std::uint64_t seed = first; seed < first + count && failed < 20; ++seed) {
+        const RandomScene random = test::random_scene(seed);
+        SCOPED_TRACE("AWAN_SEARCH_SEED=" + std::to_string(seed) + " rung " +
+                     *random.draft.accuracy.rung + (random.furnace ? " furnace" : ""));
+        auto scene = validate(random.draft);
+        ASSERT_TRUE(scene.ok()) << scene.error().pointer << " " << scene.error().message;
+        const auto start = std::chrono::steady_clock::now();
+        const Rendered rendered = render(*scene, 1);
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+        EXPECT_LT(took.count(), kMaxSeconds);
+        const Rendered again = render(*scene, 2);
+        EXPECT_TRUE(again.image.pixels == rendered.image.pixels) << "other bytes on two threads";
+        if (::testing::Test::HasFatalFailure()) return;
+        test::expect_figures(rendered);
+        test::expect_within_bounds(random.draft, rendered);
+        auto& [scenes, seconds] = spent[rendered.plan.rung];
+        ++scenes;
+        seconds += took.count();
+        const auto* result = ::testing::UnitTest::GetInstance()->current_test_info()->result();
+        if (result->Failed() && result->total_part_count() > failed) {
+            failed = result->total_part_count();
+        }
+    }
+    for (const auto& [rung, sum] : spent)
+        std::printf("%-13s %5d scenes, %7.1f ms each\n", rung.c_str(), sum.first,
+                    1e3 * sum.second / sum.first);
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    std::printf("most memory: %ld MiB\n", usage.ru_maxrss >> 10);
+    EXPECT_LT(usage.ru_maxrss, kMaxMemoryKib);
+}
+
+}  // namespace
+}  // namespace awan
