@@ -237,31 +237,30 @@ AWAN_INLINE void spread_light(const Bilinear& b, const LightAt (*corners)[kChunk
     }
 }
 
-// G of the peak table at optical depth t, each lane from its own row.
-AWAN_INLINE Floats peak_value(const float* rows, int columns, float last, const Floats& t) {
+// G of the peak table at optical depth t. A tile's pixels mostly meet in one or two of its columns: no gathering.
+AWAN_INLINE Floats peak_value(const Floats* rows, float last, const Floats& t) {
+    const auto column = [](float y) {
+        std::uint32_t b;
+        std::memcpy(&b, &y, sizeof b);
+        return static_cast<int>((b - 0x3f800000u) >> 20);
+    };
     const Floats y = 1.0f + simd::min(t, simd::all(last * 0.9999f));
     const Bits b = simd::bits(y) - 0x3f800000u;
-    const Bits part = b & 0xfffffu, whole = b >> 20;
-    std::uint32_t at[kLanes];
-    std::memcpy(at, &whole, sizeof at);
-    float low[kLanes], high[kLanes];
-    for (int lane = 0; lane < kLanes; ++lane) {
-        const float* row = rows + lane * columns + at[lane];
-        low[lane] = row[0];
-        high[lane] = row[1];
-    }
-    Floats a, c;
-    std::memcpy(&a, low, sizeof a);
-    std::memcpy(&c, high, sizeof c);
-    return a + (c - a) * (__builtin_convertvector(part, Floats) * (1.0f / 1048576));
+    const Floats at =
+        __builtin_convertvector(reinterpret_cast<const Ints&>(b), Floats) * (1.0f / 1048576);
+    const int low = column(simd::smallest(y)), high = column(simd::largest(y));
+    Floats value = rows[low];
+    for (int k = low; k <= high; ++k)
+        value += (rows[k + 1] - rows[k]) *
+                 simd::min(simd::max(at - static_cast<float>(k), Floats{}), simd::all(1.0f));
+    return value;
 }
 
 struct Shade {
     float scaled;  // 1 - a f
     bool grid, peak, albedo;
-    float beam[3];      // albedo * irradiance; irradiance alone if cells have their own albedo
-    const float* rows;  // of the peak table, the tile's lanes one after the other
-    int columns;
+    float beam[3];       // albedo * irradiance; irradiance alone if cells have their own albedo
+    const Floats* rows;  // of the peak table: a column each, a pixel a lane
     float last;
 };
 
@@ -308,13 +307,12 @@ AWAN_INLINE void march_tile(const Shade& shade, const TileLight& light, int coun
             const Floats half_whole = simd::exp(depth * -0.5f);
             const Floats lit_whole = simd::exp(-from_sun);
             const Floats before =
-                peak_value(shade.rows, shade.columns, shade.last, from_sun) * lit * tile.left *
+                peak_value(shade.rows, shade.last, from_sun) * lit * tile.left *
                 (deep ? simd::one_minus(half_whole * half_whole, depth)
                       : mean_decay(half_whole, 0.5f * (depth + scaled * rise)) * depth);
-            const Floats after =
-                peak_value(shade.rows, shade.columns, shade.last, tile.depth + 0.5f * depth) *
-                lit_whole * tile.scaled_left *
-                (deep ? taken : mean_decay(half, 0.5f * (x + rise)) * depth);
+            const Floats after = peak_value(shade.rows, shade.last, tile.depth + 0.5f * depth) *
+                                 lit_whole * tile.scaled_left *
+                                 (deep ? taken : mean_decay(half, 0.5f * (x + rise)) * depth);
             beam += 0.5f * (before + after);
             tile.left *= half_whole * half_whole;
         }
@@ -343,17 +341,14 @@ AWAN_INLINE void measure(const BlockParticles& p, const Floats ray[3], const Flo
     const float along = p.along[i], reach = p.reach[i];
     const float distance = std::sqrt(p.x[i] * p.x[i] + p.y[i] * p.y[i] + along * along);
     const Closest at = closest(p, i, ray[0], ray[1], ray[2]);
-    Floats b;
-    for (int tile = 0; tile < kTiles; ++tile) b[tile] = std::sqrt(at.b2[tile]);
+    const Floats b = simd::sqrt(at.b2);
     // A point of a tile's rays is off its middle ray by at most spread * distance; the closest points, to second order.
     const Floats least = simd::max(b - spread * distance, Floats{});
     const Floats chord2 = reach * reach - least * least;
     const Floats slack = spread * (b + 2.0f * spread * distance);
     // Two s more than the sphere: at its rim the ray would lose half of what little it meets.
     const float more = 4.0f * p.s[i] * p.s[i];
-    Floats half;
-    for (int tile = 0; tile < kTiles; ++tile)
-        half[tile] = std::sqrt(chord2[tile] > 0.0f ? chord2[tile] + more : 0.0f);
+    const Floats half = simd::sqrt(chord2 > 0.0f ? chord2 + more : Floats{});
     a.shift = at.shift;
     a.center = p.place[i] + at.shift;
     a.half = chord2 > 0.0f ? half + slack : simd::all(-1.0f);
