@@ -343,7 +343,8 @@ class BlockMarch {
                     fine = kernels_.too_deep(tile, scene_.scaled, allowed * 0.3f) == kChunk;
             }
             if (count > 0) {
-                march_tiles(from, step, count);
+                const double ratio = marched / step;
+                march_tiles(from, step, count, (ratio * ratio - 1) / 24);
                 marched = step;
                 at += count;
             }
@@ -357,7 +358,7 @@ class BlockMarch {
         }
     }
 
-    void march_tiles(double from, double step, int count) {
+    void march_tiles(double from, double step, int count, double seam) {
         int first = kChunk, last = -1;
         for (const Tile& tile : room_.tiles) {
             if (!has_matter(tile, count)) continue;
@@ -379,7 +380,7 @@ class BlockMarch {
                                 room_.light);
             else
                 look_up_pixels(t, base, step, tile.first, end);
-            kernels_.march(shade(t), room_.light, count, tile);
+            kernels_.march(shade(t, seam), room_.light, count, tile);
         }
     }
 
@@ -451,11 +452,12 @@ class BlockMarch {
         return &room_.rows[static_cast<std::size_t>(t * scene_.table.columns)].value;
     }
 
-    Shade shade(int t) const {
+    Shade shade(int t, double seam) const {
         const TransportLight& light = *scene_.light.light;
         const float albedo = light.albedo.empty() ? static_cast<float>(scene_.medium.albedo) : 1.0f;
         Shade shade{};
         shade.scaled = scene_.scaled;
+        shade.seam = static_cast<float>(seam);
         shade.grid = light.cell > 0 && !light.bands.empty();
         shade.peak = scene_.table.columns > 0;
         shade.albedo = !light.albedo.empty();
