@@ -8,7 +8,6 @@
 
 #include "core/draw/march_block.h"
 #include "core/parallel.h"
-#include "core/shaders/shared.h"
 
 namespace awan {
 namespace {
@@ -70,49 +69,6 @@ void chords_of(const MarchScene& scene, double& least, double& most) {
     most = std::min(2.0, most + gap);
 }
 
-struct SkyLook {
-    glm::vec3 zenith{0}, horizon{0};
-    bool behind = false;  // drawn behind the cloud
-    bool peak = false;    // seen through the forward peak
-};
-
-// One pixel's ray from what the march found on it.
-void put(const MarchScene& scene, const SkyLook& sky, int x, int y, float depth, glm::vec3 radiance,
-         float* out) {
-    const float left = std::exp(-depth);
-    if (sky.behind || (sky.peak && depth > 0)) {
-        const glm::dvec3 d = pixel_direction(scene, x + 0.5, y + 0.5);
-        const glm::vec3 color =
-            shader::sky_radiance(static_cast<float>(d.y), sky.zenith, sky.horizon);
-        // exp(-k tau) - exp(-tau) without cancellation, k < 1.
-        if (sky.peak)
-            radiance +=
-                std::exp(-scene.scaled * depth) * -std::expm1((scene.scaled - 1) * depth) * color;
-        if (sky.behind) radiance += left * color;
-    }
-    out[0] = radiance.x;
-    out[1] = radiance.y;
-    out[2] = radiance.z;
-    out[3] = sky.behind ? 1.0f : -std::expm1(-depth);
-}
-
-void put_block(const MarchScene& scene, const SkyLook& sky, int block_x, int block_y,
-               const BlockPixels& block, Image& image) {
-    for (int j = 0; j < kBlockSide; ++j)
-        for (int i = 0; i < kBlockSide; ++i) {
-            const int x = block_x * kBlockSide + i, y = block_y * kBlockSide + j;
-            if (x >= image.width || y >= image.height) continue;
-            const auto t = static_cast<std::size_t>(j / kTileSide * 4 + i / kTileSide);
-            const auto lane = static_cast<std::size_t>(j % kTileSide * 4 + i % kTileSide);
-            const glm::vec3 radiance(block.radiance[0][t][lane], block.radiance[1][t][lane],
-                                     block.radiance[2][t][lane]);
-            put(scene, sky, x, y, block.depth[t][lane], radiance,
-                image.pixels.data() +
-                    4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                         static_cast<std::size_t>(x)));
-        }
-}
-
 }  // namespace
 
 Result<Image> march(const Scene& scene, const ParticleSet& particles, const View& view,
@@ -145,10 +101,12 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     chords_of(march, least, most);
     if (!seen.empty()) march.table = peak_table(march.medium, march.peak, least, most);
 
-    SkyLook sky;
+    SkyBehind& sky = march.sky;
     if (!scene->sky.none) {
-        sky.zenith = glm::vec3(scene->sky.zenith * scene->sky.intensity);
-        sky.horizon = glm::vec3(scene->sky.horizon * scene->sky.intensity);
+        for (int c = 0; c < 3; ++c) {
+            sky.zenith[c] = static_cast<float>(scene->sky.zenith[c] * scene->sky.intensity);
+            sky.horizon[c] = static_cast<float>(scene->sky.horizon[c] * scene->sky.intensity);
+        }
         sky.peak = march.peak.share != 0;
     }
     sky.behind = behind;
@@ -161,13 +119,9 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
                            late = true;
                            return;
                        }
-                       BlockPixels pixels{};
-                       if (!items.empty()) {
-                           BlockRoomPtr room = rooms.take();
-                           march_block(march, x, y, items, *room, pixels);
-                           rooms.give(std::move(room));
-                       }
-                       put_block(march, sky, x, y, pixels, image);
+                       BlockRoomPtr room = rooms.take();
+                       march_block(march, x, y, items, *room, image);
+                       rooms.give(std::move(room));
                    });
     if (late)
         if (auto error = deadline.over()) return *error;

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/draw/march_kernels.h"
+#include "core/draw/march_rays.h"
 #include "core/survey/projection.h"
 
 namespace awan {
@@ -47,7 +48,29 @@ AWAN_INLINE void ratio_body(const BlockParticles& p, float step,
     }
 }
 
+// Where light is scattered to sixteen pixels.
+AWAN_INLINE void phases_body(const MarchScene& scene, const SunInBlock& sun, Tile& tile,
+                             Floats* rows) {
+    const Floats ray[3] = {tile.x, tile.y, tile.z};
+    const Chords c = chords(sun, ray);
+    tile.rest_phase = rest_of_phase(scene.rest, c);
+    if (scene.table.columns > 0) rows_of(scene.table, c, rows);
+}
+AWAN_INLINE void rays_body(const BlockFrame& frame, const float* x, const float* y, Floats* to) {
+    directions(frame, x, y, to);
+}
+// `up`: of the block's axes, along the scene's y.
+AWAN_INLINE void finish_body(const MarchScene& scene, const float* up, const Tile& tile,
+                             float (*to)[4]) {
+    const Floats high = up[0] * tile.x + up[1] * tile.y + up[2] * (1.0f + tile.z);
+    const Floats radiance[3] = {tile.red, tile.green, tile.blue};
+    finish(scene.sky, scene.scaled, high, tile.depth, radiance, to);
+}
+
 struct Kernels {
+    void (*rays)(const BlockFrame&, const float*, const float*, Floats*);
+    void (*phases)(const MarchScene&, const SunInBlock&, Tile&, Floats*);
+    void (*finish)(const MarchScene&, const float*, const Tile&, float (*)[4]);
     void (*measure)(const BlockParticles&, const Floats*, const Floats&, ActiveParticle&);
     void (*ratio)(const BlockParticles&, float, std::vector<ActiveParticle>&);
     void (*deposit)(const BlockParticles&, const std::vector<ActiveParticle>&, const Chunk&, Tile*);
@@ -57,6 +80,18 @@ struct Kernels {
 };
 
 #define AWAN_KERNELS(name, attribute)                                                            \
+    attribute void rays_##name(const BlockFrame& frame, const float* x, const float* y,          \
+                               Floats* to) {                                                     \
+        rays_body(frame, x, y, to);                                                              \
+    }                                                                                            \
+    attribute void phases_##name(const MarchScene& scene, const SunInBlock& sun, Tile& tile,     \
+                                 Floats* rows) {                                                 \
+        phases_body(scene, sun, tile, rows);                                                     \
+    }                                                                                            \
+    attribute void finish_##name(const MarchScene& scene, const float* up, const Tile& tile,     \
+                                 float(*to)[4]) {                                                \
+        finish_body(scene, up, tile, to);                                                        \
+    }                                                                                            \
     attribute void measure_##name(const BlockParticles& p, const Floats* ray,                    \
                                   const Floats& spread, ActiveParticle& a) {                     \
         measure_body(p, ray, spread, a);                                                         \
@@ -81,7 +116,8 @@ struct Kernels {
                                 Tile& tile) {                                                    \
         march_tile(shade, light, count, tile);                                                   \
     }                                                                                            \
-    constexpr Kernels kKernels_##name{measure_##name,  ratio_##name,  deposit_##name,            \
+    constexpr Kernels kKernels_##name{rays_##name,     phases_##name, finish_##name,             \
+                                      measure_##name,  ratio_##name,  deposit_##name,            \
                                       too_deep_##name, spread_##name, march_##name};
 
 AWAN_KERNELS(plain, )
@@ -120,11 +156,13 @@ struct BlockRoom {
     TileLight light;
     LightAt corners[kMostCorners][kChunk + 2];
     Bilinear bilinear[std::size(kSpacings)][kTiles];
-    Floats middle[3], spread;               // of the tiles' rays, a tile a lane
-    glm::dvec3 directions[kTiles][kLanes];  // of the pixels, in the eye's frame
+    Floats middle[3], spread;  // of the tiles' rays, a tile a lane
     BlockParticles particles;
     std::vector<ActiveParticle> active;
-    std::vector<float> rows;
+    struct alignas(64) Column {
+        Floats value;
+    };
+    std::vector<Column> rows;  // of the peak table, tile by tile
 };
 
 void BlockRoomDelete::operator()(BlockRoom* room) const {
@@ -171,49 +209,79 @@ class BlockMarch {
 
     void run(const std::vector<std::uint32_t>& items) {
         place_rays();
+        if (items.empty()) return;
         place_particles(items);
         march();
     }
 
+    void draw(Image& image) const {
+        const float up[3] = {static_cast<float>(to_scene(scene_.view, frame_.right).y),
+                             static_cast<float>(to_scene(scene_.view, frame_.up).y),
+                             static_cast<float>(to_scene(scene_.view, frame_.forward).y)};
+        const auto width = static_cast<std::size_t>(image.width);
+        for (int t = 0; t < kTiles; ++t) {
+            const int x = left_ + t % 4 * kTileSide, y = top_ + t / 4 * kTileSide;
+            const int across = std::min(kTileSide, image.width - x);
+            if (across <= 0) continue;
+            float pixels[kLanes][4];
+            kernels_.finish(scene_, up, room_.tiles[t], pixels);
+            for (int j = 0; j < std::min(kTileSide, image.height - y); ++j)
+                std::memcpy(
+                    image.pixels.data() +
+                        4 * (static_cast<std::size_t>(y + j) * width + static_cast<std::size_t>(x)),
+                    pixels[j * kTileSide], static_cast<std::size_t>(across) * sizeof pixels[0]);
+        }
+    }
+
   private:
     void place_rays() {
-        const glm::dvec3 middle =
-            frame_direction(scene_, left_ + kBlockSide / 2, top_ + kBlockSide / 2);
-        const SideAxes side = side_axes(middle);
-        forward_ = middle;
-        right_ = side.u;
-        up_ = side.v;
+        frame_.forward = frame_direction(scene_, left_ + kBlockSide / 2, top_ + kBlockSide / 2);
+        const SideAxes side = side_axes(frame_.forward);
+        frame_.right = side.u;
+        frame_.up = side.v;
+        const double tan = scene_.view.tan_half_fov, wide = tan * scene_.view.aspect;
+        frame_.du = 2 * wide / scene_.width;
+        frame_.dv = -2 * tan / scene_.height;
+        frame_.u0 = left_ * frame_.du - wide;
+        frame_.v0 = top_ * frame_.dv + tan;
+        float x[kLanes], y[kLanes];
+        for (int t = 0; t < kTiles; ++t) {
+            x[t] = static_cast<float>(t % 4 * kTileSide + kTileSide / 2);
+            y[t] = static_cast<float>(t / 4 * kTileSide + kTileSide / 2);
+        }
+        kernels_.rays(frame_, x, y, room_.middle);
         for (int t = 0; t < kTiles; ++t) {
             Tile& tile = room_.tiles[t];
-            glm::dvec3 center(0);
-            const int x = left_ + t % 4 * kTileSide, y = top_ + t / 4 * kTileSide;
-            set_lane(x + kTileSide / 2, y + kTileSide / 2, t, room_.middle[0], room_.middle[1],
-                     room_.middle[2], center);
-            double spread = 0;
+            const int across = t % 4 * kTileSide, down = t / 4 * kTileSide;
             for (int lane = 0; lane < kLanes; ++lane) {
-                glm::dvec3& d = room_.directions[t][lane];
-                set_lane(x + lane % 4 + 0.5, y + lane / 4 + 0.5, lane, tile.x, tile.y, tile.z, d);
-                spread = std::max(spread, glm::dot(d - center, d - center));
+                x[lane] = static_cast<float>(across + lane % 4) + 0.5f;
+                y[lane] = static_cast<float>(down + lane / 4) + 0.5f;
             }
-            room_.spread[t] = static_cast<float>(std::sqrt(spread) * 1.001);
-            tile.alive = x < scene_.width && y < scene_.height;
+            Floats ray[3];
+            kernels_.rays(frame_, x, y, ray);
+            tile.x = ray[0];
+            tile.y = ray[1];
+            tile.z = ray[2];
+            Floats apart{};
+            for (int axis = 0; axis < 3; ++axis) {
+                const Floats off = ray[axis] - room_.middle[axis][t];
+                apart += off * off;
+            }
+            room_.spread[t] = std::sqrt(simd::largest(apart)) * 1.001f;
+            tile.alive = left_ + across < scene_.width && top_ + down < scene_.height;
             tile.started = false;
             tile.depth = tile.red = tile.green = tile.blue = Floats{};
             tile.left = tile.scaled_left = simd::all(1.0f);
         }
-    }
-
-    void set_lane(double x, double y, int lane, Floats& to_x, Floats& to_y, Floats& to_z,
-                  glm::dvec3& direction) const {
-        direction = frame_direction(scene_, x, y);
-        const glm::dvec3 off = direction - forward_;
-        to_x[lane] = static_cast<float>(glm::dot(off, right_));
-        to_y[lane] = static_cast<float>(glm::dot(off, up_));
-        to_z[lane] = static_cast<float>(-0.5 * glm::dot(off, off));  // both are unit
+        const glm::dvec3 sun = to_frame(scene_.view, scene_.to_sun);
+        sun_ = {static_cast<float>(glm::dot(sun, frame_.right)),
+                static_cast<float>(glm::dot(sun, frame_.up)),
+                static_cast<float>(glm::dot(sun - frame_.forward, frame_.forward))};
     }
 
     void place_particles(const std::vector<std::uint32_t>& items) {
         const std::vector<SeenParticle>& seen = *scene_.seen;
+        const glm::dvec3 &forward = frame_.forward, &right = frame_.right, &up = frame_.up;
         reference_ =
             std::max(0.0, std::floor(seen[items.front()].nearest / scene_.step) * scene_.step);
         BlockParticles& p = room_.particles;
@@ -221,9 +289,9 @@ class BlockMarch {
         double length = 0, end = -1e300;
         for (std::size_t i = 0; i < items.size(); ++i) {
             const SeenParticle& one = seen[items[i]];
-            const double along = glm::dot(one.q, forward_);
-            p.x[i] = static_cast<float>(glm::dot(one.q, right_));
-            p.y[i] = static_cast<float>(glm::dot(one.q, up_));
+            const double along = glm::dot(one.q, forward);
+            p.x[i] = static_cast<float>(glm::dot(one.q, right));
+            p.y[i] = static_cast<float>(glm::dot(one.q, up));
             p.along[i] = static_cast<float>(along);
             p.place[i] = static_cast<float>(along - reference_);
             p.near[i] = static_cast<float>(one.nearest - reference_);
@@ -279,7 +347,8 @@ class BlockMarch {
             }
             if (step > shortest_) count = std::min(count, first_too_shaded(from, step, count));
             if (count > 0) {
-                march_tiles(from, step, count);
+                const double ratio = marched / step;
+                march_tiles(from, step, count, (ratio * ratio - 1) / 24);
                 marched = step;
                 at += count;
             }
@@ -319,7 +388,7 @@ class BlockMarch {
         return kChunk;
     }
 
-    void march_tiles(double from, double step, int count) {
+    void march_tiles(double from, double step, int count, double seam) {
         int first = kChunk, last = -1;
         for (const Tile& tile : room_.tiles) {
             if (!has_matter(tile, count)) continue;
@@ -341,7 +410,7 @@ class BlockMarch {
                                 room_.light);
             else
                 look_up_pixels(t, base, step, tile.first, end);
-            kernels_.march(shade(t), room_.light, count, tile);
+            kernels_.march(shade(t, seam), room_.light, count, tile);
         }
     }
 
@@ -403,35 +472,28 @@ class BlockMarch {
     void start(int t) {
         Tile& tile = room_.tiles[t];
         tile.started = true;
-        const PeakTable& table = scene_.table;
-        const auto columns = static_cast<std::size_t>(table.columns);
-        room_.rows.resize(kTiles * kLanes * columns);
-        const glm::dvec3 sun = to_frame(scene_.view, scene_.to_sun);
-        for (int lane = 0; lane < kLanes; ++lane) {
-            const glm::dvec3& d = room_.directions[t][lane];
-            const double ahead = glm::length(d - sun), behind = glm::length(d + sun);
-            tile.rest_phase[lane] = static_cast<float>(rest_of_phase(scene_.rest, ahead, behind));
-            if (columns == 0) continue;
-            const RowAt row = row_at(table, ahead, behind);
-            const float* a = table.values.data() + static_cast<std::size_t>(row.row) * columns;
-            const float* b = a + columns;
-            float* out = room_.rows.data() + static_cast<std::size_t>(t * kLanes + lane) * columns;
-            for (std::size_t k = 0; k < columns; ++k) out[k] = a[k] + row.share * (b[k] - a[k]);
-        }
+        const auto columns = static_cast<std::size_t>(scene_.table.columns);
+        room_.rows.resize(kTiles * columns);
+        kernels_.phases(scene_, sun_, tile, rows_at(t));
     }
 
-    Shade shade(int t) const {
+    Floats* rows_at(int t) const {
+        if (room_.rows.empty()) return nullptr;
+        return &room_.rows[static_cast<std::size_t>(t * scene_.table.columns)].value;
+    }
+
+    Shade shade(int t, double seam) const {
         const TransportLight& light = *scene_.light.light;
         const float albedo = light.albedo.empty() ? static_cast<float>(scene_.medium.albedo) : 1.0f;
         Shade shade{};
         shade.scaled = scene_.scaled;
+        shade.seam = static_cast<float>(seam);
         shade.grid = light.cell > 0 && !light.bands.empty();
         shade.peak = scene_.table.columns > 0;
         shade.albedo = !light.albedo.empty();
         for (int c = 0; c < 3; ++c) shade.beam[c] = albedo * scene_.sun[c];
-        shade.columns = scene_.table.columns;
         shade.last = scene_.table.last;
-        shade.rows = room_.rows.data() + t * kLanes * shade.columns;
+        shade.rows = rows_at(t);
         return shade;
     }
 
@@ -439,22 +501,18 @@ class BlockMarch {
     BlockRoom& room_;
     const Kernels& kernels_;
     int left_, top_;  // pixels
-    glm::dvec3 right_{0}, up_{0}, forward_{0};
+    BlockFrame frame_{};
+    SunInBlock sun_{};
     double reference_ = 0, longest_ = 1, shortest_ = 1;
 };
 
 }  // namespace
 
 void march_block(const MarchScene& scene, int block_x, int block_y,
-                 const std::vector<std::uint32_t>& items, BlockRoom& room, BlockPixels& out) {
-    BlockMarch(scene, block_x, block_y, room).run(items);
-    for (std::size_t t = 0; t < kTiles; ++t) {
-        const Tile& tile = room.tiles[t];
-        std::memcpy(out.depth[t].data(), &tile.depth, sizeof tile.depth);
-        std::memcpy(out.radiance[0][t].data(), &tile.red, sizeof tile.red);
-        std::memcpy(out.radiance[1][t].data(), &tile.green, sizeof tile.green);
-        std::memcpy(out.radiance[2][t].data(), &tile.blue, sizeof tile.blue);
-    }
+                 const std::vector<std::uint32_t>& items, BlockRoom& room, Image& image) {
+    BlockMarch block(scene, block_x, block_y, room);
+    block.run(items);
+    block.draw(image);
 }
 
 }  // namespace awan

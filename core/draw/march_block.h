@@ -1,11 +1,11 @@
 // One block of 16 x 16 pixels, marched front to back as 16 tiles of 4 x 4 pixels, a pixel a lane.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <mutex>
 #include <vector>
 
+#include "core/draw/image.h"
 #include "core/draw/march_bins.h"
 #include "core/draw/march_light.h"
 #include "core/draw/march_phase.h"
@@ -13,6 +13,13 @@
 #include "core/scene/scene.h"
 
 namespace awan {
+
+// The sky as pixels see it.
+struct SkyBehind {
+    float zenith[3] = {}, horizon[3] = {};
+    bool behind = false;  // drawn behind the cloud
+    bool peak = false;    // seen through the forward peak
+};
 
 // What all blocks of a picture share.
 struct MarchScene {
@@ -29,6 +36,7 @@ struct MarchScene {
     float scaled = 1;      // share of extinction that is not the peak's: 1 - albedo * f
     double step = 1;       // longest step, scene units
     float step_depth = 1;  // longest step in scaled optical depth, where it is seen
+    SkyBehind sky;
 };
 
 inline constexpr int kTileSide = 4;
@@ -43,16 +51,11 @@ struct BlockRoomDelete {
 using BlockRoomPtr = std::unique_ptr<BlockRoom, BlockRoomDelete>;
 BlockRoomPtr make_block_room();
 
-// Pixel (x, y) of the block is lane (y % 4) * 4 + x % 4 of tile (y / 4) * 4 + x / 4.
-struct BlockPixels {
-    std::array<std::array<float, simd::kLanes>, kTiles> depth;  // optical, the whole ray's
-    std::array<std::array<std::array<float, simd::kLanes>, kTiles>, 3> radiance;
-};
-
 // Unit direction of the ray through a point of the picture, pixels from its top left corner.
 glm::dvec3 pixel_direction(const MarchScene& scene, double x, double y);
 
+// Draws the block's pixels. `items` may be empty.
 void march_block(const MarchScene& scene, int block_x, int block_y,
-                 const std::vector<std::uint32_t>& items, BlockRoom& room, BlockPixels& out);
+                 const std::vector<std::uint32_t>& items, BlockRoom& room, Image& image);
 
 }  // namespace awan

@@ -237,45 +237,49 @@ AWAN_INLINE void spread_light(const Bilinear& b, const LightAt (*corners)[kChunk
     }
 }
 
-// G of the peak table at optical depth t, each lane from its own row.
-AWAN_INLINE Floats peak_value(const float* rows, int columns, float last, const Floats& t) {
+// G of the peak table at optical depth t. A tile's pixels mostly meet in one or two of its columns: no gathering.
+AWAN_INLINE Floats peak_value(const Floats* rows, float last, const Floats& t) {
+    const auto column = [](float y) {
+        std::uint32_t b;
+        std::memcpy(&b, &y, sizeof b);
+        return static_cast<int>((b - 0x3f800000u) >> 20);
+    };
     const Floats y = 1.0f + simd::min(t, simd::all(last * 0.9999f));
     const Bits b = simd::bits(y) - 0x3f800000u;
-    const Bits part = b & 0xfffffu, whole = b >> 20;
-    std::uint32_t at[kLanes];
-    std::memcpy(at, &whole, sizeof at);
-    float low[kLanes], high[kLanes];
-    for (int lane = 0; lane < kLanes; ++lane) {
-        const float* row = rows + lane * columns + at[lane];
-        low[lane] = row[0];
-        high[lane] = row[1];
-    }
-    Floats a, c;
-    std::memcpy(&a, low, sizeof a);
-    std::memcpy(&c, high, sizeof c);
-    return a + (c - a) * (__builtin_convertvector(part, Floats) * (1.0f / 1048576));
+    const Floats at =
+        __builtin_convertvector(reinterpret_cast<const Ints&>(b), Floats) * (1.0f / 1048576);
+    const int low = column(simd::smallest(y)), high = column(simd::largest(y));
+    Floats value = rows[low];
+    for (int k = low; k <= high; ++k)
+        value += (rows[k + 1] - rows[k]) *
+                 simd::min(simd::max(at - static_cast<float>(k), Floats{}), simd::all(1.0f));
+    return value;
 }
 
 struct Shade {
     float scaled;  // 1 - a f
+    float
+        seam;  // (before^2 / step^2 - 1) / 24 where a chunk begins whose step is not the one's before; 0: it is
     bool grid, peak, albedo;
-    float beam[3];      // albedo * irradiance; irradiance alone if cells have their own albedo
-    const float* rows;  // of the peak table, the tile's lanes one after the other
-    int columns;
+    float beam[3];       // albedo * irradiance; irradiance alone if cells have their own albedo
+    const Floats* rows;  // of the peak table: a column each, a pixel a lane
     float last;
 };
 
 // The mean of exp over a step in which its argument goes from z to -z, times exp(-x / 2) = half: stays below 1.
-AWAN_INLINE Floats mean_decay(const Floats& half, const Floats& z) {
-    const Floats zz = simd::min(z * z, simd::all(16.0f));
+AWAN_INLINE Floats mean_decay(const Floats& half, const Floats& z2) {
+    const Floats zz = simd::max(simd::min(z2, simd::all(16.0f)), simd::all(-4.0f));
     return simd::min(
         half * (1.0f + zz * ((1.0f / 6) +
                              zz * ((1.0f / 120) + zz * ((1.0f / 5040) + zz * (1.0f / 362880))))),
         simd::all(1.0f));
 }
 
-// Samples 0..count-1 of a tile. Within one the extinction is even; the source is taken as linear in its optical depth and
-// the beam's decay as exponential, so that a step of depth 1 still costs little.
+// Samples 0..count-1 of a tile. Radiance is the sum over samples of extinction x light x transmittance, and sums over even
+// samples of what is smooth are far better than each of them (Euler & Maclaurin). But the transmittance that depths of
+// whole steps give, exact for even light, is off by step^2 in each: where light has the slope S' along the ray, by
+// step^2 / 24 sigma^2 S' T in all. That is what the light is leant by, half of what light linear within a step of even
+// extinction would ask for; a deep step goes over into that. Where the step changes, Euler & Maclaurin's first term.
 AWAN_INLINE void march_tile(const Shade& shade, const TileLight& light, int count, Tile& tile) {
     const float scaled = shade.scaled, per_scaled = 1.0f / shade.scaled;
     const int end = tile.last < count - 1 ? tile.last : count - 1;
@@ -285,8 +289,9 @@ AWAN_INLINE void march_tile(const Shade& shade, const TileLight& light, int coun
         const Floats half = simd::exp(x * -0.5f);
         const Floats passed = half * half;
         const Floats taken = simd::one_minus(passed, x) * per_scaled;
-        // Where in the step light comes from on the whole: 1/2 - x/12 + ... ; 1/x.
-        const Floats off = (6.0f + x) / (12.0f + x * (4.0f + x)) - 0.5f;
+        const float seam = k == 0 ? shade.seam : 0.0f;
+        // How far before the step's middle light is looked up: x/24 - ... ; 1/2 - 1/x, all of it from the front.
+        const Floats off = -0.5f * x * (1.0f + x) / (12.0f + x * (3.0f + x)) + seam;
         if (shade.grid) {
             const Floats weight = tile.scaled_left * taken;
             const Floats* const r = light.source[0] + k;
@@ -302,19 +307,23 @@ AWAN_INLINE void march_tile(const Shade& shade, const TileLight& light, int coun
         const Floats from_sun =
             simd::max(light.depth[k + 1] + (deep ? off * rise : Floats{}), Floats{});
         const Floats lit = simd::exp(from_sun * -scaled);
-        const Floats even = mean_decay(half, 0.5f * (x + scaled * rise)) * depth;
+        // As with the grid's light: the slope of the beam counts once with the eye's, not twice.
+        const Floats seam_scaled = simd::max(1.0f - seam * scaled * rise, Floats{});
+        const Floats even = mean_decay(half, 0.25f * x * (x + scaled * rise)) * depth * seam_scaled;
         Floats beam = tile.rest_phase * tile.scaled_left * lit * (deep ? taken : even);
         if (shade.peak) {
             const Floats half_whole = simd::exp(depth * -0.5f);
             const Floats lit_whole = simd::exp(-from_sun);
             const Floats before =
-                peak_value(shade.rows, shade.columns, shade.last, from_sun) * lit * tile.left *
+                peak_value(shade.rows, shade.last, from_sun) * lit * tile.left *
                 (deep ? simd::one_minus(half_whole * half_whole, depth)
-                      : mean_decay(half_whole, 0.5f * (depth + scaled * rise)) * depth);
-            const Floats after =
-                peak_value(shade.rows, shade.columns, shade.last, tile.depth + 0.5f * depth) *
-                lit_whole * tile.scaled_left *
-                (deep ? taken : mean_decay(half, 0.5f * (x + rise)) * depth);
+                      : mean_decay(half_whole, 0.25f * depth * (depth + scaled * rise)) * depth *
+                            seam_scaled);
+            const Floats after = peak_value(shade.rows, shade.last, tile.depth + 0.5f * depth) *
+                                 lit_whole * tile.scaled_left *
+                                 (deep ? taken
+                                       : mean_decay(half, 0.25f * x * (x + rise)) * depth *
+                                             simd::max(1.0f - seam * rise, Floats{}));
             beam += 0.5f * (before + after);
             tile.left *= half_whole * half_whole;
         }
@@ -343,17 +352,14 @@ AWAN_INLINE void measure(const BlockParticles& p, const Floats ray[3], const Flo
     const float along = p.along[i], reach = p.reach[i];
     const float distance = std::sqrt(p.x[i] * p.x[i] + p.y[i] * p.y[i] + along * along);
     const Closest at = closest(p, i, ray[0], ray[1], ray[2]);
-    Floats b;
-    for (int tile = 0; tile < kTiles; ++tile) b[tile] = std::sqrt(at.b2[tile]);
+    const Floats b = simd::sqrt(at.b2);
     // A point of a tile's rays is off its middle ray by at most spread * distance; the closest points, to second order.
     const Floats least = simd::max(b - spread * distance, Floats{});
     const Floats chord2 = reach * reach - least * least;
     const Floats slack = spread * (b + 2.0f * spread * distance);
     // Two s more than the sphere: at its rim the ray would lose half of what little it meets.
     const float more = 4.0f * p.s[i] * p.s[i];
-    Floats half;
-    for (int tile = 0; tile < kTiles; ++tile)
-        half[tile] = std::sqrt(chord2[tile] > 0.0f ? chord2[tile] + more : 0.0f);
+    const Floats half = simd::sqrt(chord2 > 0.0f ? chord2 + more : Floats{});
     a.shift = at.shift;
     a.center = p.place[i] + at.shift;
     a.half = chord2 > 0.0f ? half + slack : simd::all(-1.0f);

@@ -13,29 +13,45 @@ namespace {
 
 constexpr double kCloseCells = 2;  // around the grid
 
+Rgb4 rgb4(const glm::vec3& c) {
+    return Rgb4{c.x, c.y, c.z, 0.0f};
+}
+
+using Int4 = int __attribute__((vector_size(16)));
+
 // The eight neighbours of a point of a lattice, and how far it is between them.
 struct Corners {
     std::size_t at, dx, dy, dz;
     float x, y, z;
 };
 
-Corners corners(const glm::vec3& place, const glm::ivec3& n) {
-    Corners c{};
-    const auto axis = [](float u, int count, int& whole, float& part) {
-        const float clamped = std::min(std::max(u, 0.0f), static_cast<float>(count - 1));
-        whole = std::min(static_cast<int>(clamped), std::max(count - 2, 0));
-        part = clamped - static_cast<float>(whole);
-        return count > 1;
-    };
-    int i = 0, j = 0, k = 0;
-    const auto nx = static_cast<std::size_t>(n.x), ny = static_cast<std::size_t>(n.y);
-    c.dx = axis(place.x, n.x, i, c.x) ? 1 : 0;
-    c.dy = axis(place.y, n.y, j, c.y) ? nx : 0;
-    c.dz = axis(place.z, n.z, k, c.z) ? nx * ny : 0;
-    c.at = (static_cast<std::size_t>(k) * ny + static_cast<std::size_t>(j)) * nx +
-           static_cast<std::size_t>(i);
-    return c;
-}
+// A lattice, ready for looking up: three axes at a time.
+class Neighbours {
+  public:
+    explicit Neighbours(const glm::ivec3& n)
+        : most_(rgb4(glm::vec3(n - 1))),
+          last_{std::max(n.x - 2, 0), std::max(n.y - 2, 0), std::max(n.z - 2, 0), 0},
+          row_(static_cast<std::size_t>(n.x)),
+          layer_(row_ * static_cast<std::size_t>(n.y)),
+          dx_(n.x > 1 ? 1 : 0),
+          dy_(n.y > 1 ? row_ : 0),
+          dz_(n.z > 1 ? layer_ : 0) {}
+
+    Corners of(const Rgb4& place) const {
+        const Rgb4 above = place > Rgb4{} ? place : Rgb4{};
+        const Rgb4 clamped = above < most_ ? above : most_;
+        Int4 whole = __builtin_convertvector(clamped, Int4);
+        whole = whole < last_ ? whole : last_;
+        const Rgb4 part = clamped - __builtin_convertvector(whole, Rgb4);
+        const auto at = [&](int axis) { return static_cast<std::size_t>(whole[axis]); };
+        return {at(2) * layer_ + at(1) * row_ + at(0), dx_, dy_, dz_, part[0], part[1], part[2]};
+    }
+
+  private:
+    Rgb4 most_;
+    Int4 last_;
+    std::size_t row_, layer_, dx_, dy_, dz_;
+};
 
 // value(i): that of lattice point i.
 template <typename Value>
@@ -63,10 +79,6 @@ std::array<float, kHarmonics> harmonics_f(const glm::dvec3& d) {
     std::array<float, kHarmonics> y{};
     for (std::size_t i = 0; i < kHarmonics; ++i) y[i] = static_cast<float>(exact[i]);
     return y;
-}
-
-Rgb4 rgb4(const glm::vec3& c) {
-    return Rgb4{c.x, c.y, c.z, 0.0f};
 }
 
 // From the moments, for the ray's own direction.
@@ -135,11 +147,14 @@ void light_along(const EyeLight& eye_light, const LightRay& ray, float first, fl
     const TransportLight& light = *eye_light.light;
     const bool grid = light.cell > 0;
     const bool sun = light.sun.cell > 0 && !light.sun.depth.empty();
+    const Neighbours cells(light.cells), nodes(light.sun.nodes);
+    const Rgb4 grid_from = rgb4(ray.grid), grid_step = rgb4(ray.grid_step),
+               sun_from = rgb4(ray.sun), sun_step = rgb4(ray.sun_step);
     for (int k = 0; k < count; ++k) {
         const float t = first + static_cast<float>(k) * step;
         LightAt at{};
         if (grid) {
-            const Corners c = corners(ray.grid + t * ray.grid_step, light.cells);
+            const Corners c = cells.of(grid_from + t * grid_step);
             if (!eye_light.source.empty())
                 at.source = between(c, [&](std::size_t i) { return eye_light.source[i]; });
             else if (eye_light.close)
@@ -148,7 +163,7 @@ void light_along(const EyeLight& eye_light, const LightRay& ray, float first, fl
                 at.albedo = between(c, [&](std::size_t i) { return rgb4(light.albedo[i]); });
         }
         if (sun) {
-            const Corners c = corners(ray.sun + t * ray.sun_step, light.sun.nodes);
+            const Corners c = nodes.of(sun_from + t * sun_step);
             at.depth =
                 std::max(0.0f, between(c, [&](std::size_t i) { return light.sun.depth[i]; }));
         }

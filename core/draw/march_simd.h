@@ -57,6 +57,28 @@ AWAN_INLINE Floats one_minus(const Floats& e, const Floats& x) {
     return x < 0.03125f ? series : 1.0f - e;
 }
 
+// Correctly rounded everywhere, so the same on every machine.
+AWAN_INLINE Floats sqrt(const Floats& x) {
+    float a[kLanes];
+    std::memcpy(a, &x, sizeof a);
+    for (float& value : a) value = __builtin_sqrtf(value);
+    Floats root;
+    std::memcpy(&root, a, sizeof root);
+    return root;
+}
+
+// ln x for normal x > 0; absolute error < 1e-6 for x < 1e6. x = 2^n m, m within a root of 2 of 1; ln m = 2 artanh of
+// (m - 1) / (m + 1).
+AWAN_INLINE Floats log(const Floats& x) {
+    const Bits b = bits(x) - 0x3f3504f3u;
+    const Floats n = __builtin_convertvector(reinterpret_cast<const Ints&>(b) >> 23, Floats);
+    const Floats m = floats((b & 0x007fffffu) + 0x3f3504f3u);
+    const Floats f = (m - 1.0f) / (m + 1.0f), ff = f * f;
+    const Floats series =
+        1.0f + ff * ((1.0f / 3) + ff * ((1.0f / 5) + ff * ((1.0f / 7) + ff * (1.0f / 9))));
+    return n * 0.693147181f + 2.0f * f * series;
+}
+
 // Cumulative normal distribution as in core/shaders/optics.glsl (Abramowitz & Stegun 7.1.26).
 AWAN_INLINE Floats normal_cdf(const Floats& x) {
     const Floats z = abs(x) * 0.70710678f;
@@ -75,19 +97,22 @@ AWAN_INLINE bool any(const Ints& mask) {
     for (const std::int64_t word : words) sum |= word;
     return sum != 0;
 }
-AWAN_INLINE float smallest(const Floats& x) {
-    float a[kLanes];
-    std::memcpy(a, &x, sizeof a);
-    float least = a[0];
-    for (int i = 1; i < kLanes; ++i) least = a[i] < least ? a[i] : least;
-    return least;
-}
+// By halves: a chain of four.
+using Eight = float __attribute__((vector_size(32)));
+using Four = float __attribute__((vector_size(16)));
 AWAN_INLINE float largest(const Floats& x) {
-    float a[kLanes];
+    Eight a[2];
     std::memcpy(a, &x, sizeof a);
-    float most = a[0];
-    for (int i = 1; i < kLanes; ++i) most = a[i] > most ? a[i] : most;
-    return most;
+    a[0] = a[0] > a[1] ? a[0] : a[1];
+    Four b[2];
+    std::memcpy(b, a, sizeof b);
+    b[0] = b[0] > b[1] ? b[0] : b[1];
+    const float c = b[0][0] > b[0][2] ? b[0][0] : b[0][2];
+    const float d = b[0][1] > b[0][3] ? b[0][1] : b[0][3];
+    return c > d ? c : d;
+}
+AWAN_INLINE float smallest(const Floats& x) {
+    return -largest(-x);
 }
 
 }  // namespace awan::simd
