@@ -114,7 +114,7 @@ int run_serve(const ServeCommand& command) {
     raise_descriptor_limit();
 
     Metrics metrics;
-    RenderThread renderer(command.device, command.queue);
+    RenderThread renderer(command.device, command.threads, command.queue);
     ServiceOptions service_options;
     service_options.threads = command.threads;
     service_options.speed = rounded(measure_speed());

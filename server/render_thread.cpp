@@ -54,8 +54,8 @@ Status draw_once(Device& device) {
 
 }  // namespace
 
-OpenRenderer device_renderer(DeviceChoice choice) {
-    return [choice]() -> Result<Renderer> {
+OpenRenderer device_renderer(DeviceChoice choice, int threads) {
+    return [choice, threads]() -> Result<Renderer> {
         auto opened = Device::open(choice);
         if (!opened) return opened.error();
         auto device = std::make_shared<Device>(std::move(opened).value());
@@ -65,7 +65,6 @@ OpenRenderer device_renderer(DeviceChoice choice) {
         Renderer renderer;
         renderer.info = device->info();
         const auto lights = std::make_shared<LightCache>(kLightCacheBytes);
-        const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
         renderer.render = [device, lights, threads](const Scene& scene, Planned planned,
                                                     const Deadline& deadline) {
             return render_planned(scene, std::move(planned),
@@ -158,8 +157,8 @@ RenderThread::RenderThread(OpenRenderer open, std::size_t queue_length)
         std::thread([state = state_.get(), open = std::move(open)] { state->run(open); });
 }
 
-RenderThread::RenderThread(DeviceChoice choice, std::size_t queue_length)
-    : RenderThread(device_renderer(choice), queue_length) {}
+RenderThread::RenderThread(DeviceChoice choice, int threads, std::size_t queue_length)
+    : RenderThread(device_renderer(choice, threads), queue_length) {}
 
 RenderThread::~RenderThread() {
     {

@@ -24,9 +24,9 @@ using OpenRenderer = std::function<Result<Renderer>()>;
 // Lights that are kept while cameras move: about ten of the largest rungs', hundreds of the common.
 inline constexpr std::size_t kLightCacheBytes = 256u << 20;
 
-// Opens the device and draws once, so that the first request finds it warm. One render runs at a time, and the rungs that
-// need no device use all processors.
-OpenRenderer device_renderer(DeviceChoice choice);
+// Opens the device and draws once, so that the first request finds it warm. One render runs at a time; the rungs that need
+// no device use `threads`.
+OpenRenderer device_renderer(DeviceChoice choice, int threads);
 
 class RenderThread {
     struct State;
@@ -36,7 +36,7 @@ class RenderThread {
     // blocks; info() says how it went. `queue_length`: renders that may wait beside the one that
     // runs.
     RenderThread(OpenRenderer open, std::size_t queue_length);
-    RenderThread(DeviceChoice choice, std::size_t queue_length);
+    RenderThread(DeviceChoice choice, int threads, std::size_t queue_length);
     ~RenderThread();  // stops; what is queued fails with kCancelled
     RenderThread(const RenderThread&) = delete;
     RenderThread& operator=(const RenderThread&) = delete;

@@ -356,7 +356,7 @@ TEST(RenderThread, ThrowingRenderIsAnInternalErrorWithoutDetails) {
 // With the device itself: a picture, and the renderer's name behind its tag.
 TEST(RealRenderer, Renders) {
     Metrics metrics;
-    RenderThread thread(DeviceChoice::kSoftware, 1);
+    RenderThread thread(DeviceChoice::kSoftware, 1, 1);
     thread.wait_until_started();
     ASSERT_EQ(thread.info().state, RenderThread::Info::State::kReady) << thread.info().reason;
     Service service(thread, metrics, {});
