@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -31,18 +32,43 @@ Span span_of(double center, double reach, double cell, int count) {
             static_cast<int>(std::min(last, static_cast<double>(count - 1)))};
 }
 
+// Share of a Gaussian's mass below a point, from -kCut s (0) to kCut s (1): linear between the nodes of a table, within 2e-7,
+// ten times faster than erfc. Millions of particles spend most of their time here.
+class MassBelow {
+  public:
+    MassBelow() {
+        const double least = normal_cdf(-kCut), whole = normal_cdf(kCut) - least;
+        for (int i = 0; i <= kNodes; ++i)
+            below_[static_cast<std::size_t>(i)] =
+                (normal_cdf(-kCut + 2 * kCut * i / kNodes) - least) / whole;
+        below_[kNodes + 1] = below_[kNodes];
+    }
+    double operator()(double x) const {  // in s from the centre
+        const double at = std::clamp((x + kCut) * (kNodes / (2 * kCut)), 0.0, double{kNodes});
+        const auto node = static_cast<std::size_t>(at);
+        return below_[node] + (at - static_cast<double>(node)) * (below_[node + 1] - below_[node]);
+    }
+
+  private:
+    static constexpr int kNodes = 4096;
+    std::array<double, kNodes + 2> below_{};
+};
+
 // Shares of a Gaussian's mass in a span of cells along one axis. The whole within +-kCut s is 1.
-void weights_of(double center, double s, double cell, Span span, float* weights) {
-    static const double whole = normal_cdf(kCut) - normal_cdf(-kCut);
-    const auto below = [&](int edge) {
-        return normal_cdf(std::clamp((edge * cell - center) / s, -kCut, kCut));
-    };
-    double previous = below(span.first);
+void weights_of(const MassBelow& mass_below, double center, double s, double cell, Span span,
+                float* weights) {
+    const double per = 1 / s;
+    double previous = mass_below((span.first * cell - center) * per);
     for (int i = span.first; i <= span.last; ++i) {
-        const double next = below(i + 1);
-        *weights++ = static_cast<float>((next - previous) / whole);
+        const double next = mass_below(((i + 1) * cell - center) * per);
+        *weights++ = static_cast<float>(next - previous);
         previous = next;
     }
+}
+
+const MassBelow& mass_below() {
+    static const MassBelow table;
+    return table;
 }
 
 __attribute__((target_clones("avx512f", "avx2", "default"))) void add_scaled(float* to,
@@ -52,31 +78,52 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) void add_scaled(flo
     for (std::size_t i = 0; i < count; ++i) to[i] += scale * from[i];
 }
 
+// The layers along w that a particle reaches, both ends included; found once, for all slabs. Lattices have few layers.
+struct LayerSpan {
+    std::int16_t first, last;
+};
+
+std::vector<LayerSpan> layer_spans(const ParticleSet& particles, const Lattice& lattice,
+                                   int threads) {
+    std::vector<LayerSpan> spans(particles.size());
+    constexpr std::size_t kShare = 1u << 15;
+    parallel_for(threads, (spans.size() + kShare - 1) / kShare, [&](std::size_t share) {
+        const std::size_t end = std::min(spans.size(), (share + 1) * kShare);
+        for (std::size_t i = share * kShare; i < end; ++i) {
+            const Span z = span_of(glm::dot(particles.center[i] - lattice.origin, lattice.w),
+                                   kCut * gaussian_s(particles, i), lattice.cell, lattice.cells.z);
+            spans[i] = {static_cast<std::int16_t>(z.first), static_cast<std::int16_t>(z.last)};
+        }
+    });
+    return spans;
+}
+
 // Adds the particles to the cells of layers [first, last) along w. weight(i): mass of particle i.
 template <typename Mass>
 void add_layers(const ParticleSet& particles, const Lattice& lattice, int first, int last,
-                const Mass& mass_of, std::vector<float>& cells) {
+                const std::vector<LayerSpan>& layers, const Mass& mass_of,
+                std::vector<float>& cells) {
+    const MassBelow& below = mass_below();
     const glm::ivec3 n = lattice.cells;
     const double volume = lattice.cell * lattice.cell * lattice.cell;
     std::vector<float> wx(static_cast<std::size_t>(n.x)), wy(static_cast<std::size_t>(n.y)),
         wz(static_cast<std::size_t>(n.z));
     for (std::size_t i = 0; i < particles.size(); ++i) {
+        const Span z{std::max<int>(layers[i].first, first),
+                     std::min<int>(layers[i].last, last - 1)};
+        if (z.empty()) continue;
         const double s = gaussian_s(particles, i);
         const glm::dvec3 apart = particles.center[i] - lattice.origin;
         const double cz = glm::dot(apart, lattice.w);
-        Span z = span_of(cz, kCut * s, lattice.cell, n.z);
-        z.first = std::max(z.first, first);
-        z.last = std::min(z.last, last - 1);
-        if (z.empty()) continue;
         const double cx = glm::dot(apart, lattice.u), cy = glm::dot(apart, lattice.v);
         const Span x = span_of(cx, kCut * s, lattice.cell, n.x);
         const Span y = span_of(cy, kCut * s, lattice.cell, n.y);
         if (x.empty() || y.empty()) continue;
         const double mass = mass_of(i);
         if (!(mass > 0)) continue;
-        weights_of(cx, s, lattice.cell, x, wx.data());
-        weights_of(cy, s, lattice.cell, y, wy.data());
-        weights_of(cz, s, lattice.cell, z, wz.data());
+        weights_of(below, cx, s, lattice.cell, x, wx.data());
+        weights_of(below, cy, s, lattice.cell, y, wy.data());
+        weights_of(below, cz, s, lattice.cell, z, wz.data());
         const auto scale = static_cast<float>(std::min(mass / volume, 1e30));
         const auto count = static_cast<std::size_t>(x.last - x.first + 1);
         for (int k = z.first; k <= z.last; ++k)
@@ -102,12 +149,13 @@ std::vector<float> deposit(const ParticleSet& particles, const Lattice& lattice,
                            const Mass& mass) {
     std::vector<float> cells(lattice.size());
     const int layers = lattice.cells.z;
+    const std::vector<LayerSpan> spans = layer_spans(particles, lattice, threads);
     parallel_for(threads, kSlabs, [&](std::size_t slab) {
         const auto edge = [&](std::size_t i) {
             return static_cast<int>(i * static_cast<std::size_t>(layers) / kSlabs);
         };
         if (edge(slab) < edge(slab + 1))
-            add_layers(particles, lattice, edge(slab), edge(slab + 1), mass, cells);
+            add_layers(particles, lattice, edge(slab), edge(slab + 1), spans, mass, cells);
     });
     return cells;
 }
