@@ -275,6 +275,11 @@ AWAN_INLINE Floats mean_decay(const Floats& half, const Floats& z2) {
         simd::all(1.0f));
 }
 
+// What light that goes with exp(-rise) a step is multiplied by at a seam.
+AWAN_INLINE Floats at_seam(float seam, const Floats& rise) {
+    return 1.0f - seam * simd::min(simd::max(rise, simd::all(-0.5f)), simd::all(0.5f));
+}
+
 // Samples 0..count-1 of a tile. Radiance is the sum over samples of extinction x light x transmittance, and sums over even
 // samples of what is smooth are far better than each of them (Euler & Maclaurin). But the transmittance that depths of
 // whole steps give, exact for even light, is off by step^2 in each: where light has the slope S' along the ray, by
@@ -308,7 +313,7 @@ AWAN_INLINE void march_tile(const Shade& shade, const TileLight& light, int coun
             simd::max(light.depth[k + 1] + (deep ? off * rise : Floats{}), Floats{});
         const Floats lit = simd::exp(from_sun * -scaled);
         // As with the grid's light: the slope of the beam counts once with the eye's, not twice.
-        const Floats seam_scaled = simd::max(1.0f - seam * scaled * rise, Floats{});
+        const Floats seam_scaled = at_seam(seam, scaled * rise);
         const Floats even = mean_decay(half, 0.25f * x * (x + scaled * rise)) * depth * seam_scaled;
         Floats beam = tile.rest_phase * tile.scaled_left * lit * (deep ? taken : even);
         if (shade.peak) {
@@ -319,11 +324,11 @@ AWAN_INLINE void march_tile(const Shade& shade, const TileLight& light, int coun
                 (deep ? simd::one_minus(half_whole * half_whole, depth)
                       : mean_decay(half_whole, 0.25f * depth * (depth + scaled * rise)) * depth *
                             seam_scaled);
-            const Floats after = peak_value(shade.rows, shade.last, tile.depth + 0.5f * depth) *
-                                 lit_whole * tile.scaled_left *
-                                 (deep ? taken
-                                       : mean_decay(half, 0.25f * x * (x + rise)) * depth *
-                                             simd::max(1.0f - seam * rise, Floats{}));
+            const Floats after =
+                peak_value(shade.rows, shade.last, tile.depth + 0.5f * depth) * lit_whole *
+                tile.scaled_left *
+                (deep ? taken
+                      : mean_decay(half, 0.25f * x * (x + rise)) * depth * at_seam(seam, rise));
             beam += 0.5f * (before + after);
             tile.left *= half_whole * half_whole;
         }
