@@ -332,14 +332,14 @@ class BlockMarch {
                 if (static_cast<double>(a.end) > from) active.push_back(a);
             }
             kernels_.ratio(p, static_cast<float>(step), active);
-            const Chunk chunk{static_cast<float>(from), static_cast<float>(step),
-                              static_cast<float>(marched), step != marched};
             // All blocks change the spacing at one distance, or the change would be seen between them.
             const double near = reference_ + from;
             const int spacing = choose_spacing(near + 0.5 * step);
             const int ahead =
                 static_cast<int>(std::clamp(std::ceil((farthest(spacing) - near) / step - 0.5), 1.0,
                                             static_cast<double>(kChunk)));
+            const Chunk chunk{static_cast<float>(from), static_cast<float>(step),
+                              static_cast<float>(marched), ahead, step != marched};
             int count = ahead;
             bool fine = true;  // far finer than it need be
             const float allowed = scene_.step_depth;

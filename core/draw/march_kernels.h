@@ -44,6 +44,7 @@ struct Chunk {
     float from, step;
     float
         before;  // the step of the chunk that ended at `from`; 0: exact up to there, or nothing (the eye)
+    int count;    // <= kChunk
     bool joined;  // whether the samples before `from` were stepped differently, or cut off there
 };
 
@@ -106,14 +107,15 @@ AWAN_INLINE void deposit(const BlockParticles& p, const ActiveParticle& a, const
     const float step = chunk.step, s = p.s[i], per_step = 1.0f / step, per_s = 1.0f / s;
     const float per_s2 = per_s * per_s;
     const Floats center = a.center - chunk.from;
-    // First and last sample, kept in -1..kChunk.
-    const Floats most = simd::all(kChunk + 1), none = Floats{};
+    // First and last sample, kept in -1..count.
+    const Floats most = simd::all(static_cast<float>(chunk.count + 1)), none = Floats{};
     const Floats low = simd::min(simd::max((center - a.half) * per_step + 1.0f, none), most);
     const Floats high = simd::min(simd::max((center + a.half) * per_step + 1.0f, none), most);
     const Ints low_at = __builtin_convertvector(low, Ints) - 1;
     const Ints high_at = __builtin_convertvector(high, Ints) - 1;
     const Ints first = low_at < 0 ? Ints{} : low_at;
-    const Ints last = high_at > kChunk - 1 ? Ints{} + (kChunk - 1) : high_at;
+    const Ints end = Ints{} + (chunk.count - 1);
+    const Ints last = high_at > end ? end : high_at;
     int touched[kTiles], count = 0, least = kChunk, greatest = -1;
     for (int t = 0; t < kTiles; ++t) {
         if (!(a.half[t] > 0.0f) || first[t] > last[t] || !tiles[t].alive) continue;
