@@ -44,6 +44,7 @@ struct Chunk {
     float from, step;
     float
         before;  // the step of the chunk that ended at `from`; 0: exact up to there, or nothing (the eye)
+    int count;    // <= kChunk
     bool joined;  // whether the samples before `from` were stepped differently, or cut off there
 };
 
@@ -106,14 +107,15 @@ AWAN_INLINE void deposit(const BlockParticles& p, const ActiveParticle& a, const
     const float step = chunk.step, s = p.s[i], per_step = 1.0f / step, per_s = 1.0f / s;
     const float per_s2 = per_s * per_s;
     const Floats center = a.center - chunk.from;
-    // First and last sample, kept in -1..kChunk.
-    const Floats most = simd::all(kChunk + 1), none = Floats{};
+    // First and last sample, kept in -1..count.
+    const Floats most = simd::all(static_cast<float>(chunk.count + 1)), none = Floats{};
     const Floats low = simd::min(simd::max((center - a.half) * per_step + 1.0f, none), most);
     const Floats high = simd::min(simd::max((center + a.half) * per_step + 1.0f, none), most);
     const Ints low_at = __builtin_convertvector(low, Ints) - 1;
     const Ints high_at = __builtin_convertvector(high, Ints) - 1;
     const Ints first = low_at < 0 ? Ints{} : low_at;
-    const Ints last = high_at > kChunk - 1 ? Ints{} + (kChunk - 1) : high_at;
+    const Ints end = Ints{} + (chunk.count - 1);
+    const Ints last = high_at > end ? end : high_at;
     int touched[kTiles], count = 0, least = kChunk, greatest = -1;
     for (int t = 0; t < kTiles; ++t) {
         if (!(a.half[t] > 0.0f) || first[t] > last[t] || !tiles[t].alive) continue;
@@ -275,6 +277,11 @@ AWAN_INLINE Floats mean_decay(const Floats& half, const Floats& z2) {
         simd::all(1.0f));
 }
 
+// What light that goes with exp(-rise) a step is multiplied by at a seam.
+AWAN_INLINE Floats at_seam(float seam, const Floats& rise) {
+    return 1.0f - seam * simd::min(simd::max(rise, simd::all(-0.5f)), simd::all(0.5f));
+}
+
 // Samples 0..count-1 of a tile. Radiance is the sum over samples of extinction x light x transmittance, and sums over even
 // samples of what is smooth are far better than each of them (Euler & Maclaurin). But the transmittance that depths of
 // whole steps give, exact for even light, is off by step^2 in each: where light has the slope S' along the ray, by
@@ -308,7 +315,7 @@ AWAN_INLINE void march_tile(const Shade& shade, const TileLight& light, int coun
             simd::max(light.depth[k + 1] + (deep ? off * rise : Floats{}), Floats{});
         const Floats lit = simd::exp(from_sun * -scaled);
         // As with the grid's light: the slope of the beam counts once with the eye's, not twice.
-        const Floats seam_scaled = simd::max(1.0f - seam * scaled * rise, Floats{});
+        const Floats seam_scaled = at_seam(seam, scaled * rise);
         const Floats even = mean_decay(half, 0.25f * x * (x + scaled * rise)) * depth * seam_scaled;
         Floats beam = tile.rest_phase * tile.scaled_left * lit * (deep ? taken : even);
         if (shade.peak) {
@@ -319,11 +326,11 @@ AWAN_INLINE void march_tile(const Shade& shade, const TileLight& light, int coun
                 (deep ? simd::one_minus(half_whole * half_whole, depth)
                       : mean_decay(half_whole, 0.25f * depth * (depth + scaled * rise)) * depth *
                             seam_scaled);
-            const Floats after = peak_value(shade.rows, shade.last, tile.depth + 0.5f * depth) *
-                                 lit_whole * tile.scaled_left *
-                                 (deep ? taken
-                                       : mean_decay(half, 0.25f * x * (x + rise)) * depth *
-                                             simd::max(1.0f - seam * rise, Floats{}));
+            const Floats after =
+                peak_value(shade.rows, shade.last, tile.depth + 0.5f * depth) * lit_whole *
+                tile.scaled_left *
+                (deep ? taken
+                      : mean_decay(half, 0.25f * x * (x + rise)) * depth * at_seam(seam, rise));
             beam += 0.5f * (before + after);
             tile.left *= half_whole * half_whole;
         }
