@@ -124,8 +124,8 @@ inline const char* random_rung(Dice& dice) {
         double share;
     };
     static constexpr Share kShares[] = {
-        {"additive", .14},      {"harris", .25},        {"single", .2},
-        {"transport-16", .3},   {"transport-24", .06},  {"transport-32", .015},
+        {"additive", .14},      {"harris", .25},        {"single", .25},
+        {"transport-16", .3},   {"transport-24", .02},  {"transport-32", .006},
         {"transport-48", .002}, {"transport-64", .001}, {"truth", 1}};
     double left = dice.uniform();
     for (const Share& share : kShares)
