@@ -58,7 +58,9 @@ SceneDraft layers(int count, double depth) {
     std::vector<Ball> list;
     for (int i = 0; i < count; ++i)
         list.push_back({{0, 0, 5 - 10.0 * i / count}, 6, depth * kPerDepth / 3 / count});
-    return picture(list, 4, 3);
+    SceneDraft draft = picture(list, 4, 3);
+    draft.camera.fov = 15;  // each layer is wider than a pixel
+    return draft;
 }
 
 // Uniformly filled, 10 x 10 and 1e-6 thick. Radii are drawn from 0 up: the smallest particles are widened to .6 pixels.

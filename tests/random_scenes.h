@@ -1,6 +1,6 @@
 // Random valid scenes: every field over its whole range (core/scene/limits.h), log-uniform where the range spans
 // magnitudes, and its ends more often than chance would have them. Small pictures and few particles, so that thousands of
-// them take minutes. Only the generator below decides, so a seed is a scene on every machine.
+// them take minutes. A seed is a scene, by the generator below alone.
 #pragma once
 
 #include <algorithm>
@@ -124,8 +124,8 @@ inline const char* random_rung(Dice& dice) {
         double share;
     };
     static constexpr Share kShares[] = {
-        {"additive", .14},      {"harris", .25},        {"single", .2},
-        {"transport-16", .3},   {"transport-24", .06},  {"transport-32", .015},
+        {"additive", .19},      {"harris", .3},         {"single", .3},
+        {"transport-16", .15},  {"transport-24", .015}, {"transport-32", .004},
         {"transport-48", .002}, {"transport-64", .001}, {"truth", 1}};
     double left = dice.uniform();
     for (const Share& share : kShares)

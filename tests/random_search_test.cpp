@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <map>
 
 #include "tests/physical_bounds.h"
@@ -20,7 +20,7 @@ using test::RandomScene;
 
 constexpr std::uint64_t kFirstSeed = 1;
 constexpr std::uint64_t kCount = 400;
-constexpr double kMaxSeconds = 10;       // a scene, of one thread
+constexpr double kMaxSeconds = 10;  // a scene, of processor: how busy the machine is does not show
 constexpr long kMaxMemoryKib = 3 << 19;  // of the process at its peak: 1.5 GiB
 
 std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
@@ -55,10 +55,10 @@ TEST(RandomSearch, EverySceneKeepsTheLaws) {
                      *random.draft.accuracy.rung + (random.furnace ? " furnace" : ""));
         auto scene = validate(random.draft);
         ASSERT_TRUE(scene.ok()) << scene.error().pointer << " " << scene.error().message;
-        const auto start = std::chrono::steady_clock::now();
+        const std::clock_t start = std::clock();
         const Rendered rendered = render(*scene, 1);
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-        EXPECT_LT(took.count(), kMaxSeconds);
+        const double took = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+        EXPECT_LT(took, kMaxSeconds);
         const Rendered again = render(*scene, 2);
         EXPECT_TRUE(again.image.pixels == rendered.image.pixels) << "other bytes on two threads";
         if (::testing::Test::HasFatalFailure()) return;
@@ -66,7 +66,7 @@ TEST(RandomSearch, EverySceneKeepsTheLaws) {
         test::expect_within_bounds(random.draft, rendered);
         auto& [scenes, seconds] = spent[rendered.plan.rung];
         ++scenes;
-        seconds += took.count();
+        seconds += took;
         const auto* result = ::testing::UnitTest::GetInstance()->current_test_info()->result();
         if (result->Failed() && result->total_part_count() > failed) {
             failed = result->total_part_count();

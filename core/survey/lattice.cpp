@@ -17,7 +17,6 @@ namespace {
 constexpr double kCut = 4;           // in s
 constexpr int kCoarse = 32;          // cells of the volume that finds the box
 constexpr double kCoarseWork = 1e7;  // of it; about 10 ms
-constexpr std::size_t kSlabs = 16;   // units of work, fixed so that threads do not show
 
 struct Span {
     int first = 0, last = -1;  // cells, inclusive
@@ -150,9 +149,12 @@ std::vector<float> deposit(const ParticleSet& particles, const Lattice& lattice,
     std::vector<float> cells(lattice.size());
     const int layers = lattice.cells.z;
     const std::vector<LayerSpan> spans = layer_spans(particles, lattice, threads);
-    parallel_for(threads, kSlabs, [&](std::size_t slab) {
+    // Each cell is one slab's, and has its particles in the set's order: neither slabs nor threads show. As few as keep the
+    // threads busy, since a particle is worked on once for every slab that it reaches.
+    const std::size_t slabs = threads > 1 ? 2 * static_cast<std::size_t>(threads) : 1;
+    parallel_for(threads, slabs, [&](std::size_t slab) {
         const auto edge = [&](std::size_t i) {
-            return static_cast<int>(i * static_cast<std::size_t>(layers) / kSlabs);
+            return static_cast<int>(i * static_cast<std::size_t>(layers) / slabs);
         };
         if (edge(slab) < edge(slab + 1))
             add_layers(particles, lattice, edge(slab), edge(slab + 1), spans, mass, cells);
