@@ -33,9 +33,10 @@ Span span_of(double center, double reach, double cell, int count) {
 
 // Shares of a Gaussian's mass in a span of cells along one axis. The whole within +-kCut s is 1.
 void weights_of(double center, double s, double cell, Span span, float* weights) {
-    static const double whole = normal_cdf(kCut) - normal_cdf(-kCut);
-    const auto below = [&](int edge) {
-        return normal_cdf(std::clamp((edge * cell - center) / s, -kCut, kCut));
+    static const double none = normal_cdf(-kCut), all = normal_cdf(kCut), whole = all - none;
+    const auto below = [&](int edge) {  // a small particle's ends need no error function
+        const double at = (edge * cell - center) / s;
+        return at <= -kCut ? none : at >= kCut ? all : normal_cdf(at);
     };
     double previous = below(span.first);
     for (int i = span.first; i <= span.last; ++i) {
