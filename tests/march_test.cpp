@@ -294,7 +294,7 @@ TEST(March, FinerStepsChangeLessThanTheError) {
             mean += static_cast<double>(fine.pixels[i]);
         }
         const auto n = static_cast<double>(coarse.pixels.size());
-        EXPECT_LT(std::sqrt(square / n) / (mean / n), 0.01) << elevation;
+        EXPECT_LT(std::sqrt(square / n) / (mean / n), 0.005) << elevation;
         RecordProperty("step_error", std::to_string(std::sqrt(square / n) / (mean / n)));
     }
 }
