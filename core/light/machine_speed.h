@@ -8,6 +8,6 @@ namespace awan {
 MachineSpeed measure_speed();
 
 // What it takes on the machine on which times were calibrated, ms.
-inline constexpr double kCalibratedSweepMs = 0.9;
+inline constexpr double kCalibratedSweepMs = 0.74;
 
 }  // namespace awan

@@ -23,7 +23,7 @@ inline constexpr std::array<const char*, kErrorFigureCount> kErrorFigureNames = 
 
 inline constexpr std::size_t kTimeFigureCount = 8;
 using TimeFigures = std::array<double, kTimeFigureCount>;
-// 1; pixels that meet cloud; particles; pixel-particle pairs; pixels; cells x bands x harmonics of the transport grid;
+// 1; pixels that meet cloud; particles; pixel-particle pairs; pixels; cells x bands x harmonics of the transport grid x its sweeps;
 // cell updates of its lattices; paths x (1 + scatterings).
 TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& survey,
                          std::uint32_t samples);

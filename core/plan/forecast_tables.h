@@ -25,12 +25,12 @@ struct TimeModel {
     TimeFigures coefficient;
 };
 // Generate, survey and plan.
-inline constexpr TimeModel kPrepareTime = {{0.581976, 0, 0.00089669, 1.84978e-05, 0, 0, 0, 0}};
-inline constexpr TimeModel kAdditiveTime = {{0.41752, 0, 0.000772695, 6.78007e-06, 2.23005e-18, 0, 0, 0}};
-inline constexpr TimeModel kHarrisLightTime = {{0.0611738, 0, 0, 0, 0, 0, 0, 0}};
-inline constexpr TimeModel kHarrisDrawTime = {{0.271815, 0, 0.000744202, 4.54995e-06, 0, 0, 0, 0}};
-inline constexpr TimeModel kMarchLightTime = {{0.503313, 0, 0.0028039, 0, 0, 0.00594627, 5.64959e-07, 0}};
-inline constexpr TimeModel kMarchDrawTime = {{1.46065, 0.00082522, 0.00120849, 1.56389e-05, 2.2478e-05, 0, 0, 0}};
-inline constexpr TimeModel kPathTime = {{91.3047, 0, 0.048252, 0, 1.07171e-14, 0, 0, 0.000960613}};
+inline constexpr TimeModel kPrepareTime = {{1.16893, 0, 0.00171523, 3.86521e-07, 0, 0, 0, 0}};
+inline constexpr TimeModel kAdditiveTime = {{17.9372, 0, 0.00554578, 1.28527e-06, 5.91156e-07, 0, 0, 0}};
+inline constexpr TimeModel kHarrisLightTime = {{5.10153, 0, 0.0187414, 0, 0, 0, 0, 0}};
+inline constexpr TimeModel kHarrisDrawTime = {{20.1785, 0, 0.00414286, 2.92887e-06, 3.51862e-08, 0, 0, 0}};
+inline constexpr TimeModel kMarchLightTime = {{0.694668, 0, 0.00148121, 0, 0, 0.00503164, 4.98241e-07, 0}};
+inline constexpr TimeModel kMarchDrawTime = {{70.5122, 0.000449806, 0, 2.58863e-06, 3.19186e-06, 0, 0, 0}};
+inline constexpr TimeModel kPathTime = {{1336.66, 0, 0.514972, 0, 5.69794e-07, 0, 0, 0.00412819}};
 
 }  // namespace awan

@@ -16,7 +16,7 @@ constexpr double kViewDepth = 0.03;
 constexpr double kScatterDepthIsotropic = 0.04;  // g = 0
 constexpr double kScatterDepthForward = 0.02;    // |g| >= .5; linear in between
 
-constexpr double kTruthNoise = 0.05;   // of a pixel, when rung truth is asked for by name
+constexpr double kTruthNoise = 0.05;  // of a pixel, when rung truth is asked for by name
 
 std::string sentence(const char* format, double a, double b) {
     std::array<char, 200> text{};

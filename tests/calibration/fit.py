@@ -11,6 +11,7 @@ import sys
 
 RIDGE = 2.0  # pull of coefficients towards 0, in rows
 QUANTILE = 0.98  # share of the fitted scenes that must stay under the forecast
+TIME_QUANTILE = 0.7  # share of the timed renders that must take at most their forecast
 FLOOR = 0.003  # smallest error that the references resolve
 
 
@@ -52,21 +53,27 @@ def ridge(rows, targets, weights):
     return coefficients
 
 
-def nonnegative(rows, targets, steps=4000):
-    """Least squares of relative errors with coefficients >= 0, by coordinate descent."""
-    scaled = [[v / t for v in r] for r, t in zip(rows, targets)]
+def nonnegative(rows, targets, rounds=12, steps=400):
+    """Coefficients >= 0 by coordinate descent. Rows are weighed anew by 1 / (target x forecast), so that twice as much and
+    half as much count alike; then all are scaled so that TIME_QUANTILE of the rows take at most their forecast."""
     n = len(rows[0])
     x = [0.0] * n
-    left = [1.0] * len(rows)
-    norms = [sum(r[i] ** 2 for r in scaled) for i in range(n)]
-    for _ in range(steps):
-        for i in range(n):
-            if norms[i] <= 0:
-                continue
-            change = max(sum(r[i] * l for r, l in zip(scaled, left)) / norms[i], -x[i])
-            x[i] += change
-            left = [l - change * r[i] for r, l in zip(scaled, left)]
-    return x
+    forecasts = targets
+    for _ in range(rounds):
+        weights = [1 / math.sqrt(t * f) for t, f in zip(targets, forecasts)]
+        scaled = [[v * w for v in r] for r, w in zip(rows, weights)]
+        norms = [sum(r[i] ** 2 for r in scaled) for i in range(n)]
+        left = [t * w - sum(a * b for a, b in zip(x, r)) for r, t, w in zip(scaled, targets, weights)]
+        for _ in range(steps):
+            for i in range(n):
+                if norms[i] <= 0:
+                    continue
+                change = max(sum(r[i] * l for r, l in zip(scaled, left)) / norms[i], -x[i])
+                x[i] += change
+                left = [l - change * r[i] for r, l in zip(scaled, left)]
+        forecasts = [max(sum(a * b for a, b in zip(x, r)), 0.01 * t) for r, t in zip(rows, targets)]
+    margin = quantile([t / f for t, f in zip(targets, forecasts)], TIME_QUANTILE)
+    return [margin * value for value in x]
 
 
 def read(path):
@@ -142,9 +149,10 @@ struct TimeModel {
     TimeFigures coefficient;
 };""")
     def timed(rungs, part, keep):
-        rows = [r for r in times if r["rung"].startswith(rungs)]
+        # What did not run (a light pass that the scene did not call for) says nothing.
+        rows = [r for r in times if r["rung"].startswith(rungs) and part(r) > 0.1]
         kept = [[f if i in keep else 0.0 for i, f in enumerate(figures(r, "t_"))] for r in rows]
-        return nonnegative(kept, [max(part(r), 0.05) for r in rows])
+        return nonnegative(kept, [part(r) for r in rows])
     def field(name):
         return lambda r: float(r[name])
     def rest(r):

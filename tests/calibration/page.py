@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the page of the forecasts' check: page.py FIT.csv CHECK.csv > RESULTS.md
+"""Writes the page of the forecasts' check: page.py CHECK.csv > RESULTS.md
 
 Under: the measured error is at most the predicted one, or its distance is within the reference's noise (one standard error).
 Loose: predicted over measured, where the measured error is more than its own noise.
@@ -85,16 +85,15 @@ def scenes(rows):
     print()
 
 
-fit, check = read(sys.argv[1]), read(sys.argv[2])
+check = read(sys.argv[1])
 print("""# How far the forecasts can be trusted
 
 Made by the commands of [README.md](README.md); not written by hand. Errors are nRMSE against the path tracer, noise
-corrected (`core/truth/error_measures.h`), of pictures of 80 x 60 pixels.
+corrected (`core/truth/error_measures.h`), of pictures of 80 x 60 pixels, on scenes that the forecasts were not fitted to.
 
-## On scenes that the forecasts were not fitted to
+Under: the measured error is at most the predicted one. "Noise aside": or above it by no more than one standard error of the
+reference. Predicted / measured is over scenes where the error stands out of the reference's noise.
 """)
 summary(check)
-print("## On the scenes that they were fitted to\n")
-summary(fit)
-print("## Every scene of the check: measured / predicted\n")
+print("## Every scene: measured / predicted\n")
 scenes(check)
