@@ -25,12 +25,12 @@ struct TimeModel {
     TimeFigures coefficient;
 };
 // Generate, survey and plan.
-inline constexpr TimeModel kPrepareTime = {{1.16893, 0, 0.00171523, 3.86521e-07, 0, 0, 0, 0}};
-inline constexpr TimeModel kAdditiveTime = {{17.9372, 0, 0.00554578, 1.28527e-06, 5.91156e-07, 0, 0, 0}};
-inline constexpr TimeModel kHarrisLightTime = {{5.10153, 0, 0.0187414, 0, 0, 0, 0, 0}};
-inline constexpr TimeModel kHarrisDrawTime = {{20.1785, 0, 0.00414286, 2.92887e-06, 3.51862e-08, 0, 0, 0}};
-inline constexpr TimeModel kMarchLightTime = {{0.694668, 0, 0.00148121, 0, 0, 0.00503164, 4.98241e-07, 0}};
-inline constexpr TimeModel kMarchDrawTime = {{70.5122, 0.000449806, 0, 2.58863e-06, 3.19186e-06, 0, 0, 0}};
-inline constexpr TimeModel kPathTime = {{1336.66, 0, 0.514972, 0, 5.69794e-07, 0, 0, 0.00412819}};
+inline constexpr TimeModel kPrepareTime = {{1.99424, 0, 0.00257119, 3.33524e-07, 0, 0, 0, 0}};
+inline constexpr TimeModel kAdditiveTime = {{0.130246, 0, 0.00428898, 1.46054e-06, 5.82299e-05, 0, 0, 0}};
+inline constexpr TimeModel kHarrisLightTime = {{2.8784, 0, 0.0363786, 0, 0, 0, 0, 0}};
+inline constexpr TimeModel kHarrisDrawTime = {{0.354794, 0, 0.00566278, 2.34865e-06, 5.99665e-05, 0, 0, 0}};
+inline constexpr TimeModel kMarchLightTime = {{0.726964, 0, 0.00106465, 0, 0, 0.00463359, 5.58925e-07, 0}};
+inline constexpr TimeModel kMarchDrawTime = {{17.8033, 0.000591203, 0, 3.21642e-06, 0.000164679, 0, 0, 0}};
+inline constexpr TimeModel kPathTime = {{82.5531, 0, 0.0170453, 0, 0.0104222, 0, 0, 0.00247803}};
 
 }  // namespace awan
