@@ -252,6 +252,24 @@ TEST(Transport, FarFromTheOrigin) {
         EXPECT_NEAR(here.light.bands[0].moments[i][0], there.light.bands[0].moments[i][0], 1e-3);
 }
 
+// A sky that is switched off gives no light, through the forward peak neither: all that is left is the sun's.
+TEST(Transport, ASkyThatIsSwitchedOffGivesNoLight) {
+    SceneDraft draft = test::table_4_4();
+    draft.accuracy.rung = "transport-16";
+    draft.image.width = 40;
+    draft.image.height = 30;
+    draft.image.background = Background::kTransparent;
+    test::effect(draft, Effect::kSkyLight) = Switch::kOff;
+    const auto off = render_scene(test::valid(draft), {}, {});
+    test::effect(draft, Effect::kSkyLight) = Switch::kAuto;
+    const auto on = render_scene(test::valid(draft), {}, {});
+    draft.sky.none = true;
+    const auto none = render_scene(test::valid(draft), {}, {});
+    ASSERT_TRUE(off.ok() && none.ok() && on.ok());
+    EXPECT_EQ(off->image.pixels, none->image.pixels);
+    EXPECT_NE(on->image.pixels, none->image.pixels);
+}
+
 TEST(LightCache, KeepsTheLatestWithinItsBytes) {
     const auto light_of = [](std::size_t floats) {
         TransportLight light;

@@ -116,7 +116,7 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
             sky.zenith[c] = static_cast<float>(scene->sky.zenith[c] * scene->sky.intensity);
             sky.horizon[c] = static_cast<float>(scene->sky.horizon[c] * scene->sky.intensity);
         }
-        sky.peak = march.peak.share != 0;
+        sky.peak = light.sky && march.peak.share != 0;
     }
     sky.behind = behind;
 

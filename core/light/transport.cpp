@@ -252,6 +252,7 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
                                        const Survey& survey, const TransportSettings& settings,
                                        int threads, const Deadline& deadline) {
     TransportLight light;
+    light.sky = settings.sky;
     if (auto error = deadline.over()) return *error;
     if (particles.size() == 0 || !(survey.total_mass > 0)) return light;
     const glm::dvec3 towards_sun = sun_direction(scene->sun);

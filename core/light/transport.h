@@ -61,6 +61,7 @@ struct TransportLight {
     double peak_share =
         0;  // f = g^(L+1): the share of scattering that is taken as the forward peak. Radiance from
             // `bands` is dimmed towards the eye by exp(-(1 - albedo f) tau), not exp(-tau)
+    bool sky = true;      // whether the sky's light is in it, as TransportSettings asked
     int sweeps = 0;       // transport sweeps it took, all bands
     double residual = 0;  // of the solve, relative; largest of the bands
 
