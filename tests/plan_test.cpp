@@ -49,7 +49,7 @@ TEST(Plan, ForecastsEveryRungInTheLaddersOrder) {
 }
 
 TEST(Plan, TakesTheCheapestRungUnderAnError) {
-    for (const double error : {.5, .2, .1, .05, .02}) {
+    for (const double error : {5., 1., .5, .2, .15}) {
         const Plan plan = plan_of(asking({error, {}, {}}));
         EXPECT_LE(plan.predicted.error, error * (1 + 1e-9));
         EXPECT_EQ(plan.rung, plan.predicted.rung->name);
@@ -61,10 +61,22 @@ TEST(Plan, TakesTheCheapestRungUnderAnError) {
 }
 
 TEST(Plan, GoesToTheTruthForWhatNoGridCanDo) {
-    const Plan plan = plan_of(asking({.005, {}, {}}));
+    SceneDraft draft = asking({.005, {}, {}});
+    draft.image.width = draft.image.height = 2;
+    const Plan plan = plan_of(draft);
     EXPECT_EQ(plan.rung, "truth");
     EXPECT_LE(plan.predicted.error, .005 * (1 + 1e-9));
     EXPECT_GT(plan.samples, 10000u);
+}
+
+TEST(Plan, SaysWhatTheTruthWouldTakeInsteadOfTakingIt) {
+    const Plan plan = plan_of(asking({.005, {}, {}}));
+    EXPECT_EQ(plan.predicted.rung->method, Method::kMarch);
+    EXPECT_GT(plan.predicted.error, .005);
+    EXPECT_NE(plan.rung_reason.find("truth, which would take"), std::string::npos)
+        << plan.rung_reason;
+    for (const RungForecast& other : plan.forecasts)
+        EXPECT_TRUE(other.rung->method == Method::kPaths || other.error >= plan.predicted.error);
 }
 
 TEST(Plan, TakesTheBestRungWithinATime) {

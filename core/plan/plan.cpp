@@ -16,7 +16,8 @@ constexpr double kViewDepth = 0.03;
 constexpr double kScatterDepthIsotropic = 0.04;  // g = 0
 constexpr double kScatterDepthForward = 0.02;    // |g| >= .5; linear in between
 
-constexpr double kTruthNoise = 0.05;  // of a pixel, when rung truth is asked for by name
+constexpr double kPatience_ms = 20e3;  // longer paths than these are not chosen, only taken by name
+constexpr double kTruthNoise = 0.05;   // of a pixel, when rung truth is asked for by name
 
 std::string sentence(const char* format, double a, double b) {
     std::array<char, 200> text{};
@@ -146,15 +147,22 @@ struct Choice {
 
 Choice cheapest_within(double error, const std::vector<RungForecast>& candidates) {
     const RungForecast* cheapest = nullptr;
-    const RungForecast* best = nullptr;
+    const RungForecast* best = nullptr;  // of the grids and splats
     for (const RungForecast& candidate : candidates) {
-        if (!best || candidate.error < best->error) best = &candidate;
+        if (candidate.rung->method != Method::kPaths && (!best || candidate.error < best->error))
+            best = &candidate;
         if (candidate.error <= error && (!cheapest || candidate.time_ms < cheapest->time_ms))
             cheapest = &candidate;
     }
-    if (cheapest)
+    const bool patient =
+        cheapest && (cheapest->rung->method != Method::kPaths || cheapest->time_ms <= kPatience_ms);
+    if (patient)
         return {*cheapest, "the cheapest with a predicted error of at most " + percent(error)};
-    return {*best, "none is predicted to stay under " + percent(error) + "; this comes closest"};
+    std::string reason = "none is predicted to stay under " + percent(error);
+    if (cheapest)
+        reason += " but truth, which would take " + milliseconds(cheapest->time_ms) +
+                  ": ask for it by name";
+    return {*best, reason + "; this comes closest"};
 }
 
 Choice best_in_time(double time_ms, const std::vector<RungForecast>& candidates) {
