@@ -6,19 +6,12 @@
 #include <glm/geometric.hpp>
 
 #include "core/survey/lattice.h"
+#include "core/survey/projection.h"
 
 namespace awan {
 namespace {
 
 constexpr double kLeftOut = 0.01;  // optical depth of what the lattice may leave out
-
-// Two axes across `w` (unit): Duff et al. 2017, "Building an orthonormal basis, revisited".
-void axes_across(const glm::dvec3& w, glm::dvec3& u, glm::dvec3& v) {
-    const double sign = std::copysign(1.0, w.z);
-    const double a = -1 / (sign + w.z), b = w.x * w.y * a;
-    u = {1 + sign * w.x * w.x * a, sign * b, -sign * w.x};
-    v = {b, sign + w.y * w.y * a, -w.y};
-}
 
 }  // namespace
 
@@ -26,13 +19,11 @@ SunDepth sun_depth(const ParticleSet& particles, const glm::dvec3& towards_sun, 
                    int threads) {
     SunDepth sun;
     sun.w = -towards_sun;
-    axes_across(sun.w, sun.u, sun.v);
-    Lattice lattice =
-        lattice_around_matter(particles, sun.u, sun.v, sun.w, kLeftOut, cells, threads);
-    while (cells > 8 && lattice_work(particles, lattice.cell, lattice.cells) > kMaxSunWork) {
-        cells = cells * 3 / 4;
-        lattice = lattice_around_matter(particles, sun.u, sun.v, sun.w, kLeftOut, cells, threads);
-    }
+    const SideAxes side = side_axes(sun.w);
+    sun.u = side.u;
+    sun.v = side.v;
+    const Lattice lattice = lattice_around_matter(particles, sun.u, sun.v, sun.w, kLeftOut, cells,
+                                                  threads, kMaxSunWork);
     const std::vector<float> extinction = extinction_in(particles, lattice, threads);
     sun.cell = lattice.cell;
     // Nodes stand in the middle of the columns and on the faces between their cells.

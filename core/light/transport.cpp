@@ -223,15 +223,8 @@ std::vector<glm::vec3> colored_albedo(const Scene& scene, const ParticleSet& par
 // Without a grid of light the eye pass still needs the particles' colours, and has them from a grid.
 void color_only(const Scene& scene, const ParticleSet& particles, int threads,
                 TransportLight& light) {
-    int count = kColorCells;
-    const auto around = [&] {
-        return lattice_around_matter(particles, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0, count, threads);
-    };
-    Lattice lattice = around();
-    while (count > 8 && lattice_work(particles, lattice.cell, lattice.cells) > kMaxFineWork) {
-        count = count * 3 / 4;
-        lattice = around();
-    }
+    const Lattice lattice = lattice_around_matter(particles, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0,
+                                                  kColorCells, threads, kMaxFineWork);
     light.origin = lattice.origin;
     light.cell = lattice.cell;
     light.cells = lattice.cells;
@@ -272,15 +265,10 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
 
     // Of the lights' lines only: the eye's would tie the light to a camera.
     const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
-    const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     const double rest = std::min(kLeftOut, kLeftOutShare * deepest);
-    int count = settings.cells;
-    Lattice coarse = lattice_around_matter(particles, x, y, z, rest, count, threads);
-    // A great many particles that are large beside a cell: what they add up to is smooth.
-    while (count > 8 && lattice_work(particles, coarse.cell, coarse.cells) > kMaxCoarseWork) {
-        count = count * 3 / 4;
-        coarse = lattice_around_matter(particles, x, y, z, rest, count, threads);
-    }
+    // Of a great many particles that are large beside a cell there is a bound: what they add up to is smooth.
+    const Lattice coarse = lattice_around_matter(particles, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, rest,
+                                                 settings.cells, threads, kMaxCoarseWork);
     int sub = settings.cells <= 32 ? 3 : 2;
     while (sub > 1 && lattice_work(particles, coarse.cell / sub, coarse.cells * sub) > kMaxFineWork)
         --sub;

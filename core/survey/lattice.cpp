@@ -211,7 +211,7 @@ std::vector<float> colored_extinction_in(const ParticleSet& particles, const Lat
 
 Lattice lattice_around_matter(const ParticleSet& particles, const glm::dvec3& u,
                               const glm::dvec3& v, const glm::dvec3& w, double rest, int count,
-                              int threads) {
+                              int threads, double most_work) {
     int coarse = kCoarse;
     Lattice box = whole_box(particles, u, v, w, coarse);
     while (coarse > 4 && lattice_work(particles, box.cell, box.cells) > kCoarseWork) {
@@ -248,9 +248,16 @@ Lattice lattice_around_matter(const ParticleSet& particles, const glm::dvec3& u,
     }
     Lattice found{box.at(glm::dvec3(first)), u, v, w, 0, {}};
     const glm::dvec3 size = box.cell * glm::dvec3(last - first + 1);
-    found.cell = std::max({size.x, size.y, size.z}) / count;
-    found.cells = glm::clamp(glm::ivec3(glm::ceil(size / found.cell - 1e-6)), glm::ivec3(1),
-                             glm::ivec3(count));
+    const auto divide = [&] {
+        found.cell = std::max({size.x, size.y, size.z}) / count;
+        found.cells = glm::clamp(glm::ivec3(glm::ceil(size / found.cell - 1e-6)), glm::ivec3(1),
+                                 glm::ivec3(count));
+    };
+    divide();
+    while (count > 8 && lattice_work(particles, found.cell, found.cells) > most_work) {
+        count = count * 3 / 4;
+        divide();
+    }
     // Cells are cubic: what they are too long is shared by both ends.
     const glm::dvec3 spare = 0.5 * (glm::dvec3(found.cells) * found.cell - size);
     found.origin -= spare.x * u + spare.y * v + spare.z * w;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <vector>
 
 #include "core/generate/particle_set.h"
@@ -28,11 +29,13 @@ struct Lattice {
 };
 
 // The smallest box along the axes outside of which no line has more optical depth than `rest`
-// (dimensionless), found on a coarse volume; then divided so that `count` cells lie along its longest side.
+// (dimensionless), found on a coarse volume; then divided so that `count` cells lie along its longest side, or, where
+// extinction_in would need more than `most_work` updates (lattice_work), as few as 8.
 // Precondition: particles are not empty and have mass.
 Lattice lattice_around_matter(const ParticleSet& particles, const glm::dvec3& u,
                               const glm::dvec3& v, const glm::dvec3& w, double rest, int count,
-                              int threads);
+                              int threads,
+                              double most_work = std::numeric_limits<double>::infinity());
 
 // Mean extinction (1/unit) of each cell, u fastest, then v, then w. Gaussians are cut at 4 s, what lies
 // beyond is folded back; mass outside of the box is left out. The same bytes for every number of threads.
