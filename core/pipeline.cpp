@@ -8,7 +8,6 @@
 #include "core/generate/generate.h"
 #include "core/light/light.h"
 #include "core/light/transport.h"
-#include "core/truth/error_measures.h"
 #include "core/truth/path_tracer.h"
 
 namespace awan {
@@ -90,7 +89,6 @@ Status render_paths(const Scene& scene, const Planned& planned, const Tools& too
     });
     if (!truth.ok()) return truth.error();
     rendered.image = mean_of(*truth);
-    rendered.noise = picture_error(rendered.image, *truth).truth_noise;
     return std::nullopt;
 }
 

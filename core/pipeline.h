@@ -31,7 +31,6 @@ struct Rendered {
     Image image;
     StageTimes times;
     bool light_was_kept = false;  // it came from the cache
-    double noise = 0;             // rung truth: rms noise of a pixel, relative to the cloud's mean
 };
 
 // What rendering works with. The splat rungs need the device, on the thread that owns it; the others run on

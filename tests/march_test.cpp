@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/draw/march_phase.h"
+#include "core/light/legendre.h"
 #include "tests/march_lights.h"
 
 namespace awan {

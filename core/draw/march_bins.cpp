@@ -13,24 +13,16 @@ namespace {
 
 constexpr double kFaintDepth = 3e-5;
 constexpr double kLeastCut = 3.8, kMostCut = 9;  // of s
-constexpr double kMinWidthPixels = 0.6;          // as in core/draw/splats.h
 constexpr std::size_t kMaxEntries = 1u << 23;    // of the lists, 4 bytes each
 constexpr std::size_t kShare = 4096;             // particles that a thread takes at a time
 
 // Blocks whose pixels' centres see slopes low..high.
 bool blocks_along(Interval slopes, double tangent, int pixels, bool up, std::int16_t& first,
                   std::int16_t& last) {
-    if (slopes.low > slopes.high) return false;
-    const double sign = up ? -1 : 1;
-    const auto pixel = [&](double slope) {
-        return std::clamp((sign * slope / tangent + 1) / 2 * pixels - 0.5, -1e7, 1e7);
-    };
-    const double a = pixel(up ? slopes.high : slopes.low), b = pixel(up ? slopes.low : slopes.high);
-    const int low = static_cast<int>(std::ceil(std::max(a, 0.0)));
-    const int high = static_cast<int>(std::floor(std::min(b, pixels - 1.0)));
-    if (low > high) return false;
-    first = static_cast<std::int16_t>(low / kBlockSide);
-    last = static_cast<std::int16_t>(high / kBlockSide);
+    const PixelSpan seen = pixels_between(slopes, tangent, pixels, up);
+    if (seen.first > seen.last) return false;
+    first = static_cast<std::int16_t>(seen.first / kBlockSide);
+    last = static_cast<std::int16_t>(seen.last / kBlockSide);
     return true;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "core/draw/march_kernels.h"
 #include "core/draw/march_rays.h"
@@ -373,16 +374,22 @@ class BlockMarch {
         }
     }
 
-    // The first sample with matter over which the depth towards the sun changes by more than a step may cost: there the
-    // beam is not what it is in the step's middle, however thin the step is towards the eye. kChunk: none. By the block's
-    // middle ray.
-    int first_too_shaded(double from, double step, int count) {
+    // First and last of the samples 0..count-1 in which any tile has matter; first > last: none.
+    std::pair<int, int> samples_with_matter(int count) const {
         int first = kChunk, last = -1;
         for (const Tile& tile : room_.tiles) {
             if (!has_matter(tile, count)) continue;
             first = std::min(first, tile.first);
             last = std::max(last, std::min(tile.last, count - 1));
         }
+        return {first, last};
+    }
+
+    // The first sample with matter over which the depth towards the sun changes by more than a step may cost: there the
+    // beam is not what it is in the step's middle, however thin the step is towards the eye. kChunk: none. By the block's
+    // middle ray.
+    int first_too_shaded(double from, double step, int count) {
+        const auto [first, last] = samples_with_matter(count);
         if (first > last) return kChunk;
         const auto h = static_cast<float>(step);
         LightAt at[kChunk + 2];
@@ -400,12 +407,7 @@ class BlockMarch {
     }
 
     void march_tiles(double from, double step, int count, int spacing, double seam) {
-        int first = kChunk, last = -1;
-        for (const Tile& tile : room_.tiles) {
-            if (!has_matter(tile, count)) continue;
-            first = std::min(first, tile.first);
-            last = std::max(last, std::min(tile.last, count - 1));
-        }
+        const auto [first, last] = samples_with_matter(count);
         if (first > last) return;
         const double base = reference_ + from;
         if (spacing >= 0) look_up_corners(base, step, count, first, last, spacing);

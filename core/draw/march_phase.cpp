@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <numbers>
 
+#include "core/light/legendre.h"
+
 namespace awan {
 namespace {
 
@@ -138,19 +140,6 @@ void fill_row(const Medium& medium, const Peak& peak, const Sums& sums, double a
 }
 
 }  // namespace
-
-double phase_moment(const Medium& medium, int l) {
-    const double g = medium.g;
-    if (l == 0) return 1;
-    const auto power = [&](int n) { return n == 0 ? 1.0 : g == 0 ? 0.0 : pow_int(g, n); };
-    if (medium.phase == PhaseFunction::kHenyeyGreenstein) return power(l);
-    // mu^2 P_l by the recurrence (2l + 1) mu P_l = (l + 1) P_l+1 + l P_l-1, twice.
-    const double n = l;
-    double sum = power(l) + (n + 1) * (n + 2) / ((2 * n + 1) * (2 * n + 3)) * power(l + 2) +
-                 (2 * n * n + 2 * n - 1) / ((2 * n - 1) * (2 * n + 3)) * power(l);
-    if (l >= 2) sum += n * (n - 1) / ((2 * n - 1) * (2 * n + 1)) * power(l - 2);
-    return 1.5 / (2 + g * g) * sum;
-}
 
 double phase_of_chords(const Medium& medium, double ahead, double behind) {
     const double hg = kPer4Pi * henyey_greenstein(medium.g, ahead, behind);

@@ -8,10 +8,6 @@
 
 namespace awan {
 
-// Legendre moment chi_l of the phase function: p(mu) = sum (2l + 1) chi_l P_l(mu).
-// Henyey-Greenstein: g^l. Cornette-Shanks: 3 / (2 (2 + g^2)) times that of (1 + mu^2) HG.
-double phase_moment(const Medium& medium, int l);
-
 // p(mu) / 4 pi, with the chords |d - s| and |d + s| of the unit vectors that enclose the angle (mu = 1 - chord^2 / 2):
 // no cancellation where p is steep.
 double phase_of_chords(const Medium& medium, double ahead, double behind);

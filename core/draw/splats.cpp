@@ -17,8 +17,6 @@ namespace {
 
 constexpr double kMinReach = 3.5;     // of s; 0.2% of the mass lies beyond
 constexpr double kFaintDepth = 5e-4;  // optical depth at which a particle is cut
-constexpr double kMinWidthPixels =
-    0.6;  // of s: sampled at pixel centres it sums to its whole within 1%
 
 // Radiance that a white, opaque particle in full light scatters, by where the light comes from.
 struct LightSources {
@@ -58,19 +56,12 @@ struct Along {
 // `up`: rows count downward.
 Along tiles_along(Interval slopes, double tangent, int pixels, int tile, bool up) {
     Along along;
-    if (slopes.low > slopes.high) return along;
-    const double sign = up ? -1 : 1;
-    const auto pixel = [&](double slope) {
-        return std::clamp((sign * slope / tangent + 1) / 2 * pixels - 0.5, -1e7, 1e7);
-    };
-    const double a = pixel(up ? slopes.high : slopes.low), b = pixel(up ? slopes.low : slopes.high);
-    const int low = static_cast<int>(std::ceil(std::max(a, 0.0)));
-    const int high = static_cast<int>(std::floor(std::min(b, pixels - 1.0)));
-    if (low > high) return along;
-    along.first = low / tile;
-    along.last = high / tile;
-    along.center = ((a + b) / 2 + 0.5) / tile;
-    along.half = (b - a) / 2 / tile + 1e-3;
+    const PixelSpan seen = pixels_between(slopes, tangent, pixels, up);
+    if (seen.first > seen.last) return along;
+    along.first = seen.first / tile;
+    along.last = seen.last / tile;
+    along.center = ((seen.low + seen.high) / 2 + 0.5) / tile;
+    along.half = (seen.high - seen.low) / 2 / tile + 1e-3;
     return along;
 }
 

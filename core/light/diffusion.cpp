@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/light/dot_product.h"
+#include "core/float_runs.h"
 
 namespace awan {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/light/dot_product.h"
+#include "core/float_runs.h"
 #include "core/parallel.h"
 
 namespace awan {
@@ -15,13 +15,6 @@ using Vector = std::vector<float>;
 
 std::size_t blocks_of(std::size_t size) {
     return (size + kBlock - 1) / kBlock;
-}
-
-__attribute__((target_clones("avx512f", "avx2", "default"))) void add_block(float* to,
-                                                                            const float* from,
-                                                                            float scale,
-                                                                            std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) to[i] += scale * from[i];
 }
 
 // Dot products of `w` with the first `count` vectors of the basis and with itself (last).
@@ -48,7 +41,7 @@ void add(const std::vector<Vector>& basis, const std::vector<double>& scale, int
     parallel_for(threads, blocks_of(to.size()), [&](std::size_t block) {
         const std::size_t at = block * kBlock, n = std::min(kBlock, to.size() - at);
         for (std::size_t v = 0; v < scale.size(); ++v)
-            add_block(to.data() + at, basis[v].data() + at, static_cast<float>(scale[v]), n);
+            add_scaled(to.data() + at, basis[v].data() + at, static_cast<float>(scale[v]), n);
     });
 }
 

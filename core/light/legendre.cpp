@@ -4,28 +4,17 @@
 
 namespace awan {
 
-std::vector<double> legendre_moments(const Medium& medium, int highest) {
-    // cos P_l = ((l+1) P_l+1 + l P_l-1) / (2l+1): each factor cos costs one order.
-    const auto size = static_cast<std::size_t>(highest) + 1;
-    std::vector<double> chi(size + 2);
-    for (std::size_t l = 0; l < chi.size(); ++l)
-        chi[l] = std::pow(medium.g, static_cast<double>(l));
-    if (medium.phase == PhaseFunction::kCornetteShanks) {
-        const auto times_cosine = [](const std::vector<double>& c) {
-            std::vector<double> product(c.size() - 1);
-            for (std::size_t l = 0; l < product.size(); ++l) {
-                const auto order = static_cast<double>(l);
-                product[l] =
-                    ((order + 1) * c[l + 1] + (l > 0 ? order * c[l - 1] : 0)) / (2 * order + 1);
-            }
-            return product;
-        };
-        const std::vector<double> squared = times_cosine(times_cosine(chi));
-        const double scale = 1.5 / (2 + medium.g * medium.g);
-        for (std::size_t l = 0; l < size; ++l) chi[l] = scale * (chi[l] + squared[l]);
-    }
-    chi.resize(size);
-    return chi;
+double phase_moment(const Medium& medium, int l) {
+    const double g = medium.g;
+    if (l == 0) return 1;
+    const auto power = [&](int n) { return n == 0 ? 1.0 : g == 0 ? 0.0 : std::pow(g, n); };
+    if (medium.phase == PhaseFunction::kHenyeyGreenstein) return power(l);
+    // mu^2 P_l by the recurrence (2l + 1) mu P_l = (l + 1) P_l+1 + l P_l-1, twice.
+    const double n = l;
+    double sum = power(l) + (n + 1) * (n + 2) / ((2 * n + 1) * (2 * n + 3)) * power(l + 2) +
+                 (2 * n * n + 2 * n - 1) / ((2 * n - 1) * (2 * n + 3)) * power(l);
+    if (l >= 2) sum += n * (n - 1) / ((2 * n - 1) * (2 * n + 1)) * power(l - 2);
+    return 1.5 / (2 + g * g) * sum;
 }
 
 }  // namespace awan

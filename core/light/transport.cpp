@@ -255,10 +255,9 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
         return light;
     }
 
-    const std::vector<double> chi = legendre_moments(scene->medium, kOrders);
     const double g = scene->medium.g, albedo = scene->medium.albedo;
     // A backward peak is no light that goes on; it stays in the moments.
-    const double f = g > 0 ? chi[kOrders] : 0;
+    const double f = g > 0 ? phase_moment(scene->medium, kOrders) : 0;
     light.peak_share = f;
     light.peak_from = kOrders;
     const double kept = 1 - albedo * f;
@@ -292,7 +291,8 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
     matter.grid.cells = coarse.cells;
     matter.grid.harmonics =
         g == 0 && scene->medium.phase == PhaseFunction::kHenyeyGreenstein ? 1 : kHarmonics;
-    for (std::size_t l = 0; l < kOrders; ++l) matter.moment[l] = (chi[l] - f) / (1 - f);
+    for (std::size_t l = 0; l < kOrders; ++l)
+        matter.moment[l] = (phase_moment(scene->medium, static_cast<int>(l)) - f) / (1 - f);
     matter.grid.depth.resize(mean.size());
     matter.scattered.resize(mean.size());
     matter.albedo.resize(mean.size());

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/float_runs.h"
 #include "core/generate/gaussian.h"
 #include "core/parallel.h"
 #include "core/survey/gauss.h"
@@ -68,13 +69,6 @@ void weights_of(const MassBelow& mass_below, double center, double s, double cel
 const MassBelow& mass_below() {
     static const MassBelow table;
     return table;
-}
-
-__attribute__((target_clones("avx512f", "avx2", "default"))) void add_scaled(float* to,
-                                                                             const float* from,
-                                                                             float scale,
-                                                                             std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) to[i] += scale * from[i];
 }
 
 // The layers along w that a particle reaches, both ends included; found once, for all slabs. Lattices have few layers.

@@ -1,5 +1,6 @@
 #include "core/survey/projection.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -16,6 +17,18 @@ Interval disc_slopes(double x, double z, double radius) {
     const double low_x = along * x - radius * z, low_z = along * z + radius * x;
     const double high_x = along * x + radius * z, high_z = along * z - radius * x;
     return {low_z > 0 ? low_x / low_z : -kInfinity, high_z > 0 ? high_x / high_z : kInfinity};
+}
+
+PixelSpan pixels_between(Interval slopes, double tangent, int pixels, bool up) {
+    if (slopes.low > slopes.high) return {0, -1, 0, -1};
+    const double sign = up ? -1 : 1;
+    const auto pixel = [&](double slope) {
+        return std::clamp((sign * slope / tangent + 1) / 2 * pixels - 0.5, -1e7, 1e7);
+    };
+    const double low = pixel(up ? slopes.high : slopes.low);
+    const double high = pixel(up ? slopes.low : slopes.high);
+    return {low, high, static_cast<int>(std::ceil(std::max(low, 0.0))),
+            static_cast<int>(std::floor(std::min(high, pixels - 1.0)))};
 }
 
 SideAxes side_axes(glm::dvec3 axis) {

@@ -15,6 +15,18 @@ struct Interval {
 // Mara & McGuire 2013, "2D polyhedral bounds of a clipped, perspective-projected 3D sphere".
 Interval disc_slopes(double x, double z, double radius);
 
+// The pixels along one side of a picture that see slopes `low` to `high`, in pixels from the middle of the first one (within
+// +-1e7), and those of them whose middle does: first > last: none. tangent: of half the side's angle; up: rows count downward.
+struct PixelSpan {
+    double low, high;
+    int first, last;
+};
+PixelSpan pixels_between(Interval slopes, double tangent, int pixels, bool up);
+
+// Least s of a Gaussian that is drawn, pixels; a narrower one is widened with its optical depth x area kept: sampled at
+// pixel centres it sums to its whole within 1%.
+inline constexpr double kMinWidthPixels = 0.6;
+
 // A right-handed orthonormal pair beside the unit vector `axis`; continuous but at one point.
 // Duff et al. 2017, "Building an orthonormal basis, revisited".
 struct SideAxes {

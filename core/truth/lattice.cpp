@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/float_runs.h"
 #include "core/parallel.h"
 
 namespace awan::truth {
@@ -14,11 +15,6 @@ constexpr double kCoarsest = 3.0;  // cells that s has at least on the lattice i
 std::size_t count(const glm::ivec3& n) {
     return static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) *
            static_cast<std::size_t>(n.z);
-}
-
-__attribute__((target_clones("avx512f", "avx2", "default"))) void add_scaled(
-    float* __restrict out, const float* __restrict row, float scale, int n) {
-    for (int i = 0; i < n; ++i) out[i] += scale * row[i];
 }
 
 // exp(-(i - c)^2 / 2 s^2) for i = first..last.
@@ -66,7 +62,7 @@ void add_to_slab(float* values, const glm::ivec3& nodes, const LatticeGaussian& 
                              (static_cast<std::size_t>(j) +
                               static_cast<std::size_t>(nodes.y) * static_cast<std::size_t>(k));
             add_scaled(row + x.first, profiles[0].data() + (x.first - all_x.first), scale,
-                       x.last - x.first + 1);
+                       static_cast<std::size_t>(x.last - x.first + 1));
         }
     }
 }
@@ -102,8 +98,7 @@ void refine_axis(const std::vector<float>& from, std::size_t stride, std::size_t
             float* out = to.data() + (o * fine_length + i) * stride;
             const auto add = [&](std::size_t node, float weight) {
                 if (node >= length) return;
-                add_scaled(out, from.data() + (o * length + node) * stride, weight,
-                           static_cast<int>(stride));
+                add_scaled(out, from.data() + (o * length + node) * stride, weight, stride);
             };
             if (i % 2 == 0) {
                 add(i / 2, 1.0f);

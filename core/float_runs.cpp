@@ -1,4 +1,4 @@
-#include "core/light/dot_product.h"
+#include "core/float_runs.h"
 
 #include <algorithm>
 #include <cstring>
@@ -27,6 +27,11 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) double dot_product(
         for (std::size_t l = 0; l < kLanes; ++l) sum += static_cast<double>(parts[0][l]);
     }
     return sum;
+}
+
+__attribute__((target_clones("avx512f", "avx2", "default"))) void add_scaled(
+    float* __restrict to, const float* __restrict from, float scale, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) to[i] += scale * from[i];
 }
 
 }  // namespace awan
