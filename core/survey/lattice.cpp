@@ -32,8 +32,9 @@ Span span_of(double center, double reach, double cell, int count) {
             static_cast<int>(std::min(last, static_cast<double>(count - 1)))};
 }
 
-// Share of a Gaussian's mass below a point, from -kCut s (0) to kCut s (1): linear between the nodes of a table, within 2e-7,
-// ten times faster than erfc. Millions of particles spend most of their time here.
+// Share of a Gaussian's mass below a point, from -kCut s (0) to kCut s (1): linear between the nodes of a table, within 2e-7. A
+// table of normal_cdf, itself one: inlined and ready scaled it saves a quarter of a million small particles' time, which is
+// spent here.
 class MassBelow {
   public:
     MassBelow() {
