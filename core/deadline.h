@@ -28,4 +28,9 @@ struct Deadline {
     }
 };
 
+// Milliseconds of wall time that have passed.
+inline double ms_since(Deadline::Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Deadline::Clock::now() - start).count();
+}
+
 }  // namespace awan

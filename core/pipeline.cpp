@@ -1,6 +1,5 @@
 #include "core/pipeline.h"
 
-#include <chrono>
 #include <utility>
 
 #include "core/draw/draw.h"
@@ -16,10 +15,9 @@ namespace {
 // Runs a stage and notes its wall time.
 template <typename Stage>
 auto timed(double& milliseconds, const Stage& stage) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Deadline::Clock::now();
     auto result = stage();
-    milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    milliseconds = ms_since(start);
     return result;
 }
 

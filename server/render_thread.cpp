@@ -19,10 +19,6 @@ using Clock = Deadline::Clock;
 // How often a waiting request looks whether its client has gone.
 constexpr std::chrono::milliseconds kLook{20};
 
-double ms_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 struct Job {
     const Scene* scene = nullptr;
     std::optional<Planned> planned;

@@ -23,10 +23,6 @@ constexpr std::uint32_t kMostSamples = 1u << 20;
 constexpr int kMostRuns = 100;
 constexpr std::chrono::milliseconds kLook{20};  // how often a full queue is asked again
 
-double ms_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 struct Query {
     AccuracyOptions options;
     PlotTheme theme = PlotTheme::kLight;

@@ -41,10 +41,6 @@ std::span<const std::string_view> offers_of(std::string_view path) {
     return kPlanOffers;
 }
 
-double ms_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 Result<Scene> read(const Request& request) {
     const auto format = scene_format_of_type(media_type(request.header("Content-Type")));
     auto draft = read_scene(*format, request.body);

@@ -33,10 +33,6 @@ constexpr double kEnoughMs = 3000;  // of counted runs of one rung
 // Not the seed of rung truth: noise of one picture must not look like that of the other.
 constexpr std::uint64_t kReferenceSeed = 0x7275746872656621;
 
-double ms_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 // Of all threads of this process: what a render beside it takes counts too.
 double processor_ms() {
     timespec now{};
