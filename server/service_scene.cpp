@@ -57,7 +57,7 @@ Response ok(std::string_view content_type, std::string_view etag) {
     return response;
 }
 
-// Predicted times, and what is chosen by time, are of this machine.
+// Predicted times are of this machine, and so is every rung that is chosen by them.
 std::string speed_text(const Service::State& state) {
     return std::to_string(state.options.speed.slowness);
 }
@@ -230,7 +230,7 @@ Response answer_render(Service::State& state, const Request& request, const Scen
         return problem(503, "there is no renderer here: " + info.reason, "", request.id);
     const std::string etag =
         make_etag({"render", fingerprint(scene), engine_version(), info.device.renderer,
-                   info.device.version, type, scene->accuracy.time_ms ? speed_text(state) : ""});
+                   info.device.version, type, scene->accuracy.rung ? "" : speed_text(state)});
     if (none_match_names(joined_header(request, "If-None-Match"), etag))
         return not_modified(etag, true);
 

@@ -113,8 +113,14 @@ TEST(Plan, AThinVeilNeedsLessThanAThickCloud) {
 
 TEST(Plan, AsksForNoPathsUnlessTheSceneDoes) {
     SceneDraft draft = asking({}, 1e3);  // so deep that no grid is predicted to reach 10%
-    const Plan plan = plan_of(draft);
-    EXPECT_NE(plan.predicted.rung->method, Method::kPaths) << plan.rung_reason;
+    for (const int side : {2, 64, 600}) {
+        draft.image.width = draft.image.height = side;
+        draft.accuracy = {};
+        const Plan plan = plan_of(draft);
+        EXPECT_NE(plan.predicted.rung->method, Method::kPaths) << plan.rung_reason;
+        draft.accuracy.error = kDefaultError;  // the same in words, and the same fingerprint
+        EXPECT_EQ(plan_of(draft).rung, plan.rung);
+    }
 }
 
 TEST(Plan, NamedRungsAreTakenAndTheirEffectsSaid) {

@@ -195,12 +195,13 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
             2 * static_cast<std::uint32_t>(std::clamp(pairs, 1.0, double{kMaxTruthSamples} / 2));
     }
     std::vector<RungForecast> candidates;
-    // A scene that asks for nothing is not made to wait for paths.
-    const bool asked = accuracy.error || accuracy.time_ms || accuracy.rung;
+    // Paths are for what is finer than the default: a scene that asks for nothing is not made to wait for them, nor one
+    // that asks for the same in words.
+    const bool paths = accuracy.rung || accuracy.time_ms || wanted_error < kDefaultError;
     for (const Rung& rung : ladder()) {
         plan.forecasts.push_back(forecast(rung, scene, survey, plan.samples, threads, speed));
         if (rung.method == Method::kSplats ||
-            (!wants_splats(scene) && (asked || rung.method != Method::kPaths)))
+            (!wants_splats(scene) && (paths || rung.method != Method::kPaths)))
             candidates.push_back(plan.forecasts.back());
     }
     Choice choice;
