@@ -66,13 +66,28 @@ constexpr Field kSceneFields[] = {
     {.name = "medium", .wanted = "an object", .object = ObjectKind::kMedium},
     {.name = "sun", .wanted = "an object", .object = ObjectKind::kSun},
     {.name = "sky",
-     .wanted = R"(an object or "none")",
-     .word = [](State& s, std::string_view v) { return taken_if(s.draft.sky.none = v == "none"); },
+     .wanted = R"(an object, "physical" or "none")",
+     .word =
+         [](State& s, std::string_view v) {
+             Sky& sky = s.draft.sky;
+             sky.none = v == "none";
+             sky.physical = v == "physical";
+             if (sky.physical) sky.intensity = kPhysicalSkyIntensity;
+             return taken_if(sky.none || sky.physical);
+         },
      .object = ObjectKind::kSky},
     {.name = "ground",
      .wanted = R"(an object or "none")",
      .word = [](State&, std::string_view v) { return taken_if(v == "none"); },
      .object = ObjectKind::kGround},
+    {.name = "haze",
+     .wanted = R"(an object or "none")",
+     .word = [](State&, std::string_view v) { return taken_if(v == "none"); },
+     .object = ObjectKind::kHaze},
+    {.name = "detail",
+     .wanted = R"(an object or "none")",
+     .word = [](State&, std::string_view v) { return taken_if(v == "none"); },
+     .object = ObjectKind::kDetail},
     {.name = "camera",
      .wanted = R"(an object or "auto")",
      .word = [](State&, std::string_view v) { return taken_if(v == "auto"); },
@@ -186,6 +201,16 @@ constexpr Field kSunFields[] = {
 };
 
 constexpr Field kSkyFields[] = {
+    {.name = "model",
+     .wanted = R"("gradient" or "physical")",
+     .word =
+         [](State& s, std::string_view v) {
+             s.draft.sky.physical = v == "physical";
+             return taken_if(s.draft.sky.physical || v == "gradient");
+         }},
+    {.name = "turbidity",
+     .wanted = "a number from 2 (very clear) to 10 (hazy)",
+     .number = [](State& s, double v) { s.draft.sky.turbidity = v; }},
     {.name = "zenith",
      .wanted = kColorWanted,
      .vector = [](State& s) { return &s.draft.sky.zenith; }},
@@ -205,6 +230,36 @@ constexpr Field kGroundFields[] = {
      .wanted = "a number or [r, g, b], from 0 to 1",
      .number = [](State& s, double v) { s.draft.ground->albedo = glm::dvec3(v); },
      .vector = [](State& s) { return &s.draft.ground->albedo; }},
+};
+
+constexpr Field kHazeFields[] = {
+    {.name = "extinction",
+     .wanted = "a number >= 0 (1/unit, at `height`)",
+     .required = true,
+     .number = [](State& s, double v) { s.draft.haze->extinction = v; }},
+    {.name = "height",
+     .wanted = "a number",
+     .number = [](State& s, double v) { s.draft.haze->height = v; }},
+    {.name = "scale_height",
+     .wanted = "a number > 0: over so many units upward it thins to 37%",
+     .required = true,
+     .number = [](State& s, double v) { s.draft.haze->scale_height = v; }},
+    {.name = "albedo",
+     .wanted = "a number or [r, g, b], from 0 to 1",
+     .number = [](State& s, double v) { s.draft.haze->albedo = glm::dvec3(v); },
+     .vector = [](State& s) { return &s.draft.haze->albedo; }},
+    {.name = "g",
+     .wanted = "a number between -1 and 1",
+     .number = [](State& s, double v) { s.draft.haze->g = v; }},
+};
+
+constexpr Field kDetailFields[] = {
+    {.name = "amount",
+     .wanted = "a number from 0 to 1",
+     .number = [](State& s, double v) { s.draft.detail->amount = v; }},
+    {.name = "size",
+     .wanted = "a number > 0 (mean particle radii)",
+     .number = [](State& s, double v) { s.draft.detail->size = v; }},
 };
 
 constexpr Field kCameraFields[] = {
@@ -305,6 +360,10 @@ std::span<const Field> fields_of(ObjectKind kind) {
             return kSkyFields;
         case ObjectKind::kGround:
             return kGroundFields;
+        case ObjectKind::kHaze:
+            return kHazeFields;
+        case ObjectKind::kDetail:
+            return kDetailFields;
         case ObjectKind::kCamera:
             return kCameraFields;
         case ObjectKind::kImage:

@@ -23,6 +23,8 @@ enum class ObjectKind : std::uint8_t {
     kSun,
     kSky,
     kGround,
+    kHaze,
+    kDetail,
     kCamera,
     kImage,
     kEffects,
@@ -82,6 +84,9 @@ std::string_view field_name(ObjectKind kind, int index);
 
 // `"a", "b", ...`: what find_field would find.
 std::string allowed_names(ObjectKind kind);
+
+// Defaults that depend on other fields of the object, once it has ended.
+void complete(ObjectKind kind, std::uint32_t seen, DraftInProgress& state);
 
 // Rules between the fields of one object, once it has ended. `seen` has bit i for field i. An error
 // has a pointer relative to the object.

@@ -191,6 +191,7 @@ class SceneReader {
         frame.field = -1;
         if (const Status wrong = check_together(frame.object, frame.seen, state))
             return fail_at(pointer() + wrong->pointer, wrong->message, wrong->code);
+        complete(frame.object, frame.seen, state);
         return pop();
     }
 

@@ -40,6 +40,12 @@ void DraftInProgress::begin(ObjectKind kind) {
         case ObjectKind::kGround:
             draft.ground.emplace();
             break;
+        case ObjectKind::kHaze:
+            draft.haze.emplace();
+            break;
+        case ObjectKind::kDetail:
+            draft.detail.emplace();
+            break;
         case ObjectKind::kCamera:
             draft.camera.automatic = false;
             break;
@@ -59,6 +65,12 @@ std::string allowed_names(ObjectKind kind) {
         names += '"';
     }
     return names;
+}
+
+void complete(ObjectKind kind, std::uint32_t seen, DraftInProgress& state) {
+    Sky& sky = state.draft.sky;
+    if (kind == ObjectKind::kSky && sky.physical && !has(kind, seen, "intensity"))
+        sky.intensity = kPhysicalSkyIntensity;
 }
 
 Status check_together(ObjectKind kind, std::uint32_t seen, const DraftInProgress& state) {
@@ -81,6 +93,14 @@ Status check_together(ObjectKind kind, std::uint32_t seen, const DraftInProgress
                 (has(kind, seen, "elevation") || has(kind, seen, "azimuth")))
                 return invalid("/direction",
                                "give either a direction or an elevation and an azimuth");
+            return std::nullopt;
+        case ObjectKind::kSky:
+            if (!state.draft.sky.physical) return std::nullopt;
+            for (const char* const name : {"zenith", "horizon"})
+                if (has(kind, seen, name))
+                    return invalid("/" + std::string(name),
+                                   "belongs to a sky of model \"gradient\"; the colours of a "
+                                   "physical sky follow from the sun");
             return std::nullopt;
         case ObjectKind::kAccuracy:
             if (seen == 0 || (seen & (seen - 1)) != 0)

@@ -170,15 +170,35 @@ void lights(ObjectText& text, const SceneDraft& scene, const SceneDraft& standar
         text.text("sky", "none");
     } else {
         object(text, "sky", [&](ObjectText& sky) {
-            sky.vector("zenith", scene.sky.zenith, standard.sky.zenith);
-            sky.vector("horizon", scene.sky.horizon, standard.sky.horizon);
-            sky.number("intensity", scene.sky.intensity, standard.sky.intensity);
+            if (scene.sky.physical) {
+                sky.text("model", "physical");
+                sky.number("intensity", scene.sky.intensity, kPhysicalSkyIntensity);
+            } else {
+                sky.vector("zenith", scene.sky.zenith, standard.sky.zenith);
+                sky.vector("horizon", scene.sky.horizon, standard.sky.horizon);
+                sky.number("intensity", scene.sky.intensity, standard.sky.intensity);
+            }
+            sky.number("turbidity", scene.sky.turbidity, standard.sky.turbidity);
         });
     }
     if (scene.ground)
         object(text, "ground", [&](ObjectText& ground) {
             ground.number("height", scene.ground->height);
             ground.vector("albedo", scene.ground->albedo);
+        });
+    if (scene.haze)
+        object(text, "haze", [&](ObjectText& haze) {
+            const Haze usual;
+            haze.number("extinction", scene.haze->extinction);
+            haze.number("height", scene.haze->height, usual.height);
+            haze.number("scale_height", scene.haze->scale_height);
+            haze.vector("albedo", scene.haze->albedo, usual.albedo);
+            haze.number("g", scene.haze->g, usual.g);
+        });
+    if (scene.detail)
+        object(text, "detail", [&](ObjectText& detail) {
+            detail.number("amount", scene.detail->amount);
+            detail.number("size", scene.detail->size);
         });
 }
 

@@ -108,21 +108,38 @@ void add_lights(Hasher& hash, const SceneDraft& scene) {
     hash.choice(scene.medium.phase);
     hash.vector(sun_direction(scene.sun));
     hash.integer(scene.sun.auto_color);
+    hash.integer(scene.effects[static_cast<int>(Effect::kSunColor)] == Switch::kOff);
     if (!scene.sun.auto_color) hash.vector(scene.sun.color);
     hash.number(scene.sun.intensity);
     hash.integer(scene.sky.none);
     if (!scene.sky.none) {
-        hash.vector(scene.sky.zenith);
-        hash.vector(scene.sky.horizon);
+        hash.integer(scene.sky.physical);
+        if (!scene.sky.physical) {
+            hash.vector(scene.sky.zenith);
+            hash.vector(scene.sky.horizon);
+        }
         hash.number(scene.sky.intensity);
     }
+    if (scene.sun.auto_color || (!scene.sky.none && scene.sky.physical))
+        hash.number(scene.sky.turbidity);
     hash.optional(scene.ground, [&](const Ground& ground) {
         hash.number(ground.height);
         hash.vector(ground.albedo);
     });
+    hash.optional(scene.detail, [&](const Detail& detail) {
+        hash.number(detail.amount);
+        hash.number(detail.size);
+    });
 }
 
 void add_picture(Hasher& hash, const SceneDraft& scene) {
+    hash.optional(scene.haze, [&](const Haze& haze) {
+        hash.number(haze.extinction);
+        hash.number(haze.height);
+        hash.number(haze.scale_height);
+        hash.vector(haze.albedo);
+        hash.number(haze.g);
+    });
     hash.integer(scene.camera.automatic);
     if (!scene.camera.automatic) {
         hash.vector(scene.camera.eye);

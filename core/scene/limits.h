@@ -35,11 +35,19 @@ inline constexpr double kMaxDensity =
 inline constexpr double kMaxAnisotropy =
     0.999;  // |g|: at 1 the phase function is a delta and has no values
 
+// --- detail
+// -----------------------------------------------------------------------------------------
+inline constexpr double kMinDetailSize = 0.05,
+                        kMaxDetailSize =
+                            4;  // mean particle radii: finer is below every grid, coarser is shape
+
 // --- light
 // ------------------------------------------------------------------------------------------
 inline constexpr double kMaxIntensity =
     1e6;  // irradiance or radiance scale; keeps every pixel finite in half floats' maker, float32
-inline constexpr double kMaxColor = 1e3;      // one component of a colour of light
+inline constexpr double kMaxColor = 1e3;  // one component of a colour of light
+// Preetham et al.'s fits were made for 2 to 6 and stay smooth to 10.
+inline constexpr double kMinTurbidity = 2, kMaxTurbidity = 10;
 inline constexpr double kMaxExposure = 64.0;  // |stops|: 2^64 is still a float32
 
 // --- picture

@@ -35,16 +35,7 @@ std::optional<Effect> effect_from_name(std::string_view name) {
 }
 
 bool in_this_version(Effect effect) {
-    switch (effect) {
-        case Effect::kSelfShadow:
-        case Effect::kMultipleScattering:
-        case Effect::kViewExtinction:
-        case Effect::kSkyLight:
-        case Effect::kInterior:
-            return true;
-        default:
-            return false;
-    }
+    return effect != Effect::kTexture;
 }
 
 glm::dvec3 sun_direction(const Sun& sun) {

@@ -67,21 +67,46 @@ struct Sun {
     std::optional<glm::dvec3>
         direction;  // towards the sun, any length > 0; instead of the two angles
     glm::dvec3 color{1.0, 0.97, 0.92};
-    bool auto_color = false;  // "auto": from the elevation; not in this version
-    double intensity = 40;    // irradiance at normal incidence
+    bool auto_color =
+        false;  // "auto": from the elevation (core/scene/daylight.h); `color` is unused then
+    double intensity = 40;  // irradiance at normal incidence
 };
 
-// Radiance `intensity * mix(horizon, zenith, f(sine of elevation))`, see core/shaders/sky.glsl.
+// A gradient, radiance `intensity * mix(horizon, zenith, f(sine of elevation))` (core/shaders/sky.glsl), or the clear
+// sky that belongs to the sun (core/scene/daylight.h), times `intensity`.
+inline constexpr double kPhysicalSkyIntensity = 1;  // the default where `physical`
 struct Sky {
-    bool none = false;  // "none": black, no light
+    bool none = false;      // "none": black, no light
+    bool physical = false;  // then `zenith` and `horizon` are unused
     glm::dvec3 zenith{0.09, 0.25, 0.72};
     glm::dvec3 horizon{0.44, 0.67, 0.95};
     double intensity = 1.7;
+    // Of the air, as Preetham et al. mean it: 2 is very clear, 3 clear, 6 hazy. For a physical sky and a sun of
+    // colour "auto".
+    double turbidity = 3;
 };
 
 struct Ground {
     double height = 0;
     glm::dvec3 albedo{0.2};
+};
+
+// Air that is seen: extinction (1/unit) `extinction * exp(-(y - height) / scale_height)` above `height`, `extinction`
+// below it. It dims and veils what lies behind it and shows where the clouds shade it; the light on its way to the clouds,
+// to the ground and to itself it leaves alone: sun and sky are given as they arrive there. Light it scatters, it
+// scatters once.
+struct Haze {
+    double extinction = 0;
+    double height = 0;
+    double scale_height = 1;
+    glm::dvec3 albedo{1};
+    double g = 0.6;  // mean cosine, Henyey & Greenstein
+};
+
+// Structure finer than the particles (core/generate/detail.h).
+struct Detail {
+    double amount = 0.5;  // 0: none .. 1
+    double size = 0.5;    // of the largest bumps, in mean particle radii
 };
 
 struct Camera {
@@ -150,6 +175,8 @@ struct SceneDraft {
     Sun sun;
     Sky sky;
     std::optional<Ground> ground;
+    std::optional<Haze> haze;
+    std::optional<Detail> detail;
     Camera camera;
     ImageSettings image;
     Switch effects[kEffectCount] = {};

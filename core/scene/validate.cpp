@@ -269,13 +269,13 @@ Status check_sun(const Sun& sun) {
     if (Status wrong = all_in_range(sun.color, 0, limits::kMaxColor, "/sun/color")) return wrong;
     if (Status wrong = in_range(sun.intensity, 0, limits::kMaxIntensity, "/sun/intensity"))
         return wrong;
-    if (sun.auto_color)
-        return unsupported("/sun/color",
-                           "\"auto\" is not in this version; give the colour as [r, g, b]");
     return std::nullopt;
 }
 
 Status check_sky(const Sky& sky) {
+    if (Status wrong =
+            in_range(sky.turbidity, limits::kMinTurbidity, limits::kMaxTurbidity, "/sky/turbidity"))
+        return wrong;
     if (sky.none) return std::nullopt;
     if (Status wrong = all_in_range(sky.zenith, 0, limits::kMaxColor, "/sky/zenith")) return wrong;
     if (Status wrong = all_in_range(sky.horizon, 0, limits::kMaxColor, "/sky/horizon"))
@@ -288,6 +288,24 @@ Status check_ground(const Ground& ground) {
                                 "/ground/height"))
         return wrong;
     return all_in_range(ground.albedo, 0, 1, "/ground/albedo");
+}
+
+Status check_haze(const Haze& haze) {
+    if (Status wrong = in_range(haze.extinction, 0, limits::kMaxDensity, "/haze/extinction"))
+        return wrong;
+    if (Status wrong =
+            in_range(haze.height, -limits::kMaxCoordinate, limits::kMaxCoordinate, "/haze/height"))
+        return wrong;
+    if (Status wrong = in_range(haze.scale_height, limits::kMinLength, limits::kMaxLength,
+                                "/haze/scale_height"))
+        return wrong;
+    if (Status wrong = all_in_range(haze.albedo, 0, 1, "/haze/albedo")) return wrong;
+    return in_range(haze.g, -limits::kMaxAnisotropy, limits::kMaxAnisotropy, "/haze/g");
+}
+
+Status check_detail(const Detail& detail) {
+    if (Status wrong = in_range(detail.amount, 0, 1, "/detail/amount")) return wrong;
+    return in_range(detail.size, limits::kMinDetailSize, limits::kMaxDetailSize, "/detail/size");
 }
 
 // --- picture
@@ -361,18 +379,6 @@ Status check_accuracy(const Accuracy& accuracy) {
     return std::nullopt;
 }
 
-// What one value allows only together with another. Last, so that a typo names itself.
-Status check_together(const SceneDraft& draft) {
-    // Light from a ground is in the path tracer and nowhere else yet: any other rung would leave it
-    // out without a word.
-    const Rung* const rung = draft.accuracy.rung ? find_rung(*draft.accuracy.rung) : nullptr;
-    if (draft.ground && !(rung && rung->method == Method::kPaths))
-        return unsupported("/ground",
-                           "a ground is only in rung truth in this version; give "
-                           "\"accuracy\": {\"rung\": \"truth\"}, or leave the ground out");
-    return std::nullopt;
-}
-
 }  // namespace
 
 Result<Scene> validate(SceneDraft draft) {
@@ -382,11 +388,14 @@ Result<Scene> validate(SceneDraft draft) {
     if (Status wrong = check_sky(draft.sky)) return *wrong;
     if (draft.ground)
         if (Status wrong = check_ground(*draft.ground)) return *wrong;
+    if (draft.haze)
+        if (Status wrong = check_haze(*draft.haze)) return *wrong;
+    if (draft.detail)
+        if (Status wrong = check_detail(*draft.detail)) return *wrong;
     if (Status wrong = check_camera(draft.camera)) return *wrong;
     if (Status wrong = check_image(draft.image)) return *wrong;
     if (Status wrong = check_effects(draft)) return *wrong;
     if (Status wrong = check_accuracy(draft.accuracy)) return *wrong;
-    if (Status wrong = check_together(draft)) return *wrong;
     return Scene(std::move(draft));
 }
 

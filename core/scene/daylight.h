@@ -1,0 +1,28 @@
+// The colours of clear daylight by the sun's elevation: Preetham, Shirley & Smits 1999, "A practical analytic model for
+// daylight". Linear Rec. 709; luminance relative to that of the sun at the zenith through air of turbidity 2.
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+
+namespace awan {
+
+// Irradiance of direct sunlight at normal incidence: the paper's appendix 1 (Rayleigh, aerosol, ozone, mixed gases, water
+// vapour), summed over 380..780 nm. elevation: radians above the horizon; darkens to 0 from 0 to -1 degree below it.
+// turbidity: 2..10. Components are >= 0: what lies outside of Rec. 709 is taken to its edge.
+glm::dvec3 sunlight(double elevation, double turbidity);
+
+// The clear sky: the paper's appendix 2, Perez' five-parameter distribution of Y, x and y.
+struct ClearSky {
+    glm::dvec3 to_sun{0, 1, 0};                    // unit; at or above the horizon
+    std::array<std::array<double, 5>, 3> perez{};  // A..E of Y, x, y
+    std::array<double, 3>
+        scale{};        // zenith value over the distribution's at the zenith, of Y, x, y
+    double dimmed = 1;  // below the horizon: twilight, a fade that is ours
+};
+ClearSky clear_sky(const glm::dvec3& to_sun, double turbidity);
+
+// From a direction (unit); what is below the horizon has the horizon's radiance. >= 0, finite.
+glm::dvec3 radiance(const ClearSky& sky, const glm::dvec3& direction);
+
+}  // namespace awan

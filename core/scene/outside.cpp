@@ -1,0 +1,68 @@
+#include "core/scene/outside.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace awan {
+
+double luminance(const glm::dvec3& rgb) {
+    return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+Outside outside_of(const SceneDraft& scene) {
+    Outside outside;
+    outside.to_sun = sun_direction(scene.sun);
+    const Sky& sky = scene.sky;
+    if (scene.sun.auto_color) {
+        glm::dvec3 color =
+            sunlight(std::asin(std::clamp(outside.to_sun.y, -1.0, 1.0)), sky.turbidity);
+        if (scene.effects[static_cast<int>(Effect::kSunColor)] == Switch::kOff)
+            color = glm::dvec3(luminance(color));
+        outside.sun = scene.sun.intensity * color;
+    } else {
+        outside.sun = scene.sun.intensity * scene.sun.color;
+    }
+    SkyDome& dome = outside.sky;
+    dome.physical = sky.physical;
+    if (sky.none) return outside;
+    if (sky.physical) {
+        dome.clear = clear_sky(outside.to_sun, sky.turbidity);
+        // The model's luminance is relative to the sun's.
+        dome.intensity = sky.intensity * scene.sun.intensity;
+        dome.shines = dome.intensity > 0;
+    } else {
+        dome.zenith = sky.zenith * sky.intensity;
+        dome.horizon = sky.horizon * sky.intensity;
+        dome.shines = dome.zenith != glm::dvec3(0) || dome.horizon != glm::dvec3(0);
+    }
+    return outside;
+}
+
+glm::dvec3 sky_radiance(const SkyDome& sky, const glm::dvec3& direction) {
+    if (!sky.shines) return glm::dvec3(0);
+    if (sky.physical) return sky.intensity * radiance(sky.clear, direction);
+    const double up = std::max(direction.y, 0.0);
+    return glm::mix(sky.horizon, sky.zenith, 1.09 * up * up / (up * up + 0.09));
+}
+
+SkyMeans means_of(const SkyDome& sky) {
+    SkyMeans means;
+    if (!sky.shines) return means;
+    constexpr int kUp = 48, kAround = 96;
+    for (int i = 0; i < kUp; ++i)
+        for (int j = 0; j < kAround; ++j) {
+            const double up = (i + 0.5) / kUp, side = std::sqrt(1 - up * up);
+            const double turn = 2 * std::numbers::pi * (j + 0.5) / kAround;
+            const glm::dvec3 d(side * std::sin(turn), up, side * std::cos(turn));
+            const glm::dvec3 from_above = sky_radiance(sky, d) / (1.0 * kUp * kAround);
+            means.above += from_above;
+            means.irradiance_up += 2 * std::numbers::pi * up * from_above;
+            means.below += sky_radiance(sky, {d.x, -d.y, d.z}) / (1.0 * kUp * kAround);
+        }
+    return means;
+}
+
+}  // namespace awan
