@@ -37,7 +37,7 @@ const albedo = { label: "Albedo", member: "albedo", min: 0, max: 1, step: 0.01 }
 
 export const groundPanel = (store) => optional(store, {
   title: "Ground", pointer: "/ground", label: "A level ground", fresh: { height: -6, albedo: 0.2 },
-  sliders: [{ label: "Height", member: "height", min: -50, max: 10, step: 0.1 }, albedo],
+  sliders: [{ label: "Level", member: "height", min: -50, max: 10, step: 0.1 }, albedo],
 });
 
 export const hazePanel = (store) => optional(store, {
@@ -45,7 +45,7 @@ export const hazePanel = (store) => optional(store, {
   sliders: [
     { label: "Extinction", member: "extinction", min: 0.0001, max: 1, log: true },
     { label: "Scale height", member: "scale_height", min: 0.1, max: 1000, log: true },
-    { label: "Height", member: "height", min: -50, max: 10, step: 0.1 },
+    { label: "Base", member: "height", min: -50, max: 10, step: 0.1 },
     albedo,
     { label: "Forward g", member: "g", min: -0.9, max: 0.98, step: 0.01 },
   ],
@@ -55,6 +55,6 @@ export const detailPanel = (store) => optional(store, {
   title: "Detail", pointer: "/detail", label: "Finer structure", fresh: { amount: 0.5, size: 0.5 },
   sliders: [
     { label: "Amount", member: "amount", min: 0, max: 1, step: 0.01 },
-    { label: "Size", member: "size", min: 0.05, max: 4, log: true },
+    { label: "Bump size", member: "size", min: 0.05, max: 4, log: true },
   ],
 });
