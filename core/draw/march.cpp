@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "core/draw/march_block.h"
+#include "core/generate/detail.h"
 #include "core/parallel.h"
 #include "core/scene/outside.h"
 
@@ -14,6 +15,8 @@ namespace awan {
 namespace {
 
 constexpr double kStepDepth = 0.5;  // scaled optical depth of a step that costs 1% (march_test)
+
+constexpr double kDetailStep = 0.2;  // longest step, in bumps of detail
 
 // Rooms for blocks: as many as threads ask for at a time.
 class Rooms {
@@ -107,6 +110,10 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     // Steps cost about the square of their length.
     const double finer = std::sqrt(std::clamp(settings.step_error, 1e-5, 0.1) / 0.01);
     march.step = seen.empty() ? 1 : longest_step(light, seen) * std::min(finer, 1.5);
+    // Samples that see the smaller bumps.
+    march.detail = particles.detail.get();
+    if (march.detail != nullptr)
+        march.step = std::min(march.step, kDetailStep * march.detail->bump * std::min(finer, 1.5));
     march.step_depth = static_cast<float>(kStepDepth * finer);
     double least = 0, most = 2;
     chords_of(march, least, most);

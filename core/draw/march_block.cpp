@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/draw/march_detail.h"
 #include "core/draw/march_kernels.h"
 #include "core/draw/march_rays.h"
 #include "core/survey/projection.h"
@@ -39,6 +40,10 @@ AWAN_INLINE void deposit_body(const BlockParticles& p, const std::vector<ActiveP
         tiles[t].last = -1;
     }
     for (const ActiveParticle& a : active) deposit(p, a, chunk, tiles);
+}
+AWAN_INLINE void detail_body(const DetailRays& rays, const Chunk& chunk, Tile* tiles) {
+    for (int t = 0; t < kTiles; ++t)
+        if (tiles[t].alive) add_detail(rays, chunk, tiles[t]);
 }
 AWAN_INLINE void ratio_body(const BlockParticles& p, float step,
                             std::vector<ActiveParticle>& active) {
@@ -80,6 +85,7 @@ struct Kernels {
     void (*measure)(const BlockParticles&, const Floats*, const Floats&, ActiveParticle&);
     void (*ratio)(const BlockParticles&, float, std::vector<ActiveParticle>&);
     void (*deposit)(const BlockParticles&, const std::vector<ActiveParticle>&, const Chunk&, Tile*);
+    void (*detail)(const DetailRays&, const Chunk&, Tile*);
     int (*too_deep)(const Tile&, float, float);
     void (*spread)(const Bilinear&, const LightAt (*)[kChunk + 2], int, int, bool, TileLight&);
     void (*march)(const Shade&, const TileLight&, int, Tile&);
@@ -111,6 +117,9 @@ struct Kernels {
                                   Tile* tiles) {                                                 \
         deposit_body(p, active, chunk, tiles);                                                   \
     }                                                                                            \
+    attribute void detail_##name(const DetailRays& rays, const Chunk& chunk, Tile* tiles) {      \
+        detail_body(rays, chunk, tiles);                                                         \
+    }                                                                                            \
     attribute int too_deep_##name(const Tile& tile, float scaled, float allowed) {               \
         return first_too_deep(tile, scaled, allowed);                                            \
     }                                                                                            \
@@ -122,9 +131,9 @@ struct Kernels {
                                 Tile& tile) {                                                    \
         march_tile(shade, light, count, tile);                                                   \
     }                                                                                            \
-    constexpr Kernels kKernels_##name{rays_##name,     phases_##name, finish_##name,             \
-                                      measure_##name,  ratio_##name,  deposit_##name,            \
-                                      too_deep_##name, spread_##name, march_##name};
+    constexpr Kernels kKernels_##name{                                                           \
+        rays_##name,    phases_##name, finish_##name,   measure_##name, ratio_##name,            \
+        deposit_##name, detail_##name, too_deep_##name, spread_##name,  march_##name};
 
 AWAN_KERNELS(plain, )
 #if defined(__x86_64__)
@@ -308,9 +317,29 @@ class BlockMarch {
             length += std::max(0.0, last - std::max(end, one.nearest));
             end = std::max(end, last);
         }
+        if (scene_.detail != nullptr) place_detail();
         longest_ = scene_.step;
         while (longest_ * kMostSamples < length) longest_ *= 2;
         shortest_ = scene_.step / kFinest;
+    }
+
+    void place_detail() {
+        const DetailField& field = *scene_.detail;
+        detail_.field = &field;
+        detail_.reference = static_cast<float>(reference_);
+        const glm::dvec3 middle = to_scene(scene_.view, frame_.forward);
+        const glm::dvec3 start =
+            field.to_tile * (scene_.view.eye + reference_ * middle - field.origin);
+        const glm::dvec3 axes[3] = {field.to_tile * to_scene(scene_.view, frame_.right),
+                                    field.to_tile * to_scene(scene_.view, frame_.up),
+                                    field.to_tile * middle};
+        for (int axis = 0; axis < 3; ++axis) {
+            detail_.start[axis] = static_cast<float>(
+                start[axis] - kDetailSide * std::floor(start[axis] / kDetailSide));
+            detail_.right[axis] = static_cast<float>(axes[0][axis]);
+            detail_.up[axis] = static_cast<float>(axes[1][axis]);
+            detail_.middle[axis] = static_cast<float>(axes[2][axis]);
+        }
     }
 
     void march() {
@@ -350,6 +379,7 @@ class BlockMarch {
             bool fine = true;  // far finer than it need be
             const float allowed = scene_.step_depth;
             kernels_.deposit(p, active, chunk, room_.tiles);
+            if (detail_.field != nullptr) kernels_.detail(detail_, chunk, room_.tiles);
             for (const Tile& tile : room_.tiles) {
                 if (!tile.alive) continue;
                 if (step > shortest_)
@@ -520,6 +550,7 @@ class BlockMarch {
     int left_, top_;  // pixels
     BlockFrame frame_{};
     SunInBlock sun_{};
+    DetailRays detail_;
     double reference_ = 0, longest_ = 1, shortest_ = 1;
 };
 

@@ -37,6 +37,7 @@ struct MarchScene {
     double step = 1;       // longest step, scene units
     float step_depth = 1;  // longest step in scaled optical depth, where it is seen
     SkyBehind sky;
+    const DetailField* detail = nullptr;  // null: none
 };
 
 inline constexpr int kTileSide = 4;

@@ -16,6 +16,7 @@
 #include "core/scene/outside.h"
 #include "core/shaders/shared.h"
 #include "core/survey/lattice.h"
+#include "core/survey/lattice_detail.h"
 
 namespace awan {
 namespace {
@@ -316,7 +317,8 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
     Lattice fine_lattice = coarse;
     fine_lattice.cell = coarse.cell / sub;
     fine_lattice.cells = coarse.cells * sub;
-    const std::vector<float> fine = extinction_in(particles, fine_lattice, threads);
+    std::vector<float> fine = extinction_in(particles, fine_lattice, threads);
+    add_detail(particles, fine_lattice, threads, fine);
     const std::vector<float> mean = block_means(fine, coarse.cells, sub);
     light.origin = coarse.origin;
     light.cell = coarse.cell;
