@@ -9,6 +9,7 @@
 #include "core/draw/splats.h"
 #include "core/gl/programs.h"
 #include "core/light/sun_depth.h"
+#include "core/scene/outside.h"
 
 namespace awan {
 namespace {
@@ -30,11 +31,12 @@ void set_uniforms(const Scene& scene, const View& view, const Plan& plan) {
     glUniform2i(1, scene->image.width, scene->image.height);
     glUniform2f(2, static_cast<float>(view.tan_half_fov * view.aspect),
                 static_cast<float>(view.tan_half_fov));
-    set3(3, in_frame(sun_direction(scene->sun)));
+    const Outside outside = outside_of(scene);
+    set3(3, in_frame(outside.to_sun));
     set3(4, in_frame({0, 1, 0}));
-    const double sky = scene->sky.none ? 0.0 : scene->sky.intensity;
-    set3(5, scene->sky.zenith * sky);
-    set3(6, scene->sky.horizon * sky);
+    // Black where the sky is physical: the program draws gradients only.
+    set3(5, outside.sky.zenith);
+    set3(6, outside.sky.horizon);
     glUniform1f(7, static_cast<float>(scene->medium.g));
     glUniform1i(8, scene->medium.phase == PhaseFunction::kCornetteShanks ? 1 : 0);
     glUniform1i(9, plan.on(Effect::kViewExtinction) ? 1 : 0);

@@ -10,6 +10,7 @@
 
 #include "core/draw/air_image.h"
 #include "core/generate/gaussian.h"
+#include "core/scene/outside.h"
 #include "core/shaders/shared.h"
 #include "core/survey/projection.h"
 
@@ -28,13 +29,18 @@ struct LightSources {
 };
 
 LightSources light_sources(const Scene& scene, const Plan& plan) {
-    const Sky& sky = scene->sky;
-    LightSources sources{scene->sun.color * (scene->sun.intensity / (4 * std::numbers::pi)),
-                         glm::dvec3(0), glm::dvec3(0), scene->medium.albedo};
-    if (plan.on(Effect::kSkyLight) && !sky.none) {
-        sources.above =
-            0.5 * sky.intensity * glm::dvec3(shader::sky_mean_above(sky.zenith, sky.horizon));
-        sources.below = 0.5 * sky.intensity * sky.horizon;
+    const Outside outside = outside_of(scene);
+    const SkyDome& sky = outside.sky;
+    LightSources sources{outside.sun / (4 * std::numbers::pi), glm::dvec3(0), glm::dvec3(0),
+                         scene->medium.albedo};
+    if (!plan.on(Effect::kSkyLight) || !sky.shines) return sources;
+    if (sky.physical) {
+        const SkyMeans means = means_of(sky);
+        sources.above = 0.5 * means.above;
+        sources.below = 0.5 * means.below;
+    } else {
+        sources.above = 0.5 * glm::dvec3(shader::sky_mean_above(sky.zenith, sky.horizon));
+        sources.below = 0.5 * sky.horizon;
     }
     return sources;
 }

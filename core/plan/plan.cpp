@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <glm/common.hpp>
+
+#include "core/scene/outside.h"
 
 namespace awan {
 namespace {
@@ -48,11 +49,6 @@ double scatter_threshold(double g) {
     return kScatterDepthIsotropic + t * (kScatterDepthForward - kScatterDepthIsotropic);
 }
 
-bool sky_shines(const Sky& sky) {
-    const glm::dvec3 most = glm::max(sky.zenith, sky.horizon);
-    return !sky.none && sky.intensity > 0 && most.x + most.y + most.z > 0;
-}
-
 // Whether the scene calls for an effect, by its own figures.
 Criterion criterion(Effect effect, const Scene& scene, const Survey& survey) {
     if (effect == Effect::kAerialPerspective || effect == Effect::kLightShafts) {
@@ -67,7 +63,7 @@ Criterion criterion(Effect effect, const Scene& scene, const Survey& survey) {
     if (survey.particles == 0 || !(survey.total_mass > 0))
         return {false, "there is no matter in the scene"};
     const bool sun = scene->sun.intensity > 0;
-    const bool sky = sky_shines(scene->sky);
+    const bool sky = outside_of(scene).sky.shines;
     const double towards_lights =
         std::max(sun ? survey.optical_depth_sun : 0.0, sky ? survey.optical_depth_zenith : 0.0);
     switch (effect) {
