@@ -198,14 +198,14 @@ double metered(const Sun& sun, const Sky& sky) {
 }
 
 TEST(Exposure, ASunlitCloudIsALittleBelowDisplayWhite) {
-    // White sun, white sky: the cloud's radiance is irradiance / 4 pi + sky.
+    // White sun, white sky: the cloud's radiance is half of a white wall's + sky.
     Sun sun;
     sun.color = glm::dvec3(1);
     sun.intensity = 20;
     Sky sky;
     sky.zenith = sky.horizon = glm::dvec3(1);
     sky.intensity = 3;
-    const double cloud = 20 / (4 * M_PI) + 3;
+    const double cloud = 0.5 * 20 / M_PI + 3;
     const double stops = metered(sun, sky);
     EXPECT_NEAR(cloud * std::exp2(stops), double{metered_level()}, 1e-6);
     const int code = expected_code(static_cast<float>(cloud), stops);
