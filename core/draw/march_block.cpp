@@ -66,17 +66,17 @@ AWAN_INLINE void rays_body(const BlockFrame& frame, const float* x, const float*
     directions(frame, x, y, to);
 }
 // `up`: of the block's axes, along the scene's y.
-AWAN_INLINE void finish_body(const MarchScene& scene, const float* up, const Tile& tile,
-                             float (*to)[4]) {
+AWAN_INLINE void finish_body(const MarchScene& scene, const float* up, const Floats* backdrop,
+                             const Tile& tile, float (*to)[4]) {
     const Floats high = up[0] * tile.x + up[1] * tile.y + up[2] * (1.0f + tile.z);
     const Floats radiance[3] = {tile.red, tile.green, tile.blue};
-    finish(scene.sky, scene.scaled, high, tile.depth, radiance, to);
+    finish(scene.sky, backdrop, scene.scaled, high, tile.depth, radiance, to);
 }
 
 struct Kernels {
     void (*rays)(const BlockFrame&, const float*, const float*, Floats*);
     void (*phases)(const MarchScene&, const SunInBlock&, Tile&, Floats*);
-    void (*finish)(const MarchScene&, const float*, const Tile&, float (*)[4]);
+    void (*finish)(const MarchScene&, const float*, const Floats*, const Tile&, float (*)[4]);
     void (*measure)(const BlockParticles&, const Floats*, const Floats&, ActiveParticle&);
     void (*ratio)(const BlockParticles&, float, std::vector<ActiveParticle>&);
     void (*deposit)(const BlockParticles&, const std::vector<ActiveParticle>&, const Chunk&, Tile*);
@@ -85,45 +85,45 @@ struct Kernels {
     void (*march)(const Shade&, const TileLight&, int, Tile&);
 };
 
-#define AWAN_KERNELS(name, attribute)                                                            \
-    attribute void rays_##name(const BlockFrame& frame, const float* x, const float* y,          \
-                               Floats* to) {                                                     \
-        rays_body(frame, x, y, to);                                                              \
-    }                                                                                            \
-    attribute void phases_##name(const MarchScene& scene, const SunInBlock& sun, Tile& tile,     \
-                                 Floats* rows) {                                                 \
-        phases_body(scene, sun, tile, rows);                                                     \
-    }                                                                                            \
-    attribute void finish_##name(const MarchScene& scene, const float* up, const Tile& tile,     \
-                                 float(*to)[4]) {                                                \
-        finish_body(scene, up, tile, to);                                                        \
-    }                                                                                            \
-    attribute void measure_##name(const BlockParticles& p, const Floats* ray,                    \
-                                  const Floats& spread, ActiveParticle& a) {                     \
-        measure_body(p, ray, spread, a);                                                         \
-    }                                                                                            \
-    attribute void ratio_##name(const BlockParticles& p, float step,                             \
-                                std::vector<ActiveParticle>& active) {                           \
-        ratio_body(p, step, active);                                                             \
-    }                                                                                            \
-    attribute void deposit_##name(const BlockParticles& p,                                       \
-                                  const std::vector<ActiveParticle>& active, const Chunk& chunk, \
-                                  Tile* tiles) {                                                 \
-        deposit_body(p, active, chunk, tiles);                                                   \
-    }                                                                                            \
-    attribute int too_deep_##name(const Tile& tile, float scaled, float allowed) {               \
-        return first_too_deep(tile, scaled, allowed);                                            \
-    }                                                                                            \
-    attribute void spread_##name(const Bilinear& b, const LightAt(*corners)[kChunk + 2],         \
-                                 int first, int last, bool albedo, TileLight& light) {           \
-        spread_light(b, corners, first, last, albedo, light);                                    \
-    }                                                                                            \
-    attribute void march_##name(const Shade& shade, const TileLight& light, int count,           \
-                                Tile& tile) {                                                    \
-        march_tile(shade, light, count, tile);                                                   \
-    }                                                                                            \
-    constexpr Kernels kKernels_##name{rays_##name,     phases_##name, finish_##name,             \
-                                      measure_##name,  ratio_##name,  deposit_##name,            \
+#define AWAN_KERNELS(name, attribute)                                                              \
+    attribute void rays_##name(const BlockFrame& frame, const float* x, const float* y,            \
+                               Floats* to) {                                                       \
+        rays_body(frame, x, y, to);                                                                \
+    }                                                                                              \
+    attribute void phases_##name(const MarchScene& scene, const SunInBlock& sun, Tile& tile,       \
+                                 Floats* rows) {                                                   \
+        phases_body(scene, sun, tile, rows);                                                       \
+    }                                                                                              \
+    attribute void finish_##name(const MarchScene& scene, const float* up, const Floats* backdrop, \
+                                 const Tile& tile, float(*to)[4]) {                                \
+        finish_body(scene, up, backdrop, tile, to);                                                \
+    }                                                                                              \
+    attribute void measure_##name(const BlockParticles& p, const Floats* ray,                      \
+                                  const Floats& spread, ActiveParticle& a) {                       \
+        measure_body(p, ray, spread, a);                                                           \
+    }                                                                                              \
+    attribute void ratio_##name(const BlockParticles& p, float step,                               \
+                                std::vector<ActiveParticle>& active) {                             \
+        ratio_body(p, step, active);                                                               \
+    }                                                                                              \
+    attribute void deposit_##name(const BlockParticles& p,                                         \
+                                  const std::vector<ActiveParticle>& active, const Chunk& chunk,   \
+                                  Tile* tiles) {                                                   \
+        deposit_body(p, active, chunk, tiles);                                                     \
+    }                                                                                              \
+    attribute int too_deep_##name(const Tile& tile, float scaled, float allowed) {                 \
+        return first_too_deep(tile, scaled, allowed);                                              \
+    }                                                                                              \
+    attribute void spread_##name(const Bilinear& b, const LightAt(*corners)[kChunk + 2],           \
+                                 int first, int last, bool albedo, TileLight& light) {             \
+        spread_light(b, corners, first, last, albedo, light);                                      \
+    }                                                                                              \
+    attribute void march_##name(const Shade& shade, const TileLight& light, int count,             \
+                                Tile& tile) {                                                      \
+        march_tile(shade, light, count, tile);                                                     \
+    }                                                                                              \
+    constexpr Kernels kKernels_##name{rays_##name,     phases_##name, finish_##name,               \
+                                      measure_##name,  ratio_##name,  deposit_##name,              \
                                       too_deep_##name, spread_##name, march_##name};
 
 AWAN_KERNELS(plain, )
@@ -230,7 +230,10 @@ class BlockMarch {
             const int across = std::min(kTileSide, image.width - x);
             if (across <= 0) continue;
             float pixels[kLanes][4];
-            kernels_.finish(scene_, up, room_.tiles[t], pixels);
+            Floats backdrop[4];
+            if (scene_.sky.backdrop != nullptr) take_backdrop(t, backdrop);
+            kernels_.finish(scene_, up, scene_.sky.backdrop != nullptr ? backdrop : nullptr,
+                            room_.tiles[t], pixels);
             for (int j = 0; j < std::min(kTileSide, image.height - y); ++j)
                 std::memcpy(
                     image.pixels.data() +
@@ -240,6 +243,45 @@ class BlockMarch {
     }
 
   private:
+    // Pixel of a lane, in the picture: the last one's for those beyond it.
+    std::size_t pixel_of(int t, int lane) const {
+        const int x = std::min(left_ + t % 4 * kTileSide + lane % 4, scene_.width - 1);
+        const int y = std::min(top_ + t / 4 * kTileSide + lane / 4, scene_.height - 1);
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(scene_.width) +
+               static_cast<std::size_t>(x);
+    }
+
+    // r g b, and whether it is seen through the peak.
+    void take_backdrop(int t, Floats* to) const {
+        const SkyBehind& sky = scene_.sky;
+        const Backdrop& backdrop = *sky.backdrop;
+        for (int lane = 0; lane < kLanes; ++lane) {
+            const std::size_t pixel = pixel_of(t, lane);
+            for (std::size_t c = 0; c < 3; ++c) to[c][lane] = backdrop.rgb[3 * pixel + c];
+            const bool ground =
+                !backdrop.distance.empty() && std::isfinite(backdrop.distance[pixel]);
+            to[3][lane] = (ground ? sky.ground_peak : sky.sky_peak) ? 1.0f : 0.0f;
+        }
+    }
+
+    // Takes away what lies beyond the ground.
+    void cut_at_ground(const Chunk& chunk) {
+        for (int t = 0; t < kTiles; ++t) {
+            Tile& tile = room_.tiles[t];
+            if (tile.first > tile.last) continue;
+            Floats ground;
+            for (int lane = 0; lane < kLanes; ++lane)
+                ground[lane] = static_cast<float>(
+                    static_cast<double>(scene_.sky.backdrop->distance[pixel_of(t, lane)]) -
+                    reference_);
+            for (int k = tile.first; k <= tile.last; ++k) {
+                const float from = chunk.from + static_cast<float>(k) * chunk.step;
+                tile.profile[k] *= simd::min(
+                    simd::max((ground - from) * (1.0f / chunk.step), Floats{}), simd::all(1.0f));
+            }
+        }
+    }
+
     void place_rays() {
         frame_.forward = frame_direction(scene_, left_ + kBlockSide / 2, top_ + kBlockSide / 2);
         const SideAxes side = side_axes(frame_.forward);
@@ -350,6 +392,7 @@ class BlockMarch {
             bool fine = true;  // far finer than it need be
             const float allowed = scene_.step_depth;
             kernels_.deposit(p, active, chunk, room_.tiles);
+            if (scene_.cut) cut_at_ground(chunk);
             for (const Tile& tile : room_.tiles) {
                 if (!tile.alive) continue;
                 if (step > shortest_)

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <vector>
 
+#include "core/draw/backdrop.h"
 #include "core/draw/image.h"
 #include "core/draw/march_bins.h"
 #include "core/draw/march_light.h"
@@ -17,8 +18,10 @@ namespace awan {
 // The sky as pixels see it.
 struct SkyBehind {
     float zenith[3] = {}, horizon[3] = {};
-    bool behind = false;  // drawn behind the cloud
-    bool peak = false;    // seen through the forward peak
+    bool behind = false;                         // drawn behind the cloud
+    bool peak = false;                           // seen through the forward peak
+    const Backdrop* backdrop = nullptr;          // instead of the two colours
+    bool sky_peak = false, ground_peak = false;  // then: which of the two goes through the peak
 };
 
 // What all blocks of a picture share.
@@ -37,6 +40,7 @@ struct MarchScene {
     double step = 1;       // longest step, scene units
     float step_depth = 1;  // longest step in scaled optical depth, where it is seen
     SkyBehind sky;
+    bool cut = false;  // whether rays end at backdrop->distance: there is matter below the ground
 };
 
 inline constexpr int kTileSide = 4;
