@@ -23,10 +23,9 @@ bool wants_backdrop(const Scene& scene, const View& view) {
     return (sky.physical && !sky.none) || above_ground(scene, view);
 }
 
-Backdrop make_backdrop(const Scene& scene, const View& view, const GroundLight& ground,
-                       int threads) {
+Backdrop make_backdrop(const Scene& scene, const View& view, int width, int height,
+                       const GroundLight& ground, int threads) {
     Backdrop backdrop;
-    const int width = scene->image.width, height = scene->image.height;
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     backdrop.width = width;
     backdrop.height = height;
@@ -53,6 +52,15 @@ Backdrop make_backdrop(const Scene& scene, const View& view, const GroundLight& 
         }
     });
     return backdrop;
+}
+
+void lay_under(Image& picture, const Backdrop& backdrop) {
+    for (std::size_t i = 0; i < picture.pixel_count(); ++i) {
+        float* const pixel = picture.pixels.data() + 4 * i;
+        for (std::size_t c = 0; c < 3; ++c) pixel[c] += (1 - pixel[3]) * backdrop.rgb[3 * i + c];
+        pixel[3] = 1;
+    }
+    picture.opaque = true;
 }
 
 bool matter_below_ground(const Scene& scene, const View& view, const ParticleSet& particles) {

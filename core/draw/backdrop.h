@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/draw/image.h"
 #include "core/generate/particle_set.h"
 #include "core/light/ground_light.h"
 #include "core/scene/scene.h"
@@ -22,8 +23,11 @@ struct Backdrop {
 bool wants_backdrop(const Scene& scene, const View& view);
 
 // Threads do not show in the result. The ground's pixels are point samples, as all others are.
-Backdrop make_backdrop(const Scene& scene, const View& view, const GroundLight& ground,
-                       int threads);
+Backdrop make_backdrop(const Scene& scene, const View& view, int width, int height,
+                       const GroundLight& ground, int threads);
+
+// Under a picture over nothing (premultiplied), which becomes opaque. Both of one size.
+void lay_under(Image& picture, const Backdrop& backdrop);
 
 // Whether the ground hides some of the cloud from an eye above it.
 bool matter_below_ground(const Scene& scene, const View& view, const ParticleSet& particles);

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "core/draw/backdrop.h"
 #include "core/draw/splats.h"
 #include "core/gl/programs.h"
 
@@ -79,6 +80,8 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
         (list.reaches_eye && scene->effects[static_cast<int>(Effect::kInterior)] != Switch::kOff);
     (half_lines ? programs.splat_interior : programs.splat).use();
     set_uniforms(scene, view, plan);
+    const bool backdrop = image.opaque && wants_backdrop(scene, view);
+    if (backdrop) glUniform1i(10, 0);  // laid under the picture below
     const auto status = gl::for_each_region(
         list.tiles, (image.width + kTileWidth - 1) / kTileWidth,
         (image.height + kTileHeight - 1) / kTileHeight, 1, kMaxEntries, kMaxTiles, deadline,
@@ -109,6 +112,8 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
             return gl::gl_status("the eye pass");
         });
     if (status) return *status;
+    if (backdrop)
+        lay_under(image, make_backdrop(scene, view, image.width, image.height, lighting.ground, 1));
     return image;
 }
 

@@ -122,7 +122,7 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     march.cut = matter_below_ground(scene, view, particles);
     Backdrop backdrop;
     if ((behind || march.peak.share != 0 || march.cut) && wants_backdrop(scene, view)) {
-        backdrop = make_backdrop(scene, view, light.ground, threads);
+        backdrop = make_backdrop(scene, view, image.width, image.height, light.ground, threads);
         sky.backdrop = &backdrop;
         sky.peak = march.peak.share != 0;
         sky.sky_peak = light.sky;

@@ -29,6 +29,14 @@ struct View {
     double aspect = 1;           // width / height
 };
 
+// What a ground does to the picture (core/survey/ground_view.h). All 0 where the scene has none, or where the cloud lies below it.
+struct GroundView {
+    double seen = 0;   // share of the picture's rays that meet it, clouds or not; 0 from below
+    double shade = 0;  // largest share of its light that the cloud's shadow takes, on those rays
+    double light = 0;  // fluence that it sends up, unshaded, over that of sun and sky at the cloud
+    bool matter_below = false;  // whether some of the cloud lies below it
+};
+
 struct Survey {
     std::size_t particles = 0;
     Bounds bounds;
@@ -50,6 +58,7 @@ struct Survey {
     double min_projected_px = 0;     // smallest and largest projected s in the picture, pixels;
     double max_projected_px = 0;     //   infinite for a particle that holds the eye
     bool eye_inside = false;         // the eye is within 4 s of a particle
+    GroundView ground;
 };
 
 // Optical depths are sampled on a raster of 64 x 64 lines over the cloud or the picture, and on the lines through every
