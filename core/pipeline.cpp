@@ -7,6 +7,7 @@
 #include "core/generate/generate.h"
 #include "core/light/light.h"
 #include "core/light/transport.h"
+#include "core/survey/detail_of.h"
 #include "core/truth/path_tracer.h"
 
 namespace awan {
@@ -67,7 +68,10 @@ Status render_march(const Scene& scene, const Planned& planned, const Tools& too
     });
     if (!light.ok()) return light.error();
     auto image = timed(rendered.times.draw_ms, [&] {
-        return march(scene, planned.particles, planned.survey.view, **light, MarchSettings{},
+        MarchSettings settings;
+        settings.aerial_perspective = planned.plan.on(Effect::kAerialPerspective);
+        settings.light_shafts = planned.plan.on(Effect::kLightShafts);
+        return march(scene, planned.particles, planned.survey.view, **light, settings,
                      tools.threads, deadline);
     });
     if (!image.ok()) return image.error();
@@ -80,6 +84,8 @@ Status render_paths(const Scene& scene, const Planned& planned, const Tools& too
                     const Deadline& deadline, Rendered& rendered) {
     TruthOptions options;
     options.samples = planned.plan.samples;
+    options.aerial_perspective = planned.plan.on(Effect::kAerialPerspective);
+    options.light_shafts = planned.plan.on(Effect::kLightShafts);
     options.threads = tools.threads;
     auto truth = timed(rendered.times.draw_ms, [&] {
         return trace_truth(scene, planned.particles, planned.survey.view, options, tools.progress,
@@ -104,6 +110,8 @@ Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& dead
     if (!surveyed.ok()) return surveyed.error();
     planned.survey = *std::move(surveyed);
     planned.plan = plan(scene, planned.survey, threads, speed);
+    if (planned.plan.on(Effect::kDetail))
+        planned.particles.detail = detail_of(scene, planned.survey, threads);
     return planned;
 }
 

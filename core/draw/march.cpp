@@ -7,12 +7,16 @@
 #include <mutex>
 
 #include "core/draw/march_block.h"
+#include "core/generate/detail.h"
 #include "core/parallel.h"
+#include "core/scene/outside.h"
 
 namespace awan {
 namespace {
 
 constexpr double kStepDepth = 0.5;  // scaled optical depth of a step that costs 1% (march_test)
+
+constexpr double kDetailStep = 0.2;  // longest step, in bumps of detail
 
 // Rooms for blocks: as many as threads ask for at a time.
 class Rooms {
@@ -98,23 +102,28 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     march.light = source_towards(light, view.eye, threads);
     march.medium = scene->medium;
     if (light.cell > 0) march.peak = {light.peak_from, light.peak_share};
-    march.to_sun = sun_direction(scene->sun);
-    march.sun = glm::vec3(scene->sun.color * scene->sun.intensity);
+    const Outside outside = outside_of(scene);
+    march.to_sun = outside.to_sun;
+    march.sun = glm::vec3(outside.sun);
     march.scaled = static_cast<float>(1 - scene->medium.albedo * march.peak.share);
     march.rest = rest_of(march.medium, march.peak);
     // Steps cost about the square of their length.
     const double finer = std::sqrt(std::clamp(settings.step_error, 1e-5, 0.1) / 0.01);
     march.step = seen.empty() ? 1 : longest_step(light, seen) * std::min(finer, 1.5);
+    // Samples that see the smaller bumps.
+    march.detail = particles.detail.get();
+    if (march.detail != nullptr)
+        march.step = std::min(march.step, kDetailStep * march.detail->bump * std::min(finer, 1.5));
     march.step_depth = static_cast<float>(kStepDepth * finer);
     double least = 0, most = 2;
     chords_of(march, least, most);
     if (!seen.empty()) march.table = peak_table(march.medium, march.peak, least, most);
 
     SkyBehind& sky = march.sky;
-    if (!scene->sky.none) {
+    if (outside.sky.shines && !outside.sky.physical) {
         for (int c = 0; c < 3; ++c) {
-            sky.zenith[c] = static_cast<float>(scene->sky.zenith[c] * scene->sky.intensity);
-            sky.horizon[c] = static_cast<float>(scene->sky.horizon[c] * scene->sky.intensity);
+            sky.zenith[c] = static_cast<float>(outside.sky.zenith[c]);
+            sky.horizon[c] = static_cast<float>(outside.sky.horizon[c]);
         }
         sky.peak = light.sky && march.peak.share != 0;
     }
@@ -128,6 +137,11 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
         sky.sky_peak = light.sky;
         sky.ground_peak = light.ground.into_cloud;
     }
+
+    std::optional<Air> air;
+    if (settings.aerial_perspective)
+        air = make_air(scene, view, settings.light_shafts ? &light.sun : nullptr, threads);
+    if (air) march.air = &*air;
 
     Rooms rooms;
     std::atomic<bool> late = false;

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/draw/march_air.h"
+#include "core/draw/march_detail.h"
 #include "core/draw/march_kernels.h"
 #include "core/draw/march_rays.h"
 #include "core/survey/projection.h"
@@ -40,6 +42,10 @@ AWAN_INLINE void deposit_body(const BlockParticles& p, const std::vector<ActiveP
     }
     for (const ActiveParticle& a : active) deposit(p, a, chunk, tiles);
 }
+AWAN_INLINE void detail_body(const DetailRays& rays, const Chunk& chunk, Tile* tiles) {
+    for (int t = 0; t < kTiles; ++t)
+        if (tiles[t].alive) add_detail(rays, chunk, tiles[t]);
+}
 AWAN_INLINE void ratio_body(const BlockParticles& p, float step,
                             std::vector<ActiveParticle>& active) {
     for (std::size_t first = 0; first < active.size(); first += kLanes) {
@@ -73,16 +79,31 @@ AWAN_INLINE void finish_body(const MarchScene& scene, const float* up, const Flo
     finish(scene.sky, backdrop, scene.scaled, high, tile.depth, radiance, to);
 }
 
+AWAN_INLINE void finish_air_body(const MarchScene& scene, const AirTile& air, const SunInBlock& sun,
+                                 const float* up, const Floats* backdrop, const Tile& tile,
+                                 float (*to)[4]) {
+    const Floats high = up[0] * tile.x + up[1] * tile.y + up[2] * (1.0f + tile.z);
+    const Floats radiance[3] = {tile.red, tile.green, tile.blue};
+    const Floats ray[3] = {tile.x, tile.y, tile.z};
+    finish_in_air(scene.sky, backdrop, scene.air->phase, air, {tile.seen_air, tile.seen_lost},
+                  chords(sun, ray), scene.scaled, high, tile.depth, radiance, to);
+}
+
 struct Kernels {
     void (*rays)(const BlockFrame&, const float*, const float*, Floats*);
     void (*phases)(const MarchScene&, const SunInBlock&, Tile&, Floats*);
     void (*finish)(const MarchScene&, const float*, const Floats*, const Tile&, float (*)[4]);
+    void (*finish_air)(const MarchScene&, const AirTile&, const SunInBlock&, const float*,
+                       const Floats*, const Tile&, float (*)[4]);
     void (*measure)(const BlockParticles&, const Floats*, const Floats&, ActiveParticle&);
     void (*ratio)(const BlockParticles&, float, std::vector<ActiveParticle>&);
     void (*deposit)(const BlockParticles&, const std::vector<ActiveParticle>&, const Chunk&, Tile*);
+    void (*detail)(const DetailRays&, const Chunk&, Tile*);
     int (*too_deep)(const Tile&, float, float);
-    void (*spread)(const Bilinear&, const LightAt (*)[kChunk + 2], int, int, bool, TileLight&);
+    void (*spread)(const Bilinear&, const LightAt (*)[kChunk + 2], int, int, bool, bool,
+                   TileLight&);
     void (*march)(const Shade&, const TileLight&, int, Tile&);
+    void (*march_haze)(const Shade&, const TileLight&, int, Tile&);
 };
 
 #define AWAN_KERNELS(name, attribute)                                                              \
@@ -98,6 +119,11 @@ struct Kernels {
                                  const Tile& tile, float(*to)[4]) {                                \
         finish_body(scene, up, backdrop, tile, to);                                                \
     }                                                                                              \
+    attribute void finish_air_##name(const MarchScene& scene, const AirTile& air,                  \
+                                     const SunInBlock& sun, const float* up,                       \
+                                     const Floats* backdrop, const Tile& tile, float(*to)[4]) {    \
+        finish_air_body(scene, air, sun, up, backdrop, tile, to);                                  \
+    }                                                                                              \
     attribute void measure_##name(const BlockParticles& p, const Floats* ray,                      \
                                   const Floats& spread, ActiveParticle& a) {                       \
         measure_body(p, ray, spread, a);                                                           \
@@ -111,20 +137,28 @@ struct Kernels {
                                   Tile* tiles) {                                                   \
         deposit_body(p, active, chunk, tiles);                                                     \
     }                                                                                              \
+    attribute void detail_##name(const DetailRays& rays, const Chunk& chunk, Tile* tiles) {        \
+        detail_body(rays, chunk, tiles);                                                           \
+    }                                                                                              \
     attribute int too_deep_##name(const Tile& tile, float scaled, float allowed) {                 \
         return first_too_deep(tile, scaled, allowed);                                              \
     }                                                                                              \
     attribute void spread_##name(const Bilinear& b, const LightAt(*corners)[kChunk + 2],           \
-                                 int first, int last, bool albedo, TileLight& light) {             \
-        spread_light(b, corners, first, last, albedo, light);                                      \
+                                 int first, int last, bool albedo, bool air, TileLight& light) {   \
+        spread_light(b, corners, first, last, albedo, air, light);                                 \
     }                                                                                              \
     attribute void march_##name(const Shade& shade, const TileLight& light, int count,             \
                                 Tile& tile) {                                                      \
-        march_tile(shade, light, count, tile);                                                     \
+        march_tile<false>(shade, light, count, tile);                                              \
     }                                                                                              \
-    constexpr Kernels kKernels_##name{rays_##name,     phases_##name, finish_##name,               \
-                                      measure_##name,  ratio_##name,  deposit_##name,              \
-                                      too_deep_##name, spread_##name, march_##name};
+    attribute void march_haze_##name(const Shade& shade, const TileLight& light, int count,        \
+                                     Tile& tile) {                                                 \
+        march_tile<true>(shade, light, count, tile);                                               \
+    }                                                                                              \
+    constexpr Kernels kKernels_##name{rays_##name,       phases_##name,  finish_##name,            \
+                                      finish_air_##name, measure_##name, ratio_##name,             \
+                                      deposit_##name,    detail_##name,  too_deep_##name,          \
+                                      spread_##name,     march_##name,   march_haze_##name};
 
 AWAN_KERNELS(plain, )
 #if defined(__x86_64__)
@@ -231,9 +265,13 @@ class BlockMarch {
             if (across <= 0) continue;
             float pixels[kLanes][4];
             Floats backdrop[4];
-            if (scene_.sky.backdrop != nullptr) take_backdrop(t, backdrop);
-            kernels_.finish(scene_, up, scene_.sky.backdrop != nullptr ? backdrop : nullptr,
-                            room_.tiles[t], pixels);
+            const Floats* const behind = scene_.sky.backdrop != nullptr ? backdrop : nullptr;
+            if (behind != nullptr) take_backdrop(t, backdrop);
+            if (scene_.air != nullptr)
+                kernels_.finish_air(scene_, air_tile(*scene_.air, x, y), sun_, up, behind,
+                                    room_.tiles[t], pixels);
+            else
+                kernels_.finish(scene_, up, behind, room_.tiles[t], pixels);
             for (int j = 0; j < std::min(kTileSide, image.height - y); ++j)
                 std::memcpy(
                     image.pixels.data() +
@@ -319,6 +357,7 @@ class BlockMarch {
             tile.alive = left_ + across < scene_.width && top_ + down < scene_.height;
             tile.started = false;
             tile.depth = tile.red = tile.green = tile.blue = Floats{};
+            tile.seen_air = tile.seen_lost = Floats{};
             tile.left = tile.scaled_left = simd::all(1.0f);
         }
         const glm::dvec3 sun = to_frame(scene_.view, scene_.to_sun);
@@ -350,9 +389,29 @@ class BlockMarch {
             length += std::max(0.0, last - std::max(end, one.nearest));
             end = std::max(end, last);
         }
+        if (scene_.detail != nullptr) place_detail();
         longest_ = scene_.step;
         while (longest_ * kMostSamples < length) longest_ *= 2;
         shortest_ = scene_.step / kFinest;
+    }
+
+    void place_detail() {
+        const DetailField& field = *scene_.detail;
+        detail_.field = &field;
+        detail_.reference = static_cast<float>(reference_);
+        const glm::dvec3 middle = to_scene(scene_.view, frame_.forward);
+        const glm::dvec3 start =
+            field.to_tile * (scene_.view.eye + reference_ * middle - field.origin);
+        const glm::dvec3 axes[3] = {field.to_tile * to_scene(scene_.view, frame_.right),
+                                    field.to_tile * to_scene(scene_.view, frame_.up),
+                                    field.to_tile * middle};
+        for (int axis = 0; axis < 3; ++axis) {
+            detail_.start[axis] = static_cast<float>(
+                start[axis] - kDetailSide * std::floor(start[axis] / kDetailSide));
+            detail_.right[axis] = static_cast<float>(axes[0][axis]);
+            detail_.up[axis] = static_cast<float>(axes[1][axis]);
+            detail_.middle[axis] = static_cast<float>(axes[2][axis]);
+        }
     }
 
     void march() {
@@ -392,6 +451,7 @@ class BlockMarch {
             bool fine = true;  // far finer than it need be
             const float allowed = scene_.step_depth;
             kernels_.deposit(p, active, chunk, room_.tiles);
+            if (detail_.field != nullptr) kernels_.detail(detail_, chunk, room_.tiles);
             if (scene_.cut) cut_at_ground(chunk);
             for (const Tile& tile : room_.tiles) {
                 if (!tile.alive) continue;
@@ -462,10 +522,11 @@ class BlockMarch {
             const bool albedo = !scene_.light.light->albedo.empty();
             if (spacing >= 0)
                 kernels_.spread(room_.bilinear[spacing][t], room_.corners, tile.first, end, albedo,
-                                room_.light);
+                                scene_.air != nullptr, room_.light);
             else
                 look_up_pixels(t, base, step, tile.first, end);
-            kernels_.march(shade(t, seam), room_.light, count, tile);
+            (scene_.air != nullptr ? kernels_.march_haze : kernels_.march)(
+                shade(t, seam), room_.light, count, tile);
         }
     }
 
@@ -487,7 +548,10 @@ class BlockMarch {
         const TransportLight& light = *scene_.light.light;
         double most = light.cell > 0 ? kLightApart * light.cell : 1e300;
         if (light.sun.cell > 0) most = std::min(most, kSunApart * light.sun.cell);
-        return apart <= 0.2 ? most / apart : 0;
+        if (!(apart <= 0.2)) return 0;
+        if (scene_.air != nullptr)
+            return std::min(most / apart, farthest_for_air(*scene_.air, apart));
+        return most / apart;
     }
 
     LightRay ray_of(double x, double y, double base) const {
@@ -507,6 +571,10 @@ class BlockMarch {
             const LightRay ray = ray_of(left_ + c % side * apart, top_ + c / side * apart, base);
             light_along(scene_.light, ray, (static_cast<float>(first) - 0.5f) * h, h,
                         last - first + 3, room_.corners[c] + first);
+            if (scene_.air != nullptr)
+                air_along(*scene_.air, left_ + c % side * apart, top_ + c / side * apart,
+                          base + (first + 0.5) * step, step, last - first + 1,
+                          room_.corners[c] + first + 1);
         }
     }
 
@@ -518,9 +586,15 @@ class BlockMarch {
                                         top_ + t / 4 * kTileSide + lane / 4 + 0.5, base);
             light_along(scene_.light, ray, (static_cast<float>(first) - 0.5f) * h, h,
                         last - first + 3, at);
+            if (scene_.air != nullptr)
+                air_along(*scene_.air, left_ + t % 4 * kTileSide + lane % 4 + 0.5,
+                          top_ + t / 4 * kTileSide + lane / 4 + 0.5, base + (first + 0.5) * step,
+                          step, last - first + 1, at + 1);
             TileLight& light = room_.light;
             for (int k = first; k <= last + 2; ++k) {
                 light.depth[k][lane] = at[k - first].depth;
+                light.air[k][lane] = at[k - first].air;
+                light.lost[k][lane] = at[k - first].lost;
                 for (int c = 0; c < 3; ++c) {
                     light.source[c][k][lane] = at[k - first].source[c];
                     light.albedo[c][k][lane] = at[k - first].albedo[c];
@@ -563,6 +637,7 @@ class BlockMarch {
     int left_, top_;  // pixels
     BlockFrame frame_{};
     SunInBlock sun_{};
+    DetailRays detail_;
     double reference_ = 0, longest_ = 1, shortest_ = 1;
 };
 

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <vector>
 
+#include "core/draw/air.h"
 #include "core/draw/backdrop.h"
 #include "core/draw/image.h"
 #include "core/draw/march_bins.h"
@@ -40,6 +41,8 @@ struct MarchScene {
     double step = 1;       // longest step, scene units
     float step_depth = 1;  // longest step in scaled optical depth, where it is seen
     SkyBehind sky;
+    const DetailField* detail = nullptr;  // null: none
+    const Air* air = nullptr;             // null: there is no haze
     bool cut = false;  // whether rays end at backdrop->distance: there is matter below the ground
 };
 

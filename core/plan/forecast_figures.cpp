@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/plan/transport_settings.h"
+#include "core/scene/outside.h"
 
 namespace awan {
 namespace {
@@ -23,11 +24,14 @@ double mean_s(const Survey& survey) {
 // Of the light that reaches a cloud from all sides.
 double sun_share(const Scene& scene) {
     const auto grey = [](const glm::dvec3& c) { return (c.x + c.y + c.z) / 3; };
-    const double sun = grey(scene->sun.color) * scene->sun.intensity / (4 * std::numbers::pi);
-    const double sky =
-        scene->sky.none
-            ? 0
-            : scene->sky.intensity * grey(0.67 * scene->sky.zenith + 1.33 * scene->sky.horizon) / 2;
+    const Outside outside = outside_of(scene);
+    const SkyDome& dome = outside.sky;
+    const double sun = grey(outside.sun) / (4 * std::numbers::pi);
+    double sky = grey(0.67 * dome.zenith + 1.33 * dome.horizon) / 2;
+    if (dome.physical) {
+        const SkyMeans means = means_of(dome, 8);
+        sky = grey(means.above + means.below) / 2;
+    }
     return sun + sky > 0 ? sun / (sun + sky) : 0;
 }
 
@@ -91,7 +95,10 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
                                  : std::pow(rung.cells, 3) * std::max(share.x, 1.0 / rung.cells) *
                                        std::max(share.y, 1.0 / rung.cells) *
                                        std::max(share.z, 1.0 / rung.cells);
-        const double bands = (scene->sun.intensity > 0 ? 1 : 0) + (scene->sky.none ? 0 : 2);
+        const double bands = (scene->sun.intensity > 0 ? 1 : 0) + (scene->sky.none ? 0
+                                                                   : scene->sky.physical
+                                                                       ? 3  // a colour channel each
+                                                                       : 2);
         const double harmonics = scene->medium.g == 0 ? 0.5 : 1;  // of the cost of 16
         // Sweeps that the solve takes: few in thin matter, three times as many at depth 30.
         const double sweeps = 1 + 0.7 * std::log1p(std::min(survey.optical_depth_sun, 1e3));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/deadline.h"
+#include "core/generate/detail.h"
 #include "core/generate/particle_set.h"
 #include "core/scene/scene.h"
 
@@ -37,6 +38,16 @@ struct GroundView {
     bool matter_below = false;  // whether some of the cloud lies below it
 };
 
+// Of the haze in view (core/survey/haze_view.h), on a raster of rays; 0 without haze. Optical depths, largest of all rays,
+// kMostHazeDepth at most.
+inline constexpr double kMostHazeDepth = 1e6;  // level rays may have an infinite one
+struct HazeFigures {
+    double depth_to_clouds = 0;  // from the eye to where a ray meets clouds
+    double depth_behind = 0;     // to the ground, or without end
+    double shaded =
+        0;  // the most light that the clouds' shadows take from one ray, over the mean pixel's (luminance)
+};
+
 struct Survey {
     std::size_t particles = 0;
     Bounds bounds;
@@ -57,8 +68,10 @@ struct Survey {
     double max_sigma_s = 0;          // largest density * s of one particle (dimensionless)
     double min_projected_px = 0;     // smallest and largest projected s in the picture, pixels;
     double max_projected_px = 0;     //   infinite for a particle that holds the eye
+    DetailFigures detail;            // what detail would be made for
     bool eye_inside = false;         // the eye is within 4 s of a particle
     GroundView ground;
+    HazeFigures haze;
 };
 
 // Optical depths are sampled on a raster of 64 x 64 lines over the cloud or the picture, and on the lines through every

@@ -27,7 +27,7 @@ std::vector<std::uint8_t> display_bytes(const Image& image, double exposure) {
 }
 
 double exposure_of(const Scene& scene) {
-    return scene->image.exposure.value_or(auto_exposure(scene->sun, scene->sky));
+    return scene->image.exposure.value_or(auto_exposure(scene));
 }
 
 PictureSize fitted_size(int width, int height, int side) {

@@ -76,8 +76,10 @@ Flight free_flight(const Matter& m, const glm::dvec3& o, const glm::dvec3& d, do
                 const double further = t + left * per_most;
                 if (!(further < leave)) break;
                 t = further;
-                const float here =
+                const float smooth =
                     interpolated(values, m.nodes, o.x + t * d.x, o.y + t * d.y, o.z + t * d.z);
+                const float here =
+                    m.detail ? static_cast<float>(with_detail(m, smooth, o + t * d)) : smooth;
                 if (random.unit_float() * m.most[brick] < here) return {true, t};
                 if (++tentative > kMaxTentative) return {};
                 left = static_cast<double>(-std::log(random.unit_float()));
@@ -189,7 +191,7 @@ struct Walk {
         const Matter& matter = *s.matter;
         glm::dvec3 weight(1);
         const bool sun = s.sun_irradiance != glm::dvec3(0);
-        const bool sky = s.sky_zenith != glm::dvec3(0) || s.sky_horizon != glm::dvec3(0);
+        const bool sky = s.dome.shines;
         std::uint32_t orders = 0, since_start = 0;
         for (std::uint32_t event = 0;; ++event) {
             const glm::dvec3 before = weight;
@@ -274,9 +276,12 @@ struct Walk {
 }  // namespace
 
 glm::dvec3 sky_radiance(const Setting& setting, const glm::dvec3& direction) {
+    const SkyDome& dome = setting.dome;
+    if (!dome.shines) return glm::dvec3(0);
+    if (dome.physical) return dome.intensity * radiance(dome.clear, direction);
     const double up = std::max(direction.y, 0.0);
     const double share = 1.09 * up * up / (up * up + 0.09);
-    return (1 - share) * setting.sky_horizon + share * setting.sky_zenith;
+    return (1 - share) * dome.horizon + share * dome.zenith;
 }
 
 int worthwhile_from_sun(double g) {
@@ -289,12 +294,10 @@ Setting setting_of(const Scene& scene, const Matter& matter, const TruthOptions&
     s.matter = &matter;
     s.phase = phase_law(scene->medium);
     s.albedo = scene->medium.albedo;
-    s.to_sun = sun_direction(scene->sun);
-    s.sun_irradiance = scene->sun.color * scene->sun.intensity;
-    if (!scene->sky.none) {
-        s.sky_zenith = scene->sky.zenith * scene->sky.intensity;
-        s.sky_horizon = scene->sky.horizon * scene->sky.intensity;
-    }
+    const Outside outside = outside_of(scene);
+    s.to_sun = outside.to_sun;
+    s.sun_irradiance = outside.sun;
+    s.dome = outside.sky;
     const glm::dvec3 aside = std::abs(s.to_sun.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     s.sun_u = glm::normalize(glm::cross(s.to_sun, aside));
     s.sun_v = glm::cross(s.to_sun, s.sun_u);
