@@ -78,10 +78,6 @@ TEST_F(ServiceTest, AccuracyRefusesAQueryItDoesNotKnow) {
 TEST_F(ServiceTest, AccuracyOfWhatCannotBeIs422) {
     expect_problem(service.answer(accuracy_request({}, "", R"({"cubes":[],"clod":1})")), 422,
                    "/clod");
-    expect_problem(
-        service.answer(accuracy_request(
-            {}, "", R"({"cubes":[],"ground":{"height":0},"accuracy":{"rung":"truth"}})")),
-        422, "/ground");
     Request late = accuracy_request();
     late.deadline.until = Deadline::Clock::now() - std::chrono::seconds(1);
     expect_problem(service.answer(late), 504);

@@ -36,7 +36,7 @@ void see_through_air(const Air& air, const View& view, const glm::dvec3& q, Spla
     splat.change.w += 1 - share;
 }
 
-void put_air_behind(const Air& air, const SkyDome* sky, Image& image) {
+void put_air_behind(const Air& air, const Backdrop* backdrop, Image& image) {
     const PictureRays& picture = air.picture;
     float* pixel = image.pixels.data();
     for (int j = 0; j < image.height; ++j)
@@ -47,9 +47,15 @@ void put_air_behind(const Air& air, const SkyDome* sky, Image& image) {
             const AirBefore before = whole_air(air, d.y, x, y);
             const double left = 1 - static_cast<double>(pixel[3]), clear = 1 - before.opacity;
             glm::dvec3 light = in_scattering(air, d, before);
-            if (sky != nullptr) light += clear * sky_radiance(*sky, d);
+            if (backdrop != nullptr) {
+                const std::size_t at =
+                    3 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(image.width) +
+                         static_cast<std::size_t>(i));
+                const float* const rgb = backdrop->rgb.data() + at;
+                for (int c = 0; c < 3; ++c) light[c] += clear * static_cast<double>(rgb[c]);
+            }
             for (int c = 0; c < 3; ++c) pixel[c] += static_cast<float>(left * light[c]);
-            pixel[3] = sky != nullptr ? 1.0f : static_cast<float>(1 - left * clear);
+            pixel[3] = backdrop != nullptr ? 1.0f : static_cast<float>(1 - left * clear);
         }
 }
 

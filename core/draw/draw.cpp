@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 
 #include "core/draw/air_image.h"
+#include "core/draw/backdrop.h"
 #include "core/draw/splats.h"
 #include "core/gl/programs.h"
 #include "core/light/sun_depth.h"
@@ -92,7 +93,9 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
         (list.reaches_eye && scene->effects[static_cast<int>(Effect::kInterior)] != Switch::kOff);
     (half_lines ? programs.splat_interior : programs.splat).use();
     set_uniforms(scene, view, plan);
-    if (air) glUniform1i(10, 0);  // what is behind is put there through the haze
+    const bool backdrop = image.opaque && wants_backdrop(scene, view);
+    if (backdrop) glUniform1i(10, 0);  // laid under the picture below
+    if (air) glUniform1i(10, 0);       // what is behind is put there through the haze
     const auto status = gl::for_each_region(
         list.tiles, (image.width + kTileWidth - 1) / kTileWidth,
         (image.height + kTileHeight - 1) / kTileHeight, 1, kMaxEntries, kMaxTiles, deadline,
@@ -124,8 +127,12 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
         });
     if (status) return *status;
     if (air) {
-        const SkyDome sky = outside_of(scene).sky;
-        put_air_behind(*air, image.opaque ? &sky : nullptr, image);
+        Backdrop behind;
+        if (image.opaque)
+            behind = make_backdrop(scene, view, image.width, image.height, lighting.ground, 1);
+        put_air_behind(*air, image.opaque ? &behind : nullptr, image);
+    } else if (backdrop) {
+        lay_under(image, make_backdrop(scene, view, image.width, image.height, lighting.ground, 1));
     }
     return image;
 }

@@ -128,6 +128,15 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
         sky.peak = light.sky && march.peak.share != 0;
     }
     sky.behind = behind;
+    march.cut = matter_below_ground(scene, view, particles);
+    Backdrop backdrop;
+    if ((behind || march.peak.share != 0 || march.cut) && wants_backdrop(scene, view)) {
+        backdrop = make_backdrop(scene, view, image.width, image.height, light.ground, threads);
+        sky.backdrop = &backdrop;
+        sky.peak = march.peak.share != 0;
+        sky.sky_peak = light.sky;
+        sky.ground_peak = light.ground.into_cloud;
+    }
 
     std::optional<Air> air;
     if (settings.aerial_perspective)

@@ -30,10 +30,11 @@ struct AirSeen {
 
 // As finish() of march_rays.h, through haze. `radiance` is dimmed already. Light that comes through the clouds' forward peak
 // met the cloud undimmed: it is dimmed as the cloud's own light is in the mean.
-AWAN_INLINE void finish_in_air(const SkyBehind& sky, const RestOfPhase& phase, const AirTile& tile,
-                               const AirSeen& seen, const Chords& c, float scaled,
-                               const simd::Floats& up, const simd::Floats& depth,
-                               const simd::Floats radiance[3], float (*to)[4]) {
+AWAN_INLINE void finish_in_air(const SkyBehind& sky, const simd::Floats* backdrop,
+                               const RestOfPhase& phase, const AirTile& tile, const AirSeen& seen,
+                               const Chords& c, float scaled, const simd::Floats& up,
+                               const simd::Floats& depth, const simd::Floats radiance[3],
+                               float (*to)[4]) {
     const simd::Floats e = simd::exp(-depth), opaque = simd::one_minus(e, depth);
     const simd::Floats rise = simd::max(simd::abs(up), simd::all(1e-30f));
     const simd::Floats whole =
@@ -46,7 +47,9 @@ AWAN_INLINE void finish_in_air(const SkyBehind& sky, const RestOfPhase& phase, c
         const simd::Floats rest = (1.0f - scaled) * depth;
         const simd::Floats clear =
             1.0f - simd::min(seen.air / simd::max(opaque, simd::all(1e-30f)), simd::all(1.0f));
-        behind += simd::exp(-scaled * depth) * simd::one_minus(simd::exp(-rest), rest) * clear;
+        const simd::Floats through =
+            simd::exp(-scaled * depth) * simd::one_minus(simd::exp(-rest), rest) * clear;
+        behind += backdrop != nullptr ? through * backdrop[3] : through;
     }
     const simd::Floats air = seen.air + e * whole_air;
     const simd::Floats lit =
@@ -61,7 +64,10 @@ AWAN_INLINE void finish_in_air(const SkyBehind& sky, const RestOfPhase& phase, c
     for (int channel = 0; channel < 3; ++channel) {
         const simd::Floats sum =
             radiance[channel] + air * tile.ambient[channel] + lit * tile.sun[channel] +
-            behind * (sky.horizon[channel] + (sky.zenith[channel] - sky.horizon[channel]) * high);
+            behind *
+                (backdrop != nullptr
+                     ? backdrop[channel]
+                     : sky.horizon[channel] + (sky.zenith[channel] - sky.horizon[channel]) * high);
         for (int lane = 0; lane < simd::kLanes; ++lane) to[lane][channel] = sum[lane];
     }
     for (int lane = 0; lane < simd::kLanes; ++lane) to[lane][3] = sky.behind ? 1.0f : alpha[lane];

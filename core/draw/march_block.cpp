@@ -72,28 +72,29 @@ AWAN_INLINE void rays_body(const BlockFrame& frame, const float* x, const float*
     directions(frame, x, y, to);
 }
 // `up`: of the block's axes, along the scene's y.
-AWAN_INLINE void finish_body(const MarchScene& scene, const float* up, const Tile& tile,
-                             float (*to)[4]) {
+AWAN_INLINE void finish_body(const MarchScene& scene, const float* up, const Floats* backdrop,
+                             const Tile& tile, float (*to)[4]) {
     const Floats high = up[0] * tile.x + up[1] * tile.y + up[2] * (1.0f + tile.z);
     const Floats radiance[3] = {tile.red, tile.green, tile.blue};
-    finish(scene.sky, scene.scaled, high, tile.depth, radiance, to);
+    finish(scene.sky, backdrop, scene.scaled, high, tile.depth, radiance, to);
 }
 
 AWAN_INLINE void finish_air_body(const MarchScene& scene, const AirTile& air, const SunInBlock& sun,
-                                 const float* up, const Tile& tile, float (*to)[4]) {
+                                 const float* up, const Floats* backdrop, const Tile& tile,
+                                 float (*to)[4]) {
     const Floats high = up[0] * tile.x + up[1] * tile.y + up[2] * (1.0f + tile.z);
     const Floats radiance[3] = {tile.red, tile.green, tile.blue};
     const Floats ray[3] = {tile.x, tile.y, tile.z};
-    finish_in_air(scene.sky, scene.air->phase, air, {tile.seen_air, tile.seen_lost},
+    finish_in_air(scene.sky, backdrop, scene.air->phase, air, {tile.seen_air, tile.seen_lost},
                   chords(sun, ray), scene.scaled, high, tile.depth, radiance, to);
 }
 
 struct Kernels {
     void (*rays)(const BlockFrame&, const float*, const float*, Floats*);
     void (*phases)(const MarchScene&, const SunInBlock&, Tile&, Floats*);
-    void (*finish)(const MarchScene&, const float*, const Tile&, float (*)[4]);
+    void (*finish)(const MarchScene&, const float*, const Floats*, const Tile&, float (*)[4]);
     void (*finish_air)(const MarchScene&, const AirTile&, const SunInBlock&, const float*,
-                       const Tile&, float (*)[4]);
+                       const Floats*, const Tile&, float (*)[4]);
     void (*measure)(const BlockParticles&, const Floats*, const Floats&, ActiveParticle&);
     void (*ratio)(const BlockParticles&, float, std::vector<ActiveParticle>&);
     void (*deposit)(const BlockParticles&, const std::vector<ActiveParticle>&, const Chunk&, Tile*);
@@ -105,58 +106,58 @@ struct Kernels {
     void (*march_haze)(const Shade&, const TileLight&, int, Tile&);
 };
 
-#define AWAN_KERNELS(name, attribute)                                                            \
-    attribute void rays_##name(const BlockFrame& frame, const float* x, const float* y,          \
-                               Floats* to) {                                                     \
-        rays_body(frame, x, y, to);                                                              \
-    }                                                                                            \
-    attribute void phases_##name(const MarchScene& scene, const SunInBlock& sun, Tile& tile,     \
-                                 Floats* rows) {                                                 \
-        phases_body(scene, sun, tile, rows);                                                     \
-    }                                                                                            \
-    attribute void finish_##name(const MarchScene& scene, const float* up, const Tile& tile,     \
-                                 float(*to)[4]) {                                                \
-        finish_body(scene, up, tile, to);                                                        \
-    }                                                                                            \
-    attribute void finish_air_##name(const MarchScene& scene, const AirTile& air,                \
-                                     const SunInBlock& sun, const float* up, const Tile& tile,   \
-                                     float(*to)[4]) {                                            \
-        finish_air_body(scene, air, sun, up, tile, to);                                          \
-    }                                                                                            \
-    attribute void measure_##name(const BlockParticles& p, const Floats* ray,                    \
-                                  const Floats& spread, ActiveParticle& a) {                     \
-        measure_body(p, ray, spread, a);                                                         \
-    }                                                                                            \
-    attribute void ratio_##name(const BlockParticles& p, float step,                             \
-                                std::vector<ActiveParticle>& active) {                           \
-        ratio_body(p, step, active);                                                             \
-    }                                                                                            \
-    attribute void deposit_##name(const BlockParticles& p,                                       \
-                                  const std::vector<ActiveParticle>& active, const Chunk& chunk, \
-                                  Tile* tiles) {                                                 \
-        deposit_body(p, active, chunk, tiles);                                                   \
-    }                                                                                            \
-    attribute void detail_##name(const DetailRays& rays, const Chunk& chunk, Tile* tiles) {      \
-        detail_body(rays, chunk, tiles);                                                         \
-    }                                                                                            \
-    attribute int too_deep_##name(const Tile& tile, float scaled, float allowed) {               \
-        return first_too_deep(tile, scaled, allowed);                                            \
-    }                                                                                            \
-    attribute void spread_##name(const Bilinear& b, const LightAt(*corners)[kChunk + 2],         \
-                                 int first, int last, bool albedo, bool air, TileLight& light) { \
-        spread_light(b, corners, first, last, albedo, air, light);                               \
-    }                                                                                            \
-    attribute void march_##name(const Shade& shade, const TileLight& light, int count,           \
-                                Tile& tile) {                                                    \
-        march_tile<false>(shade, light, count, tile);                                            \
-    }                                                                                            \
-    attribute void march_haze_##name(const Shade& shade, const TileLight& light, int count,      \
-                                     Tile& tile) {                                               \
-        march_tile<true>(shade, light, count, tile);                                             \
-    }                                                                                            \
-    constexpr Kernels kKernels_##name{rays_##name,       phases_##name,  finish_##name,          \
-                                      finish_air_##name, measure_##name, ratio_##name,           \
-                                      deposit_##name,    detail_##name,  too_deep_##name,        \
+#define AWAN_KERNELS(name, attribute)                                                              \
+    attribute void rays_##name(const BlockFrame& frame, const float* x, const float* y,            \
+                               Floats* to) {                                                       \
+        rays_body(frame, x, y, to);                                                                \
+    }                                                                                              \
+    attribute void phases_##name(const MarchScene& scene, const SunInBlock& sun, Tile& tile,       \
+                                 Floats* rows) {                                                   \
+        phases_body(scene, sun, tile, rows);                                                       \
+    }                                                                                              \
+    attribute void finish_##name(const MarchScene& scene, const float* up, const Floats* backdrop, \
+                                 const Tile& tile, float(*to)[4]) {                                \
+        finish_body(scene, up, backdrop, tile, to);                                                \
+    }                                                                                              \
+    attribute void finish_air_##name(const MarchScene& scene, const AirTile& air,                  \
+                                     const SunInBlock& sun, const float* up,                       \
+                                     const Floats* backdrop, const Tile& tile, float(*to)[4]) {    \
+        finish_air_body(scene, air, sun, up, backdrop, tile, to);                                  \
+    }                                                                                              \
+    attribute void measure_##name(const BlockParticles& p, const Floats* ray,                      \
+                                  const Floats& spread, ActiveParticle& a) {                       \
+        measure_body(p, ray, spread, a);                                                           \
+    }                                                                                              \
+    attribute void ratio_##name(const BlockParticles& p, float step,                               \
+                                std::vector<ActiveParticle>& active) {                             \
+        ratio_body(p, step, active);                                                               \
+    }                                                                                              \
+    attribute void deposit_##name(const BlockParticles& p,                                         \
+                                  const std::vector<ActiveParticle>& active, const Chunk& chunk,   \
+                                  Tile* tiles) {                                                   \
+        deposit_body(p, active, chunk, tiles);                                                     \
+    }                                                                                              \
+    attribute void detail_##name(const DetailRays& rays, const Chunk& chunk, Tile* tiles) {        \
+        detail_body(rays, chunk, tiles);                                                           \
+    }                                                                                              \
+    attribute int too_deep_##name(const Tile& tile, float scaled, float allowed) {                 \
+        return first_too_deep(tile, scaled, allowed);                                              \
+    }                                                                                              \
+    attribute void spread_##name(const Bilinear& b, const LightAt(*corners)[kChunk + 2],           \
+                                 int first, int last, bool albedo, bool air, TileLight& light) {   \
+        spread_light(b, corners, first, last, albedo, air, light);                                 \
+    }                                                                                              \
+    attribute void march_##name(const Shade& shade, const TileLight& light, int count,             \
+                                Tile& tile) {                                                      \
+        march_tile<false>(shade, light, count, tile);                                              \
+    }                                                                                              \
+    attribute void march_haze_##name(const Shade& shade, const TileLight& light, int count,        \
+                                     Tile& tile) {                                                 \
+        march_tile<true>(shade, light, count, tile);                                               \
+    }                                                                                              \
+    constexpr Kernels kKernels_##name{rays_##name,       phases_##name,  finish_##name,            \
+                                      finish_air_##name, measure_##name, ratio_##name,             \
+                                      deposit_##name,    detail_##name,  too_deep_##name,          \
                                       spread_##name,     march_##name,   march_haze_##name};
 
 AWAN_KERNELS(plain, )
@@ -263,11 +264,14 @@ class BlockMarch {
             const int across = std::min(kTileSide, image.width - x);
             if (across <= 0) continue;
             float pixels[kLanes][4];
+            Floats backdrop[4];
+            const Floats* const behind = scene_.sky.backdrop != nullptr ? backdrop : nullptr;
+            if (behind != nullptr) take_backdrop(t, backdrop);
             if (scene_.air != nullptr)
-                kernels_.finish_air(scene_, air_tile(*scene_.air, x, y), sun_, up, room_.tiles[t],
-                                    pixels);
+                kernels_.finish_air(scene_, air_tile(*scene_.air, x, y), sun_, up, behind,
+                                    room_.tiles[t], pixels);
             else
-                kernels_.finish(scene_, up, room_.tiles[t], pixels);
+                kernels_.finish(scene_, up, behind, room_.tiles[t], pixels);
             for (int j = 0; j < std::min(kTileSide, image.height - y); ++j)
                 std::memcpy(
                     image.pixels.data() +
@@ -277,6 +281,45 @@ class BlockMarch {
     }
 
   private:
+    // Pixel of a lane, in the picture: the last one's for those beyond it.
+    std::size_t pixel_of(int t, int lane) const {
+        const int x = std::min(left_ + t % 4 * kTileSide + lane % 4, scene_.width - 1);
+        const int y = std::min(top_ + t / 4 * kTileSide + lane / 4, scene_.height - 1);
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(scene_.width) +
+               static_cast<std::size_t>(x);
+    }
+
+    // r g b, and whether it is seen through the peak.
+    void take_backdrop(int t, Floats* to) const {
+        const SkyBehind& sky = scene_.sky;
+        const Backdrop& backdrop = *sky.backdrop;
+        for (int lane = 0; lane < kLanes; ++lane) {
+            const std::size_t pixel = pixel_of(t, lane);
+            for (std::size_t c = 0; c < 3; ++c) to[c][lane] = backdrop.rgb[3 * pixel + c];
+            const bool ground =
+                !backdrop.distance.empty() && std::isfinite(backdrop.distance[pixel]);
+            to[3][lane] = (ground ? sky.ground_peak : sky.sky_peak) ? 1.0f : 0.0f;
+        }
+    }
+
+    // Takes away what lies beyond the ground.
+    void cut_at_ground(const Chunk& chunk) {
+        for (int t = 0; t < kTiles; ++t) {
+            Tile& tile = room_.tiles[t];
+            if (tile.first > tile.last) continue;
+            Floats ground;
+            for (int lane = 0; lane < kLanes; ++lane)
+                ground[lane] = static_cast<float>(
+                    static_cast<double>(scene_.sky.backdrop->distance[pixel_of(t, lane)]) -
+                    reference_);
+            for (int k = tile.first; k <= tile.last; ++k) {
+                const float from = chunk.from + static_cast<float>(k) * chunk.step;
+                tile.profile[k] *= simd::min(
+                    simd::max((ground - from) * (1.0f / chunk.step), Floats{}), simd::all(1.0f));
+            }
+        }
+    }
+
     void place_rays() {
         frame_.forward = frame_direction(scene_, left_ + kBlockSide / 2, top_ + kBlockSide / 2);
         const SideAxes side = side_axes(frame_.forward);
@@ -409,6 +452,7 @@ class BlockMarch {
             const float allowed = scene_.step_depth;
             kernels_.deposit(p, active, chunk, room_.tiles);
             if (detail_.field != nullptr) kernels_.detail(detail_, chunk, room_.tiles);
+            if (scene_.cut) cut_at_ground(chunk);
             for (const Tile& tile : room_.tiles) {
                 if (!tile.alive) continue;
                 if (step > shortest_)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/draw/air.h"
+#include "core/draw/backdrop.h"
 #include "core/draw/image.h"
 #include "core/draw/march_bins.h"
 #include "core/draw/march_light.h"
@@ -18,8 +19,10 @@ namespace awan {
 // The sky as pixels see it.
 struct SkyBehind {
     float zenith[3] = {}, horizon[3] = {};
-    bool behind = false;  // drawn behind the cloud
-    bool peak = false;    // seen through the forward peak
+    bool behind = false;                         // drawn behind the cloud
+    bool peak = false;                           // seen through the forward peak
+    const Backdrop* backdrop = nullptr;          // instead of the two colours
+    bool sky_peak = false, ground_peak = false;  // then: which of the two goes through the peak
 };
 
 // What all blocks of a picture share.
@@ -39,7 +42,8 @@ struct MarchScene {
     float step_depth = 1;  // longest step in scaled optical depth, where it is seen
     SkyBehind sky;
     const DetailField* detail = nullptr;  // null: none
-    const Air* air = nullptr;  // null: there is no haze
+    const Air* air = nullptr;             // null: there is no haze
+    bool cut = false;  // whether rays end at backdrop->distance: there is matter below the ground
 };
 
 inline constexpr int kTileSide = 4;

@@ -103,9 +103,11 @@ AWAN_INLINE void rows_of(const PeakTable& table, const Chords& c, simd::Floats* 
     }
 }
 
-// How a tile's pixels end: what the march found, and the sky behind. [lane][channel].
-AWAN_INLINE void finish(const SkyBehind& sky, float scaled, const simd::Floats& up,
-                        const simd::Floats& depth, const simd::Floats radiance[3], float (*to)[4]) {
+// How a tile's pixels end: what the march found, and what is behind: `backdrop` (three colours, and 1 or 0: whether the
+// forward peak brings them), or, where that is null, the sky's gradient. [lane][channel].
+AWAN_INLINE void finish(const SkyBehind& sky, const simd::Floats* backdrop, float scaled,
+                        const simd::Floats& up, const simd::Floats& depth,
+                        const simd::Floats radiance[3], float (*to)[4]) {
     float alpha[simd::kLanes], light[3][simd::kLanes];
     simd::Floats behind{};
     const simd::Floats e = simd::exp(-depth);
@@ -114,18 +116,22 @@ AWAN_INLINE void finish(const SkyBehind& sky, float scaled, const simd::Floats& 
     // exp(-k tau) - exp(-tau) without cancellation, k < 1.
     if (sky.peak) {
         const simd::Floats rest = (1.0f - scaled) * depth;
-        behind += simd::exp(-scaled * depth) * simd::one_minus(simd::exp(-rest), rest);
+        const simd::Floats through =
+            simd::exp(-scaled * depth) * simd::one_minus(simd::exp(-rest), rest);
+        behind += backdrop != nullptr ? through * backdrop[3] : through;
     }
     float share[simd::kLanes];  // of the zenith's colour
     std::memcpy(share, &up, sizeof share);
-    if (sky.behind || sky.peak)
+    if (backdrop == nullptr && (sky.behind || sky.peak))
         for (float& one : share)
             one = shader::sky_radiance(one, shader::vec3(1.0f), shader::vec3(0.0f)).x;
     simd::Floats high;
     std::memcpy(&high, share, sizeof high);
     for (int c = 0; c < 3; ++c) {
         const simd::Floats sum =
-            radiance[c] + behind * (sky.horizon[c] + (sky.zenith[c] - sky.horizon[c]) * high);
+            radiance[c] + behind * (backdrop != nullptr
+                                        ? backdrop[c]
+                                        : sky.horizon[c] + (sky.zenith[c] - sky.horizon[c]) * high);
         std::memcpy(light[c], &sum, sizeof sum);
     }
     std::memcpy(alpha, &opaque, sizeof alpha);

@@ -45,6 +45,20 @@ LightSources light_sources(const Scene& scene, const Plan& plan) {
     return sources;
 }
 
+// Over a ground no sky shines from below.
+void light_from_ground(const Scene& scene, const ParticleSet& particles, const GroundLight& ground,
+                       LightSources& sources) {
+    if (particles.size() == 0) return;
+    const Bounds bounds = bounds_of(particles);
+    if (!has_ground(*scene, bounds)) return;
+    const glm::dvec3 middle = 0.5 * (bounds.min + bounds.max);
+    const double low = ground.height + 0.25 * (bounds.max.y - ground.height);
+    sources.below = glm::dvec3(0);
+    if (ground.into_cloud)
+        sources.below =
+            0.5 * mean_radiance_below(ground, {middle.x, std::max(middle.y, low), middle.z});
+}
+
 // A particle in the eye's frame.
 struct Seen {
     glm::dvec3 q;
@@ -191,12 +205,16 @@ void radix_sort(std::vector<std::uint64_t>& keys) {
 
 SplatList make_splats(const Scene& scene, const ParticleSet& particles, const View& view,
                       const Plan& plan, const Lighting& lighting, const Air* air) {
-    const LightSources sources = light_sources(scene, plan);
+    LightSources sources = light_sources(scene, plan);
+    light_from_ground(scene, particles, lighting.ground, sources);
+    // A picture of splats cannot end its rays: of what the ground hides, it leaves out whole particles.
+    const bool cut = scene->ground && view.eye.y > scene->ground->height;
     SplatList list;
     std::vector<Seen> seen(particles.size());
     std::vector<std::uint64_t> order;
     order.reserve(particles.size());
     for (std::size_t i = 0; i < particles.size(); ++i) {
+        if (cut && particles.center[i].y < scene->ground->height) continue;
         seen[i] = see(scene, particles, i, view);
         const gl::TileBox& tiles = seen[i].tiles;
         if (tiles.last_x < tiles.first_x || tiles.last_y < tiles.first_y) continue;

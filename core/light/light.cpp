@@ -9,6 +9,7 @@
 #include "core/gl/programs.h"
 #include "core/gl/tile_lists.h"
 #include "core/light/light_grid.h"
+#include "core/light/sun_depth.h"
 #include "core/scene/outside.h"
 
 namespace awan {
@@ -19,6 +20,7 @@ constexpr int kTile = 8;  // texels a side, as in light_columns.glsl
 constexpr double kReach = 3.3;
 // Half width, in s, of the smooth step that stands for a Gaussian's mass (light_columns.glsl).
 constexpr double kSpread = 1.88;
+constexpr int kShadowCells = 64;  // along the cloud's longest side, of its shadow on the ground
 constexpr std::uint64_t kMaxEntries =
     1u << 21;  // about half a second of llvmpipe between looks at the deadline
 constexpr float kSampleDistance =
@@ -159,11 +161,23 @@ Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const One
     return samples;
 }
 
+// No light of the cloud's own: direct sun and open sky.
+GroundLight ground_under(const Scene& scene, const ParticleSet& particles, const Plan& plan) {
+    GroundLight ground = bare_ground(*scene);
+    if (particles.size() == 0 || !has_ground(*scene, bounds_of(particles))) return ground;
+    ground.into_cloud = plan.on(Effect::kGroundLight);
+    if (plan.on(Effect::kGroundShadow))
+        cast_shadow(sun_depth(particles, sun_direction(scene->sun), kShadowCells, 1),
+                    scene->medium.albedo, 0, scene->medium.g, 1, ground);
+    return ground;
+}
+
 }  // namespace
 
 Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const Plan& plan,
                        Device& device, const Deadline& deadline) {
     Lighting lighting;
+    lighting.ground = ground_under(scene, particles, plan);
     if (!plan.on(Effect::kSelfShadow) || particles.size() == 0) return lighting;
     const auto gain = [&](double half_angle) {
         return plan.on(Effect::kMultipleScattering)
@@ -181,7 +195,7 @@ Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const P
             lighting.particles[i].scattered = (*sun)[2 * i + 1];
         }
     }
-    if (plan.on(Effect::kSkyLight)) {
+    if (plan.on(Effect::kSkyLight) || lighting.ground.into_cloud) {
         auto sky = one_light(particles, {{0, 1, 0}, gain(kSkyGathering), true}, device, deadline);
         if (!sky.ok()) return sky.error();
         for (std::size_t i = 0; i < particles.size(); ++i) {

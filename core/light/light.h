@@ -7,6 +7,7 @@
 
 #include "core/deadline.h"
 #include "core/gl/device.h"
+#include "core/light/ground_light.h"
 #include "core/plan/plan.h"
 
 namespace awan {
@@ -26,6 +27,7 @@ struct Lighting {
     // One a particle; EMPTY when no light is shadowed: then direct, from_above and from_below are
     // 1, scattered 0.
     std::vector<ParticleLight> particles;
+    GroundLight ground;  // of a scene that has one, its `shadow` only, as the plan's effects say
 };
 
 // Half angles within which forward-scattered light counts as going on, radians. The sources leave them open: the sun's is

@@ -41,8 +41,9 @@ std::size_t LightCache::bytes_in_use() const {
 
 std::string light_key(const Scene& scene, const TransportSettings& settings) {
     char text[96];
-    std::snprintf(text, sizeof text, ":%d:%d:%a:%d:%d", settings.cells, settings.sun_cells,
-                  settings.tolerance, settings.max_sweeps, settings.sky ? 1 : 0);
+    std::snprintf(text, sizeof text, ":%d:%d:%a:%d:%d:%d:%d", settings.cells, settings.sun_cells,
+                  settings.tolerance, settings.max_sweeps, settings.sky ? 1 : 0,
+                  settings.ground ? 1 : 0, settings.ground_shadow ? 1 : 0);
     return light_fingerprint(scene) + text;
 }
 

@@ -26,6 +26,10 @@ inline constexpr float kMaxCellDepth = 30;
 // Radiance that enters the grid, travelling along `direction` (unit).
 using Inflow = std::function<double(const glm::dvec3& direction)>;
 
+// Radiance that enters along an upward direction (unit) at a place of the grid's faces (cells from its corner). Beside
+// Inflow, which it adds to: light from a ground, which is not the same everywhere.
+using InflowFromBelow = std::function<double(const glm::dvec3& direction, const glm::dvec3& place)>;
+
 // Memory that sweeps of one grid reuse.
 struct SweepSpace {
     std::array<std::vector<float>, 4> sums, rows, layers;
@@ -37,6 +41,7 @@ struct SweepSpace {
 // cell along the direction (positive where diamond is not, second order where cells are thin).
 // Four octants' sums are kept apart and added in a fixed order: the same bytes for every number of threads.
 void sweep(const SweepGrid& grid, const Ordinates& ordinates, std::span<const float> source,
-           const Inflow& inflow, int threads, SweepSpace& space, std::span<float> moments);
+           const Inflow& inflow, int threads, SweepSpace& space, std::span<float> moments,
+           const InflowFromBelow& from_below = {});
 
 }  // namespace awan

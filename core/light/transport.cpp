@@ -8,6 +8,7 @@
 
 #include "core/light/diffusion.h"
 #include "core/light/gmres.h"
+#include "core/light/ground_band.h"
 #include "core/light/legendre.h"
 #include "core/light/sky_inflow.h"
 #include "core/light/sun_depth.h"
@@ -40,6 +41,7 @@ struct Matter {
     std::vector<float> scattered;          // of each cell: depth x albedo of what is not the peak
     std::vector<float> albedo;             // of each cell, true
     std::array<double, kOrders> moment{};  // chi_l of the phase function without its peak
+    bool over_ground = false;              // no sky comes from below
 };
 
 // What shines on it.
@@ -51,6 +53,8 @@ struct Shine {
     const SkyInflow* physical = nullptr;
     int channel = 0;
     double share = 0;
+
+    InflowFromBelow from_below{};  // the ground's light
 
     bool has_sky() const { return physical != nullptr || zenith > 0 || horizon > 0; }
 };
@@ -144,9 +148,13 @@ Result<std::vector<float>> solve(const Matter& matter, const Ordinates& ordinate
     }
     Inflow inflow;
     if (shine.has_sky()) inflow = [&](const glm::dvec3& d) { return sky_from(shine, -d); };
+    if (inflow && matter.over_ground)
+        inflow = [open = std::move(inflow)](const glm::dvec3& direction) {
+            return direction.y > 0 ? 0.0 : open(direction);
+        };
     SweepSpace space;
     std::vector<float> right(source.size());
-    sweep(matter.grid, ordinates, source, inflow, threads, space, right);
+    sweep(matter.grid, ordinates, source, inflow, threads, space, right, shine.from_below);
 
     std::array<float, kHarmonics> moment{};
     for (std::size_t m = 0; m < harmonics_count; ++m)
@@ -263,6 +271,15 @@ std::vector<glm::vec3> colored_albedo(const Scene& scene, const ParticleSet& par
     return albedo;
 }
 
+// A lattice without what is under the ground: from above it is not there.
+Lattice above_ground(double height, Lattice lattice) {
+    if (!(lattice.origin.y < height)) return lattice;
+    const double top = lattice.origin.y + lattice.cell * lattice.cells.y;
+    lattice.origin.y = height;
+    lattice.cells.y = std::max(1, static_cast<int>(std::ceil((top - height) / lattice.cell)));
+    return lattice;
+}
+
 // Without a grid of light the eye pass still needs the particles' colours, and has them from a grid.
 void color_only(const Scene& scene, const ParticleSet& particles, int threads,
                 TransportLight& light) {
@@ -278,8 +295,8 @@ void color_only(const Scene& scene, const ParticleSet& particles, int threads,
 }  // namespace
 
 std::size_t TransportLight::bytes() const {
-    std::size_t bytes =
-        sizeof *this + sun.depth.capacity() * sizeof(float) + albedo.capacity() * sizeof(glm::vec3);
+    std::size_t bytes = sizeof *this + sun.depth.capacity() * sizeof(float) +
+                        albedo.capacity() * sizeof(glm::vec3) + ground.bytes();
     for (const LightBand& band : bands) bytes += band.moments.capacity() * sizeof(band.moments[0]);
     return bytes;
 }
@@ -289,11 +306,17 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
                                        int threads, const Deadline& deadline) {
     TransportLight light;
     light.sky = settings.sky;
+    light.ground = bare_ground(*scene);
     if (auto error = deadline.over()) return *error;
     if (particles.size() == 0 || !(survey.total_mass > 0)) return light;
     const glm::dvec3 towards_sun = sun_direction(scene->sun);
     light.sun = sun_depth(particles, towards_sun, settings.sun_cells, threads);
+    const bool over_ground = has_ground(*scene, survey.bounds);
+    light.ground.into_cloud = over_ground && settings.ground;
+    const bool shade_ground = over_ground && settings.ground_shadow;
     if (settings.cells == 0) {
+        if (shade_ground)
+            cast_shadow(light.sun, scene->medium.albedo, 0, scene->medium.g, threads, light.ground);
         if (!particles.color.empty()) color_only(scene, particles, threads, light);
         return light;
     }
@@ -309,8 +332,9 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
     const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
     const double rest = std::min(kLeftOut, kLeftOutShare * deepest);
     // Of a great many particles that are large beside a cell there is a bound: what they add up to is smooth.
-    const Lattice coarse = lattice_around_matter(particles, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, rest,
-                                                 settings.cells, threads, kMaxCoarseWork);
+    Lattice coarse = lattice_around_matter(particles, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, rest,
+                                           settings.cells, threads, kMaxCoarseWork);
+    if (over_ground) coarse = above_ground(scene->ground->height, coarse);
     int sub = settings.cells <= 32 ? 3 : 2;
     while (sub > 1 && lattice_work(particles, coarse.cell / sub, coarse.cells * sub) > kMaxFineWork)
         --sub;
@@ -344,8 +368,9 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
     matter.scattered.resize(mean.size());
     matter.albedo.resize(mean.size());
     if (colored) light.albedo = colored_albedo(scene, particles, coarse, mean, threads);
+    matter.over_ground = over_ground;
     const Ordinates ordinates = make_ordinates();
-    for (const Shine& shine : parts) {
+    const auto solved = [&](const Shine& shine) -> Result<LightBand> {
         for (std::size_t i = 0; i < mean.size(); ++i) {
             const double a =
                 colored ? static_cast<double>(light.albedo[i][channel_of(shine)]) : albedo;
@@ -371,8 +396,31 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
                                          static_cast<float>((1 - f) * matter.moment[l]) *
                                          (*moments)[i * count + m];
         }
-        light.bands.push_back(std::move(band));
+        return band;
+    };
+    for (const Shine& shine : parts) {
+        auto band = solved(shine);
+        if (!band.ok()) return band.error();
+        light.bands.push_back(*std::move(band));
     }
+    if (!over_ground || !(settings.ground || settings.ground_shadow)) return light;
+
+    if (shade_ground) cast_shadow(light.sun, albedo, f, g, threads, light.ground);
+    std::vector<float> depth(mean.size());
+    for (std::size_t i = 0; i < mean.size(); ++i)
+        depth[i] = mean[i] * static_cast<float>(coarse.cell);
+    BeamSource single{beam.empty() ? nullptr : &beam, outside.sun, -towards_sun, {}, albedo};
+    for (std::size_t l = 0; l < kOrders; ++l) single.moment[l] = (1 - f) * matter.moment[l];
+    const auto from_below = [&](const InflowFromBelow& inflow, int channel) {
+        Shine shine;
+        shine.color = glm::vec3(0);
+        shine.color[channel] = 1;
+        shine.from_below = inflow;
+        return solved(shine);
+    };
+    if (Status failed = ground_and_cloud(outside.sky, depth, kept, single, colored, settings,
+                                         from_below, threads, light))
+        return *failed;
     return light;
 }
 

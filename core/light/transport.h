@@ -13,6 +13,7 @@
 
 #include "core/deadline.h"
 #include "core/generate/particle_set.h"
+#include "core/light/ground_light.h"
 #include "core/plan/transport_settings.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
@@ -62,6 +63,7 @@ struct TransportLight {
         0;  // f = g^(L+1): the share of scattering that is taken as the forward peak. Radiance from
             // `bands` is dimmed towards the eye by exp(-(1 - albedo f) tau), not exp(-tau)
     bool sky = true;      // whether the sky's light is in it, as TransportSettings asked
+    GroundLight ground;   // of a scene that has one; as TransportSettings asked
     int sweeps = 0;       // transport sweeps it took, all bands
     double residual = 0;  // of the solve, relative; largest of the bands
 

@@ -83,6 +83,10 @@ Criterion criterion(Effect effect, const Scene& scene, const Survey& survey) {
             if (scene->sky.none) return {false, "the scene has no sky"};
             if (!sky) return {false, "the sky is black"};
             return {true, "the sky shines on the cloud from all sides"};
+        case Effect::kGroundLight:
+        case Effect::kGroundShadow:
+            if (!scene->ground) return {false, "the scene has no ground"};
+            return {true, "the scene has a ground"};
         case Effect::kInterior:
             return survey.eye_inside
                        ? Criterion{true, "the eye is within 4 s of a particle"}
@@ -240,6 +244,8 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
     plan.rung_reason = choice.reason;
     if (choice.forecast.rung->method == Method::kMarch) {
         plan.transport = transport_settings(*choice.forecast.rung);
+        plan.transport.ground = plan.on(Effect::kGroundLight);
+        plan.transport.ground_shadow = plan.on(Effect::kGroundShadow);
         plan.transport.sky = scene->effects[static_cast<int>(Effect::kSkyLight)] != Switch::kOff;
     }
 }

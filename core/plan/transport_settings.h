@@ -11,6 +11,9 @@ struct TransportSettings {
     double tolerance = 1e-3;  // of the solve, relative to its source
     int max_sweeps = 40;      // a band; each is one walk through all cells and directions
     bool sky = true;          // whether the sky's light is wanted
+    bool ground = false;      // whether the ground's light goes into the cloud
+    bool ground_shadow =
+        false;  // whether the cloud shades the ground and sends it light of its own
 };
 
 // Of a rung of Method::kMarch.

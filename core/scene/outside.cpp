@@ -25,6 +25,7 @@ Outside outside_of(const SceneDraft& scene) {
     } else {
         outside.sun = scene.sun.intensity * scene.sun.color;
     }
+    if (scene.ground && outside.to_sun.y < 0) outside.sun = glm::dvec3(0);
     SkyDome& dome = outside.sky;
     dome.physical = sky.physical;
     if (sky.none) return outside;

@@ -20,7 +20,7 @@ struct SkyDome {
 
 struct Outside {
     glm::dvec3 to_sun{0, 1, 0};  // unit
-    glm::dvec3 sun{0};           // irradiance at normal incidence
+    glm::dvec3 sun{0};           // irradiance at normal incidence; none from below a ground
     SkyDome sky;
 };
 

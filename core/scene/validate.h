@@ -7,7 +7,7 @@ namespace awan {
 
 // Checks every range of core/scene/limits.h and every rule between fields. The error of the first
 // value that fails carries its JSON pointer and says what was allowed. What the contract has but
-// this version lacks ("auto" sun colour, later effects, a ground in any rung but truth) is refused
+// this version lacks (later effects) is refused
 // with kUnsupported.
 Result<Scene> validate(SceneDraft draft);
 

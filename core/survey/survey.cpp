@@ -7,6 +7,7 @@
 
 #include "core/generate/gaussian.h"
 #include "core/parallel.h"
+#include "core/survey/ground_view.h"
 #include "core/survey/haze_view.h"
 #include "core/survey/optical_depth.h"
 #include "core/survey/volume.h"
@@ -114,6 +115,7 @@ Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int thre
         survey.max_extinction = std::max(survey.max_extinction, static_cast<double>(cell));
     survey.detail.extinction = typical_extinction(survey.volume);
     survey.haze = haze_figures(scene, survey);
+    survey.ground = ground_view(scene, particles, survey);
     if (auto error = deadline.over()) return *error;
     return survey;
 }

@@ -30,6 +30,14 @@ struct View {
     double aspect = 1;           // width / height
 };
 
+// What a ground does to the picture (core/survey/ground_view.h). All 0 where the scene has none, or where the cloud lies below it.
+struct GroundView {
+    double seen = 0;   // share of the picture's rays that meet it, clouds or not; 0 from below
+    double shade = 0;  // largest share of its light that the cloud's shadow takes, on those rays
+    double light = 0;  // fluence that it sends up, unshaded, over that of sun and sky at the cloud
+    bool matter_below = false;  // whether some of the cloud lies below it
+};
+
 // Of the haze in view (core/survey/haze_view.h), on a raster of rays; 0 without haze. Optical depths, largest of all rays,
 // kMostHazeDepth at most.
 inline constexpr double kMostHazeDepth = 1e6;  // level rays may have an infinite one
@@ -62,6 +70,7 @@ struct Survey {
     double max_projected_px = 0;     //   infinite for a particle that holds the eye
     DetailFigures detail;            // what detail would be made for
     bool eye_inside = false;         // the eye is within 4 s of a particle
+    GroundView ground;
     HazeFigures haze;
 };
 

@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/light/sun_depth.h"
 #include "core/plan/ladder.h"
 #include "core/scene/validate.h"
 #include "core/truth/accuracy_pictures.h"
@@ -28,6 +29,7 @@ constexpr double kReferenceShare = 0.5;       // of the time allowed
 constexpr double kRungShare = 0.6;            // of what is left, for one rung at most
 constexpr double kLongRunMs = 500;  // a first run this long is counted: the picture at the
                                     // reference's size has warmed up what there is to warm
+constexpr int kShadowCells = 64;    // of the cloud's shadow on the ground
 constexpr double kEnoughMs = 3000;  // of counted runs of one rung
 
 // Not the seed of rung truth: noise of one picture must not look like that of the other.
@@ -90,6 +92,15 @@ Result<Scene> reference_sized(const Scene& scene, PictureSize size) {
     return validate(std::move(draft));
 }
 
+// In direct sun and under an open sky.
+GroundLight ground_below(const Scene& scene, const Planned& planned) {
+    GroundLight ground = bare_ground(*scene);
+    if (planned.particles.size() > 0 && has_ground(*scene, planned.survey.bounds))
+        cast_shadow(sun_depth(planned.particles, sun_direction(scene->sun), kShadowCells, 1),
+                    scene->medium.albedo, 0, scene->medium.g, 1, ground);
+    return ground;
+}
+
 Result<std::vector<const Rung*>> chosen_rungs(const AccuracyOptions& options) {
     std::vector<const Rung*> rungs;
     if (options.rungs.empty()) {
@@ -127,6 +138,7 @@ struct Reference {
     View view;
     Image mean;                       // of `truth`
     std::vector<std::uint8_t> shown;  // the samples of its PNG, over the sky
+    GroundLight ground;               // the same under every picture: what differs is the cloud
 };
 
 // How large the reference is and how many paths a pixel it has.
@@ -272,7 +284,7 @@ Result<RungCost> measure_rung(const Scene& scene, const Rung& rung, const Refere
         picture.height != reference.truth.half_a.height)
         return Error{ErrorCode::kInternal, "", "a render has not the size that was asked for"};
     cost.error = picture_error(picture, reference.truth);
-    const Image seen = over_sky(picture, scene, reference.view);
+    const Image seen = over_sky(picture, scene, reference.view, reference.ground);
     cost.flip =
         flip(reference.shown, display_bytes(seen, exposure), picture.width, picture.height).mean;
     cost.difference = relative_difference(picture, reference.mean);
@@ -316,10 +328,6 @@ Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOption
                                         const RenderScene& render, const Progress& progress,
                                         const Deadline& deadline) {
     const auto start = Clock::now();
-    if (scene->ground)
-        return Error{ErrorCode::kUnsupported, "/ground",
-                     "what accuracy costs is measured without a ground in this version: no rung "
-                     "but truth has one; leave it out"};
     const auto rungs = chosen_rungs(options);
     if (!rungs) return rungs.error();
     Steps steps(progress, options.on_step);
@@ -342,7 +350,7 @@ Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOption
     auto small = reference_sized(scene, size);
     if (!small) return small.error();
     const View view = resolve_view((*small)->camera, (*small)->image, planned->survey.bounds);
-    Reference reference{{}, *small, view, {}, {}};
+    Reference reference{{}, *small, view, {}, {}, ground_below(scene, *planned)};
 
     // The reference.
     TruthOptions truth_options;
@@ -369,7 +377,7 @@ Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOption
     planned->particles = {};
 
     reference.mean = mean_of(reference.truth);
-    const Image seen = over_sky(reference.mean, scene, view);
+    const Image seen = over_sky(reference.mean, scene, view, reference.ground);
     reference.shown = display_bytes(seen, report.exposure);
     report.reference.width = size.width;
     report.reference.height = size.height;

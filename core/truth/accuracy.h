@@ -63,8 +63,8 @@ struct AccuracyOptions {
 using RenderScene = std::function<Result<Rendered>(const Scene&, const Deadline&)>;
 
 // The errors are measured with the reference's own rays, the times at the scene's own size.
-// Errors: of `render` and of trace_truth; kUnsupported for a scene with a ground, which no rung but
-// the reference has; kInvalidScene at /accuracy/rung for a name that is no rung's.
+// A ground lies under the pictures as the sky does; it is no part of the errors but by its light in the cloud.
+// Errors: of `render` and of trace_truth; kInvalidScene at /accuracy/rung for a name that is no rung's.
 Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOptions& options,
                                         const RenderScene& render, const Progress& progress,
                                         const Deadline& deadline);

@@ -2,29 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 
+#include "core/draw/backdrop.h"
 #include "core/formats/image_file.h"
 #include "core/formats/tone.h"
-#include "core/scene/outside.h"
 
 namespace awan {
 
-Image over_sky(const Image& transparent, const Scene& scene, const View& view) {
+Image over_sky(const Image& transparent, const Scene& scene, const View& view,
+               const GroundLight& ground) {
     Image image = transparent;
-    image.opaque = true;
-    const SkyDome sky = outside_of(scene).sky;
-    float* pixel = image.pixels.data();
-    for (int y = 0; y < image.height; ++y) {
-        const double v = (1 - (y + 0.5) / image.height * 2) * view.tan_half_fov;
-        for (int x = 0; x < image.width; ++x, pixel += 4) {
-            const double u = ((x + 0.5) / image.width * 2 - 1) * view.tan_half_fov * view.aspect;
-            const glm::dvec3 ray = glm::normalize(view.forward + u * view.right + v * view.up);
-            const glm::vec3 behind(sky_radiance(sky, ray));
-            for (int c = 0; c < 3; ++c) pixel[c] += (1 - pixel[3]) * behind[c];
-            pixel[3] = 1;
-        }
-    }
+    lay_under(image, make_backdrop(scene, view, image.width, image.height, ground, 1));
     return image;
 }
 

@@ -5,13 +5,15 @@
 #include <vector>
 
 #include "core/draw/image.h"
+#include "core/light/ground_light.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
 
 namespace awan {
 
-// A picture over nothing, laid over the scene's sky.
-Image over_sky(const Image& transparent, const Scene& scene, const View& view);
+// A picture over nothing, laid over the scene's sky and the ground as `ground` has it lit.
+Image over_sky(const Image& transparent, const Scene& scene, const View& view,
+               const GroundLight& ground);
 
 // The samples of its PNG: 3 bytes a pixel, sRGB after exposure (stops) and the tone curve. What is
 // transparent is black.

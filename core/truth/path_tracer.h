@@ -9,6 +9,8 @@
 // below 2% of a pixel.
 //
 // The ground (Scene's `ground`) is an infinite Lambertian plane, seen and felt from above only: from below it is not there.
+// Its light from the sun comes from all of the sun's disc (angular radius .2665 degrees, even): shadows have a penumbra. Everywhere
+// else the sun is a point.
 #pragma once
 
 #include <cstdint>

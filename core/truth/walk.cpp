@@ -23,7 +23,9 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kNoSun = 60;  // optical depth: e^-60 of the sun is none
+constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kSunDisc = 0.2665 * pi / 180;  // angular radius
+constexpr double kNoSun = 60;                   // optical depth: e^-60 of the sun is none
 
 // t in [a, b] at which the listed particles of a brick have given optical depth `left` from a on.
 double where_listed(const Matter& m, std::size_t brick, const glm::dvec3& o, const glm::dvec3& d,
@@ -163,6 +165,18 @@ struct Walk {
             radiance += weight * sky_radiance(s, along);
     }
 
+    // A direction within the sun's disc, even over it; s.to_sun where those below the ground would be tried for ever.
+    glm::dvec3 in_sun_disc() {
+        for (int draw = 0; draw < 128; ++draw) {
+            const PathRandom::Pair q = random.signed_pair();
+            if (!(q.a * q.a + q.b * q.b < 1)) continue;
+            const glm::dvec3 d =
+                glm::normalize(s.to_sun + kSunDisc * (q.a * s.sun_u + q.b * s.sun_v));
+            if (d.y > 0) return d;
+        }
+        return s.to_sun;
+    }
+
     glm::dvec3 off_ground() {
         // Lambert's cosine: uniform in the disc, raised to the hemisphere (Malley).
         for (int draw = 0; draw < 128; ++draw) {
@@ -186,9 +200,9 @@ struct Walk {
                 weight *= s.ground_albedo;
                 lose(before, weight);
                 if (weight == glm::dvec3(0)) return;
-                if (sun && s.to_sun.y > 0)
-                    radiance += weight * (s.to_sun.y / pi * std::exp(-depth_to_sun(matter, p))) *
-                                s.sun_irradiance;
+                if (sun && s.to_sun.y > 0 &&
+                    !free_flight(matter, p, in_sun_disc(), 0, kFar, random).collided)
+                    radiance += weight * (s.to_sun.y / pi) * s.sun_irradiance;
                 since_start = 0;
                 on = off_ground();
                 if (sky && s.sky == SkySampling::kNextEvent) sky_by_next_event(p, on, weight);
@@ -284,6 +298,9 @@ Setting setting_of(const Scene& scene, const Matter& matter, const TruthOptions&
     s.to_sun = outside.to_sun;
     s.sun_irradiance = outside.sun;
     s.dome = outside.sky;
+    const glm::dvec3 aside = std::abs(s.to_sun.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    s.sun_u = glm::normalize(glm::cross(s.to_sun, aside));
+    s.sun_v = glm::cross(s.to_sun, s.sun_u);
     s.sky = options.sky;
     if (scene->ground) {
         s.has_ground = true;

@@ -22,6 +22,7 @@ struct Setting {
     PhaseLaw phase;
     double albedo = 1;
     glm::dvec3 to_sun{0, 1, 0};
+    glm::dvec3 sun_u{1, 0, 0}, sun_v{0, 0, 1};  // unit, at right angles to it
     glm::dvec3 sun_irradiance{0};
     SkyDome dome;
     SkySampling sky = SkySampling::kEscape;

@@ -1,0 +1,74 @@
+#include "core/draw/backdrop.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/generate/gaussian.h"
+#include "core/parallel.h"
+
+namespace awan {
+namespace {
+
+constexpr double kReach = 4;  // of s: no matter beyond
+
+bool above_ground(const Scene& scene, const View& view) {
+    return scene->ground && view.eye.y > scene->ground->height;
+}
+
+}  // namespace
+
+bool wants_backdrop(const Scene& scene, const View& view) {
+    const Sky& sky = scene->sky;
+    return (sky.physical && !sky.none) || above_ground(scene, view);
+}
+
+Backdrop make_backdrop(const Scene& scene, const View& view, int width, int height,
+                       const GroundLight& ground, int threads) {
+    Backdrop backdrop;
+    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    backdrop.width = width;
+    backdrop.height = height;
+    backdrop.rgb.resize(3 * pixels);
+    const bool grounded = above_ground(scene, view);
+    if (grounded) backdrop.distance.resize(pixels);
+    const SkyDome sky = outside_of(scene).sky;
+    parallel_for(threads, static_cast<std::size_t>(height), [&](std::size_t row) {
+        const double v = (1 - (static_cast<double>(row) + 0.5) / height * 2) * view.tan_half_fov;
+        for (int x = 0; x < width; ++x) {
+            const double u = ((x + 0.5) / width * 2 - 1) * view.tan_half_fov * view.aspect;
+            const glm::dvec3 d = glm::normalize(view.forward + u * view.right + v * view.up);
+            const std::size_t at =
+                row * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+            double distance = std::numeric_limits<double>::infinity();
+            if (grounded && d.y < 0) distance = (ground.height - view.eye.y) / d.y;
+            const glm::dvec3 seen =
+                std::isinf(distance)
+                    ? sky_radiance(sky, d)
+                    : radiance_at(ground, view.eye.x + distance * d.x, view.eye.z + distance * d.z);
+            for (int c = 0; c < 3; ++c)
+                backdrop.rgb[3 * at + static_cast<std::size_t>(c)] = static_cast<float>(seen[c]);
+            if (grounded) backdrop.distance[at] = static_cast<float>(distance);
+        }
+    });
+    return backdrop;
+}
+
+void lay_under(Image& picture, const Backdrop& backdrop) {
+    for (std::size_t i = 0; i < picture.pixel_count(); ++i) {
+        float* const pixel = picture.pixels.data() + 4 * i;
+        for (std::size_t c = 0; c < 3; ++c) pixel[c] += (1 - pixel[3]) * backdrop.rgb[3 * i + c];
+        pixel[3] = 1;
+    }
+    picture.opaque = true;
+}
+
+bool matter_below_ground(const Scene& scene, const View& view, const ParticleSet& particles) {
+    if (!above_ground(scene, view)) return false;
+    for (std::size_t i = 0; i < particles.size(); ++i)
+        if (particles.center[i].y - kReach * gaussian_s(particles, i) < scene->ground->height)
+            return true;
+    return false;
+}
+
+}  // namespace awan

@@ -1,0 +1,200 @@
+#include "core/light/ground_gather.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "core/light/transport.h"
+#include "core/parallel.h"
+#include "core/survey/projection.h"
+
+namespace awan {
+namespace {
+
+using std::numbers::pi;
+
+constexpr int kRays = 160;      // a node
+constexpr int kSide = 33;       // nodes
+constexpr double kOpaque = 12;  // scaled optical depth behind which nothing is seen
+
+std::size_t cell_index(const glm::ivec3& n, const glm::ivec3& c) {
+    return (static_cast<std::size_t>(c.z) * static_cast<std::size_t>(n.y) +
+            static_cast<std::size_t>(c.y)) *
+               static_cast<std::size_t>(n.x) +
+           static_cast<std::size_t>(c.x);
+}
+
+// Golden-angle spiral: even in height and turn.
+struct Spiral {
+    double along, turn;
+};
+Spiral spiral(int i, int count) {
+    return {(i + 0.5) / count, i * pi * (3 - std::sqrt(5.0))};
+}
+
+// Light that comes to p (cells) from direction d: what the cloud sends, and how much of what is behind it.
+struct Seen {
+    glm::dvec3 light{0};
+    double through = 1;
+};
+Seen look(const CloudAbove& cloud, const glm::dvec3& p, const glm::dvec3& d) {
+    Seen seen;
+    double enter = 0, leave = std::numeric_limits<double>::infinity();
+    for (int a = 0; a < 3; ++a) {
+        if (std::abs(d[a]) < 1e-12) {
+            if (p[a] < 0 || p[a] > cloud.cells[a]) return seen;
+            continue;
+        }
+        const double t0 = -p[a] / d[a], t1 = (cloud.cells[a] - p[a]) / d[a];
+        enter = std::max(enter, std::min(t0, t1));
+        leave = std::min(leave, std::max(t0, t1));
+    }
+    if (!(enter < leave)) return seen;
+    const std::array<double, kHarmonics> y = harmonics(-d);
+    std::array<float, kHarmonics> towards{};
+    for (std::size_t i = 0; i < kHarmonics; ++i) towards[i] = static_cast<float>(y[i]);
+
+    // From cell to cell (Amanatides & Woo 1987).
+    glm::ivec3 at;
+    glm::dvec3 next, per;
+    for (int a = 0; a < 3; ++a) {
+        const double place = p[a] + enter * d[a];
+        at[a] = std::clamp(static_cast<int>(std::floor(place)), 0, cloud.cells[a] - 1);
+        per[a] =
+            std::abs(d[a]) < 1e-12 ? std::numeric_limits<double>::infinity() : 1 / std::abs(d[a]);
+        next[a] = std::abs(d[a]) < 1e-12 ? std::numeric_limits<double>::infinity()
+                                         : (at[a] + (d[a] > 0 ? 1 : 0) - p[a]) / d[a];
+    }
+    double depth = 0;
+    for (double t = enter; t < leave && depth < kOpaque;) {
+        const int axis = next.x <= next.y ? (next.x <= next.z ? 0 : 2) : (next.y <= next.z ? 1 : 2);
+        const double until = std::min(next[axis], leave);
+        const std::size_t cell = cell_index(cloud.cells, at);
+        const double passed =
+            std::max(until - t, 0.0) * static_cast<double>(cloud.depth[cell]) * cloud.scaled;
+        if (passed > 0) {
+            const double weight = std::exp(-depth) * -std::expm1(-passed) / cloud.scaled;
+            const float* const source = cloud.source[cell].data();
+            for (int c = 0; c < 3; ++c) {
+                float sum = 0;
+                for (std::size_t i = 0; i < kHarmonics; ++i)
+                    sum += source[static_cast<std::size_t>(c) * kHarmonics + i] * towards[i];
+                seen.light[c] += weight * static_cast<double>(std::max(sum, 0.F));
+            }
+            depth += passed;
+        }
+        t = until;
+        at[axis] += d[axis] > 0 ? 1 : -1;
+        if (at[axis] < 0 || at[axis] >= cloud.cells[axis]) break;
+        next[axis] += per[axis];
+    }
+    seen.through = std::exp(-depth);
+    return seen;
+}
+
+// At p (cells), one of the ground's.
+glm::dvec3 gathered(const CloudAbove& cloud, const SkyDome* sky, const glm::dvec3& p) {
+    // Scaled by the box's half sides, the cloud is within a ball of radius sqrt(3); a cone around it there is one around the
+    // cloud's ellipsoid here, with solid angles in the ratio det / |scaled d|^3.
+    const glm::dvec3 half = 0.5 * glm::dvec3(cloud.cells);
+    const glm::dvec3 to = (half - p) / half;
+    const double distance = glm::length(to), radius = std::numbers::sqrt3;
+    const bool cone = distance > 1.05 * radius;
+    const double cosine = cone ? std::sqrt(1 - radius * radius / (distance * distance)) : 0;
+    const glm::dvec3 axis = cone ? to / distance : glm::dvec3(0, 1, 0);
+    const SideAxes side = side_axes(axis);
+    glm::dvec3 sum(0);
+    for (int i = 0; i < kRays; ++i) {
+        const Spiral s = spiral(i, kRays);
+        glm::dvec3 d;
+        double weight = pi / kRays;  // cosine * solid angle
+        if (cone) {
+            const double along = 1 - s.along * (1 - cosine), flat = std::sqrt(1 - along * along);
+            const glm::dvec3 scaled =
+                along * axis + flat * std::cos(s.turn) * side.u + flat * std::sin(s.turn) * side.v;
+            d = half * scaled;
+            const double length = glm::length(d);
+            d /= length;
+            if (!(d.y > 0)) continue;
+            weight = 2 * pi * (1 - cosine) / kRays * half.x * half.y * half.z /
+                     (length * length * length) * d.y;
+        } else {
+            const double flat = std::sqrt(s.along);
+            d = {flat * std::cos(s.turn), std::sqrt(1 - s.along), flat * std::sin(s.turn)};
+        }
+        const Seen seen = look(cloud, p, d);
+        if (seen.through == 1) continue;
+        sum += weight * seen.light;
+        if (sky != nullptr) sum -= weight * (1 - seen.through) * sky_radiance(*sky, d);
+    }
+    return sum;
+}
+
+}  // namespace
+
+CloudAbove coarser(CloudAbove cloud, int most) {
+    const int longest = std::max({cloud.cells.x, cloud.cells.y, cloud.cells.z});
+    const int by = (longest + most - 1) / most;
+    if (by <= 1) return cloud;
+    CloudAbove made;
+    made.origin = cloud.origin;
+    made.cell = cloud.cell * by;
+    made.cells = (cloud.cells + by - 1) / by;
+    made.scaled = cloud.scaled;
+    const auto count = static_cast<std::size_t>(made.cells.x * made.cells.y * made.cells.z);
+    made.depth.assign(count, 0.F);
+    made.source.assign(count, {});
+    // Depth times source adds up; a block's depth is the mean of its cells', over a longer side.
+    for (int z = 0; z < cloud.cells.z; ++z)
+        for (int y = 0; y < cloud.cells.y; ++y)
+            for (int x = 0; x < cloud.cells.x; ++x) {
+                const glm::ivec3 c(x, y, z);
+                const std::size_t from = cell_index(cloud.cells, c),
+                                  to = cell_index(made.cells, c / by);
+                made.depth[to] += cloud.depth[from];
+                for (std::size_t i = 0; i < made.source[to].size(); ++i)
+                    made.source[to][i] += cloud.depth[from] * cloud.source[from][i];
+            }
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!(made.depth[i] > 0)) continue;
+        for (float& one : made.source[i]) one /= made.depth[i];
+        made.depth[i] /= static_cast<float>(by * by);
+    }
+    return made;
+}
+
+GroundChange nodes_under(const CloudAbove& cloud, double height) {
+    GroundChange change;
+    const glm::dvec3 size = cloud.cell * glm::dvec3(cloud.cells);
+    const glm::dvec3 middle = cloud.origin + 0.5 * size;
+    const double above = std::max(middle.y - height, 0.0);
+    change.center = {middle.x, middle.z};
+    change.reach = 0.5 * glm::dvec2(size.x, size.z) + 0.5 * above;
+    change.side = kSide;
+    change.irradiance.assign(static_cast<std::size_t>(kSide * kSide), {});
+    return change;
+}
+
+void gather(const CloudAbove& cloud, const SkyDome* sky, double height, int threads,
+            GroundChange& change) {
+    const auto place = [&](int node) {
+        const double t = 2.0 * node / (kSide - 1) - 1;
+        return t / (1 - std::abs(t));
+    };
+    parallel_for(threads, kSide - 2, [&](std::size_t inner) {
+        const int j = static_cast<int>(inner) + 1;
+        for (int i = 1; i < kSide - 1; ++i) {
+            const glm::dvec2 at = change.center + change.reach * glm::dvec2(place(i), place(j));
+            const glm::dvec3 p = (glm::dvec3(at.x, height, at.y) - cloud.origin) / cloud.cell;
+            const glm::dvec3 sum = gathered(cloud, sky, p);
+            std::array<float, 3>& to = change.irradiance[static_cast<std::size_t>(j * kSide + i)];
+            for (std::size_t c = 0; c < 3; ++c)
+                to[c] += static_cast<float>(sum[static_cast<int>(c)]);
+        }
+    });
+}
+
+}  // namespace awan

@@ -1,0 +1,34 @@
+// The light that a cloud sends down to the ground, gathered from the transport solution.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/light/ground_light.h"
+#include "core/light/harmonics.h"
+
+namespace awan {
+
+// A cloud as the ground sees it: cells (x fastest, then y, then z) that dim and shine.
+struct CloudAbove {
+    glm::dvec3 origin{0};  // corner of cell 0, scene units
+    double cell = 0;       // side, scene units
+    glm::ivec3 cells{0};
+    std::vector<float> depth;  // of each cell: extinction (all of it) x side
+    double scaled = 1;         // share of it that dims light: what is not the forward peak's
+    // Source function, radiance per optical depth: toward direction o, sum_i source[cell][c * 16 + i] * Y_i(o).
+    std::vector<std::array<float, 48>> source;
+};
+
+// The same with blocks of cells made one, so that none of its sides has more than `most`.
+CloudAbove coarser(CloudAbove cloud, int most);
+
+// Where nodes lie, and 0 at all of them.
+GroundChange nodes_under(const CloudAbove& cloud, double height);
+
+// Irradiance that the cloud's own light adds at each node, less what the cloud hides of `sky` (null: nothing). kRays rays
+// a node, spread over the cone that holds the cloud. Adds to `change`.
+void gather(const CloudAbove& cloud, const SkyDome* sky, double height, int threads,
+            GroundChange& change);
+
+}  // namespace awan

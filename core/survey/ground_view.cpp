@@ -1,0 +1,85 @@
+#include "core/survey/ground_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "core/generate/gaussian.h"
+#include "core/scene/outside.h"
+
+namespace awan {
+namespace {
+
+constexpr int kAcross = 24, kDown = 18;
+constexpr double kReach = 4;  // of s
+
+// Optical depth along a line through the volume, in steps of half a cell.
+double depth_through(const DensityVolume& volume, const glm::dvec3& from, const glm::dvec3& d) {
+    if (!(volume.cell > 0)) return 0;
+    const glm::dvec3 p = (from - volume.origin) / volume.cell;
+    double enter = 0, leave = 1e300;
+    for (int a = 0; a < 3; ++a) {
+        const double by = std::abs(d[a]) < 1e-12 ? 1e-12 : d[a];
+        const double t0 = -p[a] / by, t1 = (volume.cells[a] - p[a]) / by;
+        enter = std::max(enter, std::min(t0, t1));
+        leave = std::min(leave, std::max(t0, t1));
+    }
+    if (!(enter < leave)) return 0;
+    const int steps = std::max(1, static_cast<int>(std::ceil(2 * (leave - enter))));
+    const double step = (leave - enter) / steps;
+    double depth = 0;
+    for (int i = 0; i < steps; ++i) {
+        const glm::ivec3 c = glm::clamp(glm::ivec3(glm::floor(p + (enter + (i + 0.5) * step) * d)),
+                                        glm::ivec3(0), volume.cells - 1);
+        const std::size_t at =
+            (static_cast<std::size_t>(c.z) * static_cast<std::size_t>(volume.cells.y) +
+             static_cast<std::size_t>(c.y)) *
+                static_cast<std::size_t>(volume.cells.x) +
+            static_cast<std::size_t>(c.x);
+        depth += static_cast<double>(volume.extinction[at]) * step * volume.cell;
+    }
+    return depth;
+}
+
+}  // namespace
+
+GroundView ground_view(const Scene& scene, const ParticleSet& particles, const Survey& survey) {
+    GroundView ground;
+    if (!scene->ground || !(survey.bounds.max.y > scene->ground->height)) return ground;
+    const double height = scene->ground->height;
+    for (std::size_t i = 0; i < particles.size() && !ground.matter_below; ++i)
+        ground.matter_below = particles.center[i].y - kReach * gaussian_s(particles, i) < height;
+
+    const Outside outside = outside_of(scene);
+    const SkyMeans sky = means_of(outside.sky);
+    const double direct = luminance(outside.sun) * std::max(outside.to_sun.y, 0.0);
+    const double open = luminance(sky.irradiance_up);
+    const double incoming = luminance(outside.sun) + 2 * std::numbers::pi * luminance(sky.above);
+    // Radiance albedo / pi * irradiance, from a hemisphere.
+    if (incoming > 0)
+        ground.light = 2 * luminance(scene->ground->albedo) * (direct + open) / incoming;
+
+    const View& view = survey.view;
+    if (!(view.eye.y > height)) return ground;
+    const bool by_sun = direct > 0;
+    const glm::dvec3 towards = by_sun ? outside.to_sun : glm::dvec3(0, 1, 0);
+    const double share = direct + open > 0 ? (by_sun ? direct / (direct + open) : 1.0) : 0.0;
+    int met = 0;
+    for (int j = 0; j < kDown; ++j)
+        for (int i = 0; i < kAcross; ++i) {
+            const double u = ((i + 0.5) / kAcross * 2 - 1) * view.tan_half_fov * view.aspect;
+            const double v = (1 - (j + 0.5) / kDown * 2) * view.tan_half_fov;
+            const glm::dvec3 d = glm::normalize(view.forward + u * view.right + v * view.up);
+            if (!(d.y < 0)) continue;
+            ++met;
+            const glm::dvec3 p = view.eye + (height - view.eye.y) / d.y * d;
+            const double depth = depth_through(survey.volume, p, towards);
+            ground.shade = std::max(ground.shade, share * -std::expm1(-depth));
+        }
+    ground.seen = static_cast<double>(met) / (kAcross * kDown);
+    return ground;
+}
+
+}  // namespace awan
