@@ -93,6 +93,7 @@ std::string plan_to_json(const Survey& survey, const Plan& plan) {
         member("on", decision.on, out);
         member("available", decision.available, out);
         member("reason", std::string_view(decision.reason), out);
+        member("error_left_out", decision.left_out, out);
         out += '}';
     }
     out += ']';

@@ -5,113 +5,13 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/scene/outside.h"
+#include "core/plan/criteria.h"
 
 namespace awan {
 namespace {
 
-// Below these the effect changes no pixel by more than 1% (measured against exact solutions at
-// optical depths .03 to 40; the larger of front- and back-lit).
-constexpr double kShadowDepth = 0.03;
-constexpr double kViewDepth = 0.03;
-constexpr double kScatterDepthIsotropic = 0.04;  // g = 0
-constexpr double kScatterDepthForward = 0.02;    // |g| >= .5; linear in between
-
-// Of the haze, likewise: what it takes from a pixel or adds to it goes with its depth.
-constexpr double kHazeDepth = 0.01;
-constexpr double kShafts = 0.01;
-
 constexpr double kPatience_ms = 20e3;  // longer paths than these are not chosen, only taken by name
 constexpr double kTruthNoise = 0.05;   // of a pixel, when rung truth is asked for by name
-
-std::string sentence(const char* format, double a, double b) {
-    std::array<char, 200> text{};
-    const int length = std::snprintf(text.data(), text.size(), format, a, b);
-    return {text.data(), static_cast<std::size_t>(length)};
-}
-
-struct Criterion {
-    bool wanted;
-    std::string reason;
-};
-
-Criterion above(const char* what, double figure, double threshold) {
-    const bool wanted = figure > threshold;
-    return {
-        wanted,
-        sentence(
-            (std::string(what) + (wanted ? " %.3g is over %.3g" : " %.3g is within %.3g")).c_str(),
-            figure, threshold)};
-}
-
-double scatter_threshold(double g) {
-    const double t = std::min(1.0, std::abs(g) / 0.5);
-    return kScatterDepthIsotropic + t * (kScatterDepthForward - kScatterDepthIsotropic);
-}
-
-// Whether the scene calls for an effect, by its own figures.
-Criterion criterion(Effect effect, const Scene& scene, const Survey& survey) {
-    if (effect == Effect::kAerialPerspective || effect == Effect::kLightShafts) {
-        if (!scene->haze || !(scene->haze->extinction > 0)) return {false, "the scene has no haze"};
-        const HazeFigures& haze = survey.haze;
-        if (effect == Effect::kLightShafts)
-            return above("the clouds' shadows in the haze, over a typical pixel,", haze.shaded,
-                         kShafts);
-        return above("the haze's largest optical depth in view,",
-                     std::max(haze.depth_to_clouds, haze.depth_behind), kHazeDepth);
-    }
-    if (survey.particles == 0 || !(survey.total_mass > 0))
-        return {false, "there is no matter in the scene"};
-    const bool sun = scene->sun.intensity > 0;
-    const bool sky = outside_of(scene).sky.shines;
-    const double towards_lights =
-        std::max(sun ? survey.optical_depth_sun : 0.0, sky ? survey.optical_depth_zenith : 0.0);
-    switch (effect) {
-        case Effect::kSelfShadow:
-            if (!sun && !sky) return {false, "no light reaches the cloud"};
-            return above("the largest optical depth towards the lights,", towards_lights,
-                         kShadowDepth);
-        case Effect::kMultipleScattering:
-            if (!sun && !sky) return {false, "no light reaches the cloud"};
-            if (scene->medium.albedo == 0) return {false, "the albedo is 0: nothing is scattered"};
-            return above("the largest optical depth towards the lights,", towards_lights,
-                         scatter_threshold(scene->medium.g));
-        case Effect::kViewExtinction:
-            return above("the largest optical depth towards the eye,", survey.optical_depth_eye,
-                         kViewDepth);
-        case Effect::kSkyLight:
-            if (scene->sky.none) return {false, "the scene has no sky"};
-            if (!sky) return {false, "the sky is black"};
-            return {true, "the sky shines on the cloud from all sides"};
-        case Effect::kGroundLight:
-        case Effect::kGroundShadow:
-            if (!scene->ground) return {false, "the scene has no ground"};
-            return {true, "the scene has a ground"};
-        case Effect::kInterior:
-            return survey.eye_inside
-                       ? Criterion{true, "the eye is within 4 s of a particle"}
-                       : Criterion{false, "the eye is more than 4 s away from every particle"};
-        case Effect::kDetail:
-            if (!scene->detail) return {false, "the scene asks for none"};
-            return {true, "asked for"};
-        default:
-            return {false, ""};
-    }
-}
-
-const char* missing_reason(Effect effect) {
-    switch (effect) {
-        case Effect::kGroundLight:
-        case Effect::kGroundShadow:
-            return "the scene has no ground; a ground is not in this version";
-        case Effect::kSunColor:
-            return "the sun's colour is given; colour from its elevation is not in this version";
-        case Effect::kDetail:
-            return "procedural detail is not in this version";
-        default:
-            return "textures are not in this version";
-    }
-}
 
 // Forward-scattered light travels with the light pass of self_shadow: one does not run without the
 // other.
@@ -202,6 +102,12 @@ Choice best_in_time(double time_ms, const std::vector<RungForecast>& candidates)
             "none is predicted to take at most " + milliseconds(time_ms) + "; this is the fastest"};
 }
 
+// Error of what the scene calls for and splats cannot show.
+double lost_by_splats(const Plan& plan) {
+    const EffectDecision& detail = plan.effects[static_cast<std::size_t>(Effect::kDetail)];
+    return detail.on ? detail.left_out : 0;
+}
+
 void choose_rung(const Scene& scene, const Survey& survey, int threads, const MachineSpeed& speed,
                  Plan& plan) {
     const Accuracy& accuracy = scene->accuracy;
@@ -222,6 +128,9 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
     const bool paths = accuracy.rung || accuracy.time_ms || wanted_error < kDefaultError;
     for (const Rung& rung : ladder()) {
         plan.forecasts.push_back(forecast(rung, scene, survey, plan.samples, threads, speed));
+        if (rung.method == Method::kSplats)
+            plan.forecasts.back().error =
+                std::hypot(plan.forecasts.back().error, lost_by_splats(plan));
         if (rung.method == Method::kSplats ||
             (!wants_splats(scene) && (paths || rung.method != Method::kPaths)))
             candidates.push_back(plan.forecasts.back());
@@ -261,6 +170,7 @@ void fit_effects_to_rung(Plan& plan) {
                           decision.reason + ")";
     };
     const bool additive = &rung == find_rung("additive"), harris = &rung == find_rung("harris");
+    if (rung.method == Method::kSplats) set(Effect::kDetail, false);
     if (harris) return;
     set(Effect::kSelfShadow, !additive);
     set(Effect::kMultipleScattering,
@@ -279,10 +189,11 @@ Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSp
         decision.effect = effect;
         decision.available = in_this_version(effect);
         if (!decision.available) {
-            decision.reason = missing_reason(effect);
+            decision.reason = "textures are not in this version";
             continue;
         }
         const Criterion own = criterion(effect, scene, survey);
+        decision.left_out = own.left_out;
         switch (scene->effects[i]) {
             case Switch::kAuto:
                 decision.on = own.wanted;

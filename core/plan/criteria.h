@@ -1,0 +1,26 @@
+// Whether a scene calls for an effect, by figures of its survey: the only place with the thresholds.
+#pragma once
+
+#include <string>
+
+#include "core/scene/scene.h"
+#include "core/survey/survey.h"
+
+namespace awan {
+
+struct Criterion {
+    bool wanted = false;
+    // About how wrong the picture would be without: rms over the cloud's pixels (or the whole picture's, of what is seen
+    // beside the cloud), relative to their mean. 0: the scene has nothing of the kind. Within a factor of 3 or so
+    // (effects_test), often too large: the figures are the largest in view.
+    double left_out = 0;
+    std::string reason;  // one phrase, with figure and threshold where there is one
+};
+
+// Precondition: not Effect::kTexture, which is not in this version.
+Criterion criterion(Effect effect, const Scene& scene, const Survey& survey);
+
+// Size of detail's largest bumps in the picture, pixels, where the cloud is nearest; infinite from within.
+double detail_pixels(const Scene& scene, const Survey& survey);
+
+}  // namespace awan
