@@ -129,6 +129,11 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     }
     sky.behind = behind;
 
+    std::optional<Air> air;
+    if (settings.aerial_perspective)
+        air = make_air(scene, view, settings.light_shafts ? &light.sun : nullptr, threads);
+    if (air) march.air = &*air;
+
     Rooms rooms;
     std::atomic<bool> late = false;
     for_each_block(seen, image.width, image.height, threads,

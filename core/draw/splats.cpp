@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/draw/air_image.h"
 #include "core/generate/gaussian.h"
 #include "core/scene/outside.h"
 #include "core/shaders/shared.h"
@@ -189,7 +190,7 @@ void radix_sort(std::vector<std::uint64_t>& keys) {
 }  // namespace
 
 SplatList make_splats(const Scene& scene, const ParticleSet& particles, const View& view,
-                      const Plan& plan, const Lighting& lighting) {
+                      const Plan& plan, const Lighting& lighting, const Air* air) {
     const LightSources sources = light_sources(scene, plan);
     SplatList list;
     std::vector<Seen> seen(particles.size());
@@ -216,7 +217,8 @@ SplatList make_splats(const Scene& scene, const ParticleSet& particles, const Vi
         const glm::dvec3 color =
             particles.color.empty() ? glm::dvec3(1) : glm::dvec3(particles.color[i]);
         const ParticleLight* lit = lighting.particles.empty() ? nullptr : &lighting.particles[i];
-        const Splat splat = make_splat(seen[i], color, lit, view, sources);
+        Splat splat = make_splat(seen[i], color, lit, view, sources);
+        if (air != nullptr) see_through_air(*air, view, seen[i].q, splat);
         if (sorted && previous < particles.size() &&
             particles.center[i] == particles.center[previous] &&
             particles.radius[i] == particles.radius[previous]) {
