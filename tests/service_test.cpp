@@ -92,7 +92,8 @@ TEST_F(ServiceTest, ImpossibleScenesAre422AndNameThePlace) {
     for (const char* path : {"/v1/plan", "/v1/particles", "/v1/render"})
         expect_problem(post(path, cube), 422, "/cubes/0/size/1");
     expect_problem(post("/v1/plan", R"({"cubes":[],"clod":1})"), 422, "/clod");
-    expect_problem(post("/v1/plan", R"({"cubes":[],"ground":{"albedo":2}})"), 422, "/ground/albedo");
+    expect_problem(post("/v1/plan", R"({"cubes":[],"ground":{"albedo":2}})"), 422,
+                   "/ground/albedo/0");
     const Response none = post("/v1/plan", "[]");
     expect_problem(none, 422);
     EXPECT_NE(none.body.find("\"pointer\":\"\""), std::string::npos) << "the whole document";

@@ -224,7 +224,8 @@ std::vector<Shine> parts_of(const Outside& outside, const SkyInflow& physical, b
             }
             if (!one_solve && most > 0) {
                 color[c] = static_cast<float>(most);
-                parts.push_back({false, 0, 0, color, &physical, c, 1 / most});
+                parts.push_back(
+                    {.color = color, .physical = &physical, .channel = c, .share = 1 / most});
             }
         }
         return parts;
