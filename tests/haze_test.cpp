@@ -103,6 +103,14 @@ TEST(Haze, RaysWithoutEndAreExactAndFinite) {
             ASSERT_TRUE(opacity >= before * (1 - 1e-9) && opacity <= 1) << i << " " << t;
             before = opacity;
         }
+        double many[32];
+        const double first = power(-9, 9), step = power(-6, 1) * first;
+        ray.opacities(first, step, 32, many);
+        for (int k = 0; k < 32; ++k) {
+            const double one = ray.opacity(first + k * step);
+            // A step's rounding of the height, at 1e9 of 1e-9 scale heights, is all it may differ by.
+            ASSERT_NEAR(many[k], one, 1e-9 * one + 1e-250) << i << " " << k;
+        }
     }
 }
 

@@ -12,8 +12,8 @@ namespace awan {
 
 // Of the sunlight that the haze would scatter to the eye between it and a point, the share that clouds keep away:
 //     lost(t) = integral of (1 - V) dO / O(t),  O = 1 - exp(-haze depth from the eye to t),
-// V the sun's transmittance through the clouds. Tabulated on rays of a lattice of the picture's pixels, by slices of about a
-// cell of the sun's depth, so that no slice is spent where there is no shadow. In a slice V is its value in the middle, and
+// V the sun's transmittance through the clouds. Tabulated on rays of a lattice of the picture's pixels, by slices of about two
+// cells of the sun's depth, so that no slice is spent where there is no shadow. In a slice V is its value in the middle, and
 // dO is exact.
 struct AirShadows {
     struct Ray {

@@ -14,10 +14,14 @@ void air_along(const Air& air, double x, double y, double first, double step, in
     const PictureRays& picture = air.picture;
     const glm::dvec3 d = glm::normalize(picture.corner + x * picture.per_x + y * picture.per_y);
     const HazeRay ray(air.haze, picture.eye.y, d.y);
+    double opacity[kChunk];
+    ray.opacities(first, step, count, opacity);
+    const bool shaded = air.shadows.spacing > 0;
     for (int k = 0; k < count; ++k) {
-        const AirBefore before = air_before(air, ray, x, y, first + k * step);
-        out[k].air = static_cast<float>(before.opacity);
-        out[k].lost = static_cast<float>(before.lost);
+        out[k].air = static_cast<float>(opacity[k]);
+        const double lost =
+            shaded ? opacity[k] * lost_at(air.shadows, x, y, first + k * step, opacity[k]) : 0;
+        out[k].lost = static_cast<float>(lost);
     }
 }
 

@@ -7,7 +7,7 @@
 namespace awan {
 
 // Fills `air` and `lost` of points at distances first, first + step, ... from the eye, on the ray through pixel coordinates
-// (x, y).
+// (x, y). count <= kChunk.
 void air_along(const Air& air, double x, double y, double first, double step, int count,
                LightAt* out);
 
@@ -60,7 +60,9 @@ AWAN_INLINE void finish_in_air(const SkyBehind& sky, const simd::Floats* backdro
         one = shader::sky_radiance(one, shader::vec3(1.0f), shader::vec3(0.0f)).x;
     simd::Floats high;
     std::memcpy(&high, share, sizeof high);
-    const simd::Floats alpha = 1.0f - e * whole_clear;
+    simd::Floats alpha = simd::all(1.0f);
+    if (!sky.behind) alpha -= e * whole_clear;
+    float light[4][simd::kLanes];
     for (int channel = 0; channel < 3; ++channel) {
         const simd::Floats sum =
             radiance[channel] + air * tile.ambient[channel] + lit * tile.sun[channel] +
@@ -68,9 +70,11 @@ AWAN_INLINE void finish_in_air(const SkyBehind& sky, const simd::Floats* backdro
                 (backdrop != nullptr
                      ? backdrop[channel]
                      : sky.horizon[channel] + (sky.zenith[channel] - sky.horizon[channel]) * high);
-        for (int lane = 0; lane < simd::kLanes; ++lane) to[lane][channel] = sum[lane];
+        std::memcpy(light[channel], &sum, sizeof sum);
     }
-    for (int lane = 0; lane < simd::kLanes; ++lane) to[lane][3] = sky.behind ? 1.0f : alpha[lane];
+    std::memcpy(light[3], &alpha, sizeof alpha);
+    for (int lane = 0; lane < simd::kLanes; ++lane)
+        for (int channel = 0; channel < 4; ++channel) to[lane][channel] = light[channel][lane];
 }
 
 }  // namespace awan

@@ -45,6 +45,28 @@ double HazeRay::opacity(double t) const {
     return -std::expm1(-depth(t));
 }
 
+// In either part the depth of a step is the one before's times a constant.
+void HazeRay::opacities(double first, double step, int count, double* out) const {
+    const double last = first + (count - 1) * step, rise = rate_ * step;
+    const bool crosses = crossing_ > first && crossing_ < last;
+    if (crosses || !(std::abs(rise) < 1) || first < 0) {
+        for (int k = 0; k < count; ++k) out[k] = opacity(first + k * step);
+        return;
+    }
+    const double start = start_ + rate_ * first;
+    const bool in_layer = start_ + rate_ * (0.5 * (first + last)) <= 0;
+    double depth = extinction_ * (in_layer ? step : above(start, step));
+    const double ratio = in_layer ? 1 : std::exp(-rise);
+    out[0] = opacity(first);
+    for (int k = 1; k < count; ++k, depth *= ratio) {
+        const double taken =
+            depth < 0.01
+                ? depth * (1 - depth / 2 * (1 - depth / 3 * (1 - depth / 4 * (1 - depth / 5))))
+                : -std::expm1(-depth);
+        out[k] = out[k - 1] + (1 - out[k - 1]) * taken;
+    }
+}
+
 double vertical_haze_depth(const Haze& haze, double low, double high) {
     return HazeRay(haze, low, 1).depth(high - low);
 }

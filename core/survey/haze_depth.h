@@ -17,6 +17,8 @@ class HazeRay {
     double depth(double t) const;
     // 1 - exp(-depth(t)), 0..1.
     double opacity(double t) const;
+    // Of `count` <= 64 distances first, first + step, ...: as opacity(t) to 1e-12, by a recurrence where it can.
+    void opacities(double first, double step, int count, double* out) const;
 
   private:
     double above(double start, double length) const;
