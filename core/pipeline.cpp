@@ -7,6 +7,7 @@
 #include "core/generate/generate.h"
 #include "core/light/light.h"
 #include "core/light/transport.h"
+#include "core/plan/island_settings.h"
 #include "core/truth/path_tracer.h"
 
 namespace awan {
@@ -104,6 +105,8 @@ Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& dead
     if (!surveyed.ok()) return surveyed.error();
     planned.survey = *std::move(surveyed);
     planned.plan = plan(scene, planned.survey, threads, speed);
+    if (planned.plan.predicted.rung->method == Method::kMarch)
+        planned.plan.transport.islands = island_cells(planned.plan.transport, planned.survey);
     return planned;
 }
 

@@ -8,9 +8,11 @@
 
 #include "core/light/diffusion.h"
 #include "core/light/gmres.h"
+#include "core/light/islands.h"
 #include "core/light/legendre.h"
 #include "core/light/sun_depth.h"
 #include "core/light/sweep.h"
+#include "core/light/transport_part.h"
 #include "core/parallel.h"
 #include "core/shaders/shared.h"
 #include "core/survey/lattice.h"
@@ -101,7 +103,7 @@ std::vector<float> beam_source(const Lattice& coarse, const Lattice& fine_lattic
 // The moments of the light in each cell, harmonics floats each.
 Result<std::vector<float>> solve(const Matter& matter, const Ordinates& ordinates,
                                  const std::vector<float>& beam, const glm::dvec3& beam_direction,
-                                 const Shine& shine, double peak_kept,
+                                 const Shine& shine, double peak_kept, const Inflow& outside,
                                  const TransportSettings& settings, int threads,
                                  const Deadline& deadline, TransportLight& light) {
     const auto harmonics_count = static_cast<std::size_t>(matter.grid.harmonics);
@@ -121,7 +123,9 @@ Result<std::vector<float>> solve(const Matter& matter, const Ordinates& ordinate
                     static_cast<float>(peak_kept * matter.moment[order[m]] * y[m]);
     }
     Inflow inflow;
-    if (shine.zenith > 0 || shine.horizon > 0)
+    if (outside)
+        inflow = outside;
+    else if (shine.zenith > 0 || shine.horizon > 0)
         inflow = [&](const glm::dvec3& direction) {
             return sky_radiance(-direction.y, shine.zenith, shine.horizon);
         };
@@ -221,9 +225,9 @@ std::vector<glm::vec3> colored_albedo(const Scene& scene, const ParticleSet& par
 }
 
 // Without a grid of light the eye pass still needs the particles' colours, and has them from a grid.
-void color_only(const Scene& scene, const ParticleSet& particles, int threads,
-                TransportLight& light) {
-    const Lattice lattice = lattice_around_matter(particles, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0,
+void color_only(const Scene& scene, const LightPart& part, int threads, TransportLight& light) {
+    const ParticleSet& particles = part.all;
+    const Lattice lattice = lattice_around_matter(part.own, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0,
                                                   kColorCells, threads, kMaxFineWork);
     light.origin = lattice.origin;
     light.cell = lattice.cell;
@@ -238,20 +242,46 @@ std::size_t TransportLight::bytes() const {
     std::size_t bytes =
         sizeof *this + sun.depth.capacity() * sizeof(float) + albedo.capacity() * sizeof(glm::vec3);
     for (const LightBand& band : bands) bytes += band.moments.capacity() * sizeof(band.moments[0]);
+    bytes +=
+        regions.nodes.capacity() * sizeof(IslandNode) + regions.list.capacity() * sizeof(Island);
+    for (const LightIsland& island : islands)
+        bytes += sizeof island - sizeof island.light + island.light.bytes();
     return bytes;
 }
 
 Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& particles,
                                        const Survey& survey, const TransportSettings& settings,
                                        int threads, const Deadline& deadline) {
+    if (auto error = deadline.over()) return *error;
+    if (particles.size() == 0 || !(survey.total_mass > 0)) {
+        TransportLight light;
+        light.sky = settings.sky;
+        return light;
+    }
+    if (!settings.islands.empty() && settings.islands.size() == survey.islands.list.size())
+        return light_in_islands(scene, particles, survey, settings, threads, deadline);
+    // Of the lights' lines only: the eye's would tie the light to a camera.
+    const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
+    return light_of_part(
+        scene,
+        {particles,
+         particles,
+         sun_depth(particles, sun_direction(scene->sun), settings.sun_cells, threads),
+         deepest,
+         {}},
+        settings, threads, deadline);
+}
+
+Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
+                                     const TransportSettings& settings, int threads,
+                                     const Deadline& deadline) {
     TransportLight light;
     light.sky = settings.sky;
-    if (auto error = deadline.over()) return *error;
-    if (particles.size() == 0 || !(survey.total_mass > 0)) return light;
+    const ParticleSet& particles = part.all;
     const glm::dvec3 towards_sun = sun_direction(scene->sun);
-    light.sun = sun_depth(particles, towards_sun, settings.sun_cells, threads);
+    light.sun = std::move(part.sun);
     if (settings.cells == 0) {
-        if (!particles.color.empty()) color_only(scene, particles, threads, light);
+        if (!particles.color.empty()) color_only(scene, part, threads, light);
         return light;
     }
 
@@ -262,11 +292,9 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
     light.peak_from = kOrders;
     const double kept = 1 - albedo * f;
 
-    // Of the lights' lines only: the eye's would tie the light to a camera.
-    const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
-    const double rest = std::min(kLeftOut, kLeftOutShare * deepest);
+    const double rest = std::min(kLeftOut, kLeftOutShare * part.deepest);
     // Of a great many particles that are large beside a cell there is a bound: what they add up to is smooth.
-    const Lattice coarse = lattice_around_matter(particles, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, rest,
+    const Lattice coarse = lattice_around_matter(part.own, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, rest,
                                                  settings.cells, threads, kMaxCoarseWork);
     int sub = settings.cells <= 32 ? 3 : 2;
     while (sub > 1 && lattice_work(particles, coarse.cell / sub, coarse.cells * sub) > kMaxFineWork)
@@ -308,12 +336,18 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
             matter.albedo[i] = static_cast<float>(a);
             matter.scattered[i] = static_cast<float>(depth * a * (1 - f) / (1 - a * f));
         }
-        auto moments = solve(matter, ordinates, beam, -towards_sun, shine, 1 - f, settings, threads,
-                             deadline, light);
+        Inflow outside;
+        if (part.outside)
+            outside = [&, band = light.bands.size()](const glm::dvec3& direction) {
+                const double sky = sky_radiance(-direction.y, shine.zenith, shine.horizon);
+                return part.outside(band, direction, sky);
+            };
+        auto moments = solve(matter, ordinates, beam, -towards_sun, shine, 1 - f, outside, settings,
+                             threads, deadline, light);
         if (!moments.ok()) return moments.error();
         LightBand band;
         band.color = shine.color;
-        if (!shine.beam)
+        if (!shine.beam && !part.outside)
             band.most =
                 static_cast<float>(albedo * (1 - f) * std::max(shine.zenith, shine.horizon));
         band.moments.resize(mean.size());

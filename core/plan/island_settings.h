@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "core/plan/transport_settings.h"
+#include "core/survey/survey.h"
+
+namespace awan {
+
+// Cells for each of the survey's islands: what `settings` mean for an island that fills the picture, and fewer for
+// smaller ones, with the square root of their projected size, in steps of sqrt 2 (so that a camera that moves a little keeps
+// its light); at least kLeastIslandCells. Islands out of the picture get none. EMPTY: one grid for all.
+std::vector<IslandCells> island_cells(const TransportSettings& settings, const Survey& survey);
+
+inline constexpr int kLeastIslandCells = 8, kLeastIslandSunCells = 24;
+
+}  // namespace awan

@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""Writes sky-of-100.json: a hundred clouds of 200,000 particles, from the layouts of humilis-field and congestus.
+
+    web/presets/make_sky.py > web/presets/sky-of-100.json
+
+Bases stand at one height; many clouds are small and few are large; no two overlap much. The same bytes on every run.
+"""
+import json
+import math
+import pathlib
+import random
+
+CLOUDS = 100
+PARTICLES = 200_000
+HERE = pathlib.Path(__file__).parent
+
+
+def layouts(name):
+    scene = json.loads((HERE / f"{name}.json").read_text())
+    return [cloud["cubes"] for cloud in scene.get("clouds", [scene])]
+
+
+def spread_out(cubes, count):
+    """The largest cubes that stand neither within each other nor apart, from the lowest of them up."""
+    rest = sorted(cubes, key=lambda c: -math.prod(c["size"]))[:4 * count]
+    kept = [min(rest[:6], key=lambda c: c["center"][1])]
+    while len(kept) < count:
+        def apart(cube):
+            return min(math.dist(cube["center"], k["center"]) / (max(k["size"]) + max(cube["size"])) for k in kept)
+        free = [c for c in rest if 0.25 < apart(c) < 0.62]
+        if not free:
+            break
+        kept.append(min(free, key=lambda c: c["center"][1] if len(kept) % 2 else -math.prod(c["size"])))
+    return kept
+
+
+def wide(cubes):
+    return max(max(abs(c["center"][a]) + c["size"][a] / 2 for c in cubes) for a in (0, 2))
+
+
+def rounded(cubes, particles):
+    """Turrets grown into each other, since few stand for many, and `particles` shared by volume."""
+    flat = min(cubes, key=lambda c: c["size"][1] / c["size"][0])
+    grown = [[v * (1 if c is flat else 1.1) for v in c["size"]] for c in cubes]
+    volumes = [math.prod(size) ** 0.8 for size in grown]
+    return [{"particles": max(4, round(particles * volume / sum(volumes))), "size": [round(v, 2) for v in size],
+             "center": [round(v, 2) for v in c["center"]],
+             "radius": round(0.75 * min(size), 2)}
+            for c, size, volume in zip(cubes, grown, volumes)]
+
+
+def main():
+    dice = random.Random(100)
+    humilis = sorted({json.dumps(c) for c in layouts("humilis-field")})
+    small = [spread_out(json.loads(c), 5) for c in humilis]
+    towers = spread_out(layouts("congestus")[0], 20)
+    clouds, places = [], []
+    sizes = sorted((dice.paretovariate(1.6) for _ in range(CLOUDS)), reverse=True)
+    for index, size in enumerate(sizes):
+        tower = index % 14 == 4
+        cubes = towers if tower else small[dice.randrange(len(small))]
+        # Half the width of the cloud in the scene.
+        radius = (2.2 if tower else 1.3) * min(size, 4.5) ** 0.7
+        for _ in range(10_000):
+            z = dice.uniform(-92, 6)
+            x = dice.uniform(-1, 1) * (12 + 0.6 * (14 - z))
+            if all(math.hypot(x - u, z - v) > 0.95 * (radius + r) for u, v, r in places):
+                break
+        places.append((x, z, radius))
+        clouds.append((cubes, radius / wide(cubes), x, z, radius))
+    weight = sum(radius ** 1.5 for *_, radius in clouds)
+    document = {"clouds": [], "density": 0.12, "seed": 100,
+                "medium": {"g": 0.6, "albedo": 0.999},
+                "sky": {"zenith": [0.09, 0.25, 0.72], "horizon": [0.44, 0.67, 0.95], "intensity": 1.7},
+                "sun": {"elevation": 34, "azimuth": 110, "intensity": 40},
+                "camera": {"eye": [0, -2.2, 22], "target": [0, 5, -14], "fov": 40},
+                "image": {"width": 1200, "height": 675, "exposure": -1.2}}
+    for number, (cubes, scale, x, z, radius) in enumerate(clouds):
+        document["clouds"].append({
+            "model": "cubes", "cubes": rounded(cubes, PARTICLES * radius ** 1.5 / weight),
+            "translate": [round(x, 2), 0, round(z, 2)], "scale": round(scale, 3),
+            "rotate_y": dice.randrange(360), "seed": 1000 + number})
+    # The rounding of particles goes to the largest cube.
+    rest = PARTICLES - sum(c["particles"] for cloud in document["clouds"] for c in cloud["cubes"])
+    document["clouds"][0]["cubes"][0]["particles"] += rest
+    lines = ",\n".join("  " + json.dumps(c, separators=(",", ":")) for c in document.pop("clouds"))
+    others = ",\n".join(f' "{k}": {json.dumps(v)}' for k, v in document.items())
+    print(f'{{"clouds": [\n{lines}\n ],\n{others}\n}}')
+
+
+main()
