@@ -13,6 +13,7 @@
 #include "core/light/surroundings.h"
 #include "core/light/transport_part.h"
 #include "core/parallel.h"
+#include "core/plan/island_settings.h"
 
 namespace awan {
 namespace {
@@ -71,10 +72,7 @@ Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& p
                                         const Survey& survey, const TransportSettings& settings,
                                         int threads, const Deadline& deadline) {
     const glm::dvec3 towards_sun = sun_direction(scene->sun);
-    TransportSettings coarse = settings;
-    coarse.islands.clear();
-    coarse.cells = std::min(settings.cells, kWholeCells);
-    coarse.sun_cells = std::min(2 * settings.sun_cells, kWholeSunCells);
+    const TransportSettings coarse = whole_settings(settings);
     const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
     auto whole = light_of_part(scene,
                                {particles,

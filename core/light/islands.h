@@ -17,7 +17,4 @@ Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& p
                                         const Survey& survey, const TransportSettings& settings,
                                         int threads, const Deadline& deadline);
 
-inline constexpr int kWholeCells = 24;      // of the whole scene's grid, at most
-inline constexpr int kWholeSunCells = 192;  // and of its SunDepth, at most
-
 }  // namespace awan

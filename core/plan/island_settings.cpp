@@ -56,4 +56,12 @@ std::vector<IslandCells> island_cells(const TransportSettings& settings, const S
     return cells;
 }
 
+TransportSettings whole_settings(const TransportSettings& settings) {
+    TransportSettings whole = settings;
+    whole.islands.clear();
+    whole.cells = std::min(settings.cells, kWholeCells);
+    whole.sun_cells = std::min(2 * settings.sun_cells, kWholeSunCells);
+    return whole;
+}
+
 }  // namespace awan

@@ -12,6 +12,11 @@ namespace awan {
 // its light); at least kLeastIslandCells. Islands out of the picture get none. EMPTY: one grid for all.
 std::vector<IslandCells> island_cells(const TransportSettings& settings, const Survey& survey);
 
+// Of the whole scene, beside its islands: coarse light for what is out of the picture, and for what islands see of each other.
+TransportSettings whole_settings(const TransportSettings& settings);
+
+inline constexpr int kWholeCells = 24;      // at most
+inline constexpr int kWholeSunCells = 192;  // at most
 inline constexpr int kLeastIslandCells = 8, kLeastIslandSunCells = 24;
 
 }  // namespace awan

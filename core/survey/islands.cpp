@@ -323,9 +323,11 @@ IslandOnRay island_on_ray(const Islands& islands, const glm::dvec3& start,
     while (islands.nodes[node].axis >= 0) {
         const IslandNode& here = islands.nodes[node];
         const double apart = here.cut - start[here.axis], speed = direction[here.axis];
-        const bool below = speed * t < apart;
+        // By the crossing alone: rounding must not put t on one side and the crossing on the other.
+        bool below = apart > 0;
         if (speed != 0) {
             const double crossing = apart / speed;
+            below = (speed > 0) == (t < crossing);
             if (crossing > t) until = std::min(until, crossing);
         }
         node = static_cast<std::size_t>(below ? here.below : here.above);
