@@ -2,15 +2,18 @@
 #include "core/survey/islands.h"
 
 #include <cstdio>
+#include <fstream>
 #include <random>
+#include <sstream>
 
-#include "core/formats/image_file.h"
 #include "core/light/island_sun.h"
 #include "core/light/light_cache.h"
 #include "core/light/sun_depth.h"
+#include "core/plan/forecast_figures.h"
 #include "core/plan/island_settings.h"
 #include "core/truth/error_measures.h"
 #include "core/truth/path_tracer.h"
+#include "server/json.h"
 #include "tests/march_lights.h"
 
 namespace awan {
@@ -159,7 +162,11 @@ TEST(Islands, ShadowsOfOthersAreInTheDepthFromTheSun) {
 }
 
 TEST(Islands, ThreadsDoNotShow) {
-    const Scene scene = test::valid(nine_clouds());
+    SceneDraft draft = nine_clouds();
+    draft.accuracy.rung = "transport-16";
+    draft.image.width = 48;
+    draft.image.height = 32;
+    const Scene scene = test::valid(draft);
     const Rendered one = *render_scene(scene, {nullptr, 1, nullptr, {}, {}}, {});
     const Rendered three = *render_scene(scene, {nullptr, 3, nullptr, {}, {}}, {});
     ASSERT_EQ(one.survey.islands.list.size(), 9U);
@@ -226,6 +233,43 @@ TEST(Islands, AreCloserToTheTruthThanOneGrid) {
                     error[i].bias, error[i].bias_noise, 1e-6 * static_cast<double>(light.bytes()));
     }
     EXPECT_LT(error[0].nrmse, 0.5 * error[1].nrmse + 2 * error[0].nrmse_noise);
+}
+
+// The preset of a hundred clouds: memory within what the plan says, cells and nodes as the forecast counts them to a factor
+// of 2 (boxes are rounded up to cells, and turned for the sun). Times are for the reader.
+TEST(Islands, SkyOfAHundredCostsWhatIsPredicted) {
+    std::ifstream file(AWAN_SOURCE_DIR "/web/presets/sky-of-100.json");
+    std::ostringstream text;
+    text << file.rdbuf();
+    SceneDraft draft = *parse_scene(text.str());
+    EXPECT_EQ(draft.clouds.size(), 100U);
+    EXPECT_EQ(particle_count(draft), 200'000U);
+    draft.accuracy.rung = "transport-32";
+    const Scene scene = test::valid(draft);
+    const Planned plan = planned(scene);
+    const std::size_t count = plan.survey.islands.list.size();
+    EXPECT_GT(count, 30U);
+    const auto start = Deadline::Clock::now();
+    const TransportLight light = solved(scene, plan, plan.plan.transport);
+    const double ms = ms_since(start);
+    double cells = static_cast<double>(light.bands.at(0).moments.size());
+    auto nodes = static_cast<double>(light.sun.depth.size());
+    std::size_t lit = 0;
+    for (const LightIsland& island : light.islands) {
+        if (!island.lit) continue;
+        ++lit;
+        cells += static_cast<double>(island.light.bands.at(0).moments.size());
+        nodes += static_cast<double>(island.light.sun.depth.size());
+    }
+    const IslandWork work = island_work(plan.plan.transport, plan.survey);
+    std::printf(
+        "%zu islands, %zu lit, %.0f cells (%.0f said), %.0f nodes (%.0f said), %.1f MB of %.1f, "
+        "light %.0f ms\n",
+        count, lit, cells, work.cells, nodes, work.nodes, 1e-6 * static_cast<double>(light.bytes()),
+        1e-6 * plan.plan.predicted.bytes, ms);
+    EXPECT_LT(static_cast<double>(light.bytes()), plan.plan.predicted.bytes);
+    EXPECT_LT(std::abs(std::log2(cells / work.cells)), 1);
+    EXPECT_LT(std::abs(std::log2(nodes / work.nodes)), 1);
 }
 
 }  // namespace

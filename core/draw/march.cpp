@@ -7,12 +7,15 @@
 #include <mutex>
 
 #include "core/draw/march_block.h"
+#include "core/generate/detail.h"
 #include "core/parallel.h"
 
 namespace awan {
 namespace {
 
 constexpr double kStepDepth = 0.5;  // scaled optical depth of a step that costs 1% (march_test)
+
+constexpr double kDetailStep = 0.2;  // longest step, in bumps of detail
 
 // Rooms for blocks: as many as threads ask for at a time.
 class Rooms {
@@ -44,16 +47,20 @@ void set_fineness(const TransportLight& light, const std::vector<SeenParticle>& 
         least = std::min(least, one.s);
     }
     const double mean = sum / static_cast<double>(seen.size());
+    // Samples that see the smaller bumps.
+    const double most = march.detail != nullptr ? kDetailStep * march.detail->bump : INFINITY;
+    const auto step_in = [&](const TransportLight& own, double mean_s, double least_s) {
+        return std::min(longest_step(own, mean_s, least_s), most) * longer;
+    };
     march.apart = most_apart(light);
-    march.step = longest_step(light, mean, static_cast<double>(least)) * longer;
+    march.step = step_in(light, mean, static_cast<double>(least));
     // Steps are halves of each other, so that blocks sample at the same distances.
     for (const LightIsland& island : light.islands)
         if (island.lit)
-            march.step = std::max(
-                march.step, longest_step(island.light, island.mean_s, island.mean_s) * longer);
+            march.step = std::max(march.step, step_in(island.light, island.mean_s, island.mean_s));
     for (const LightIsland& island : light.islands) {
         if (!island.lit) continue;
-        const double own = longest_step(island.light, island.mean_s, island.mean_s) * longer;
+        const double own = step_in(island.light, island.mean_s, island.mean_s);
         double step = march.step;
         while (step > own * 1.0001) step /= 2;
         const glm::dvec3 middle = 0.5 * (island.low + island.high);
@@ -116,6 +123,7 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     march.rest = rest_of(march.medium, march.peak);
     // Steps cost about the square of their length.
     const double finer = std::sqrt(std::clamp(settings.step_error, 1e-5, 0.1) / 0.01);
+    march.detail = particles.detail.get();
     if (!seen.empty()) set_fineness(light, seen, std::min(finer, 1.5), march);
     march.step_depth = static_cast<float>(kStepDepth * finer);
     double least = 0, most = 2;

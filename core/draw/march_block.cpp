@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/draw/march_detail.h"
 #include "core/draw/march_kernels.h"
 #include "core/draw/march_rays.h"
 #include "core/survey/projection.h"
@@ -36,6 +37,10 @@ AWAN_INLINE void deposit_body(const BlockParticles& p, const std::vector<ActiveP
         tiles[t].last = -1;
     }
     for (const ActiveParticle& a : active) deposit(p, a, chunk, tiles);
+}
+AWAN_INLINE void detail_body(const DetailRays& rays, const Chunk& chunk, Tile* tiles) {
+    for (int t = 0; t < kTiles; ++t)
+        if (tiles[t].alive) add_detail(rays, chunk, tiles[t]);
 }
 AWAN_INLINE void ratio_body(const BlockParticles& p, float step,
                             std::vector<ActiveParticle>& active) {
@@ -77,6 +82,7 @@ struct Kernels {
     void (*measure)(const BlockParticles&, const Floats*, const Floats&, ActiveParticle&);
     void (*ratio)(const BlockParticles&, float, std::vector<ActiveParticle>&);
     void (*deposit)(const BlockParticles&, const std::vector<ActiveParticle>&, const Chunk&, Tile*);
+    void (*detail)(const DetailRays&, const Chunk&, Tile*);
     int (*too_deep)(const Tile&, float, float);
     void (*spread)(const Bilinear&, const LightAt (*)[kChunk + 2], int, int, bool, TileLight&);
     void (*march)(const Shade&, const TileLight&, int, Tile&);
@@ -108,6 +114,9 @@ struct Kernels {
                                   Tile* tiles) {                                                 \
         deposit_body(p, active, chunk, tiles);                                                   \
     }                                                                                            \
+    attribute void detail_##name(const DetailRays& rays, const Chunk& chunk, Tile* tiles) {      \
+        detail_body(rays, chunk, tiles);                                                         \
+    }                                                                                            \
     attribute int too_deep_##name(const Tile& tile, float scaled, float allowed) {               \
         return first_too_deep(tile, scaled, allowed);                                            \
     }                                                                                            \
@@ -119,9 +128,9 @@ struct Kernels {
                                 Tile& tile) {                                                    \
         march_tile(shade, light, count, tile);                                                   \
     }                                                                                            \
-    constexpr Kernels kKernels_##name{rays_##name,     phases_##name, finish_##name,             \
-                                      measure_##name,  ratio_##name,  deposit_##name,            \
-                                      too_deep_##name, spread_##name, march_##name};
+    constexpr Kernels kKernels_##name{                                                           \
+        rays_##name,    phases_##name, finish_##name,   measure_##name, ratio_##name,            \
+        deposit_##name, detail_##name, too_deep_##name, spread_##name,  march_##name};
 
 AWAN_KERNELS(plain, )
 #if defined(__x86_64__)
@@ -309,11 +318,31 @@ class BlockMarch {
         const double slope = frame_.du * kBlockSide * 0.75;  // of the block's corners to its middle
         fineness_in_cone(scene_.islands, frame_.forward, slope, {scene_.apart, scene_.step},
                          room_.fineness);
+        if (scene_.detail != nullptr) place_detail();
         longest_ = scene_.step;
         const double finest = finest_step(room_.fineness);
         for (double samples = finest; samples * kMostSamples < length; samples *= 2) stretch_ *= 2;
         longest_ *= stretch_;
         shortest_ = finest / kFinest;
+    }
+
+    void place_detail() {
+        const DetailField& field = *scene_.detail;
+        detail_.field = &field;
+        detail_.reference = static_cast<float>(reference_);
+        const glm::dvec3 middle = to_scene(scene_.view, frame_.forward);
+        const glm::dvec3 start =
+            field.to_tile * (scene_.view.eye + reference_ * middle - field.origin);
+        const glm::dvec3 axes[3] = {field.to_tile * to_scene(scene_.view, frame_.right),
+                                    field.to_tile * to_scene(scene_.view, frame_.up),
+                                    field.to_tile * middle};
+        for (int axis = 0; axis < 3; ++axis) {
+            detail_.start[axis] = static_cast<float>(
+                start[axis] - kDetailSide * std::floor(start[axis] / kDetailSide));
+            detail_.right[axis] = static_cast<float>(axes[0][axis]);
+            detail_.up[axis] = static_cast<float>(axes[1][axis]);
+            detail_.middle[axis] = static_cast<float>(axes[2][axis]);
+        }
     }
 
     void march() {
@@ -359,6 +388,7 @@ class BlockMarch {
             bool fine = true;  // far finer than it need be
             const float allowed = scene_.step_depth;
             kernels_.deposit(p, active, chunk, room_.tiles);
+            if (detail_.field != nullptr) kernels_.detail(detail_, chunk, room_.tiles);
             for (const Tile& tile : room_.tiles) {
                 if (!tile.alive) continue;
                 if (step > shortest_)
@@ -526,6 +556,7 @@ class BlockMarch {
     int left_, top_;  // pixels
     BlockFrame frame_{};
     SunInBlock sun_{};
+    DetailRays detail_;
     double reference_ = 0, longest_ = 1, shortest_ = 1;
     double stretch_ = 1;  // of all steps, where a ray is long
 };

@@ -40,6 +40,7 @@ struct MarchScene {
     std::vector<SeenIsland> islands;  // where both are less
     float step_depth = 1;             // longest step in scaled optical depth, where it is seen
     SkyBehind sky;
+    const DetailField* detail = nullptr;  // null: none
 };
 
 inline constexpr int kTileSide = 4;

@@ -2,9 +2,12 @@
 
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <vector>
 
 namespace awan {
+
+struct DetailField;
 
 // Gaussian blobs of extinction: density * exp(-d^2 / (2 s^2)) per unit, s = radius / 2.
 // Structure of arrays, all of one length; clouds and cubes in the document's order.
@@ -14,6 +17,9 @@ struct ParticleSet {
     std::vector<float> density;      // peak extinction, 1/unit, >= 0
     std::vector<glm::vec3>
         color;  // 0..1, multiplies the albedo; EMPTY when every particle is white
+    // Structure finer than the particles (detail.h), for all rooms that see matter; null: there is none, and the
+    // extinction is the sum of the Gaussians.
+    std::shared_ptr<const DetailField> detail;
 
     std::size_t size() const { return center.size(); }
 };

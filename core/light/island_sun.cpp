@@ -8,6 +8,7 @@
 #include "core/light/sun_depth.h"
 #include "core/survey/gauss.h"
 #include "core/survey/lattice.h"
+#include "core/survey/lattice_detail.h"
 #include "core/survey/projection.h"
 
 namespace awan {
@@ -92,7 +93,9 @@ SunDepth sun_depth_in(const SunPrism& prism, const ParticleSet& all) {
     sun.origin = prism.origin + 0.5 * sun.cell * (sun.u + sun.v);
     sun.nodes = prism.cells + glm::ivec3(0, 0, 1);
     const std::vector<double> before = depth_before(prism, all);
-    const std::vector<float> extinction = extinction_in(all, lattice_of(prism), 1);
+    const Lattice lattice = lattice_of(prism);
+    std::vector<float> extinction = extinction_in(all, lattice, 1);
+    add_detail(all, lattice, 1, extinction);
     sun.depth.resize(before.size() * static_cast<std::size_t>(sun.nodes.z));
     for (std::size_t i = 0; i < before.size(); ++i) sun.depth[i] = static_cast<float>(before[i]);
     const auto cell = static_cast<float>(sun.cell);

@@ -29,6 +29,7 @@ void add_particle(const ParticleSet& from, std::size_t i, ParticleSet& to) {
 
 std::vector<ParticleSet> sorted_into(const ParticleSet& particles, const Islands& islands) {
     std::vector<ParticleSet> sets(islands.list.size());
+    for (ParticleSet& set : sets) set.detail = particles.detail;
     for (std::size_t i = 0; i < particles.size(); ++i)
         add_particle(particles, i,
                      sets[static_cast<std::size_t>(island_at(islands, particles.center[i]))]);
@@ -115,7 +116,7 @@ Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& p
         own.cells = cells.cells;
         auto solved = light_of_part(scene,
                                     {sets[i], all, sun_depth_in(prism, all), box.depth,
-                                     outside_of(scene, neighbours, i, light)},
+                                     surroundings_of(scene, neighbours, i, light)},
                                     own, inner, deadline);
         if (!solved.ok()) {
             const std::lock_guard lock(mutex);

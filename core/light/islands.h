@@ -5,6 +5,9 @@
 // the sky and of what the others scatter, an island gets what its middle sees: the others as ellipsoids of their
 // mass, which hide the sky and shine with the source function of a coarse solve of the whole scene (surroundings.h). The
 // light that crosses a cut through thin matter is lost.
+//
+// Measured, nine clouds of depth 12 at 3 to 5 times their size from each other, transport-24 (islands_test): 5.7% nrmse, bias
+// -3%; were the others not seen, 9.2% and -7%; with one grid, 20% and -10%.
 #pragma once
 
 #include "core/light/transport.h"

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/survey/lattice.h"
+#include "core/survey/lattice_detail.h"
 #include "core/survey/projection.h"
 
 namespace awan {
@@ -24,7 +25,8 @@ SunDepth sun_depth(const ParticleSet& particles, const glm::dvec3& towards_sun, 
     sun.v = side.v;
     const Lattice lattice = lattice_around_matter(particles, sun.u, sun.v, sun.w, kLeftOut, cells,
                                                   threads, kMaxSunWork);
-    const std::vector<float> extinction = extinction_in(particles, lattice, threads);
+    std::vector<float> extinction = extinction_in(particles, lattice, threads);
+    add_detail(particles, lattice, threads, extinction);
     sun.cell = lattice.cell;
     // Nodes stand in the middle of the columns and on the faces between their cells.
     sun.origin = lattice.origin + 0.5 * sun.cell * (sun.u + sun.v);

@@ -75,8 +75,8 @@ Neighbour neighbour_of(const ParticleSet& particles) {
     return ball;
 }
 
-Outside outside_of(const Scene& scene, const std::vector<Neighbour>& neighbours, std::size_t self,
-                   const TransportLight& whole) {
+Surroundings surroundings_of(const Scene& scene, const std::vector<Neighbour>& neighbours,
+                             std::size_t self, const TransportLight& whole) {
     return [&scene, &neighbours, &whole, self](std::size_t band, const glm::dvec3& direction,
                                                double sky) {
         const glm::dvec3 from = neighbours[self].center, away = -direction;

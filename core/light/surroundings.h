@@ -18,7 +18,7 @@ Neighbour neighbour_of(const ParticleSet& particles);
 
 // Light that reaches the middle of island `self` past and from the others, which shine as `whole` (a solve of the whole scene)
 // says where a ray has come one mean free path into them. `neighbours` and `whole` must outlive it.
-Outside outside_of(const Scene& scene, const std::vector<Neighbour>& neighbours, std::size_t self,
-                   const TransportLight& whole);
+Surroundings surroundings_of(const Scene& scene, const std::vector<Neighbour>& neighbours,
+                             std::size_t self, const TransportLight& whole);
 
 }  // namespace awan

@@ -16,6 +16,7 @@
 #include "core/parallel.h"
 #include "core/shaders/shared.h"
 #include "core/survey/lattice.h"
+#include "core/survey/lattice_detail.h"
 
 namespace awan {
 namespace {
@@ -302,7 +303,8 @@ Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
     Lattice fine_lattice = coarse;
     fine_lattice.cell = coarse.cell / sub;
     fine_lattice.cells = coarse.cells * sub;
-    const std::vector<float> fine = extinction_in(particles, fine_lattice, threads);
+    std::vector<float> fine = extinction_in(particles, fine_lattice, threads);
+    add_detail(particles, fine_lattice, threads, fine);
     const std::vector<float> mean = block_means(fine, coarse.cells, sub);
     light.origin = coarse.origin;
     light.cell = coarse.cell;
@@ -337,17 +339,17 @@ Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
             matter.scattered[i] = static_cast<float>(depth * a * (1 - f) / (1 - a * f));
         }
         Inflow outside;
-        if (part.outside)
+        if (part.surroundings)
             outside = [&, band = light.bands.size()](const glm::dvec3& direction) {
                 const double sky = sky_radiance(-direction.y, shine.zenith, shine.horizon);
-                return part.outside(band, direction, sky);
+                return part.surroundings(band, direction, sky);
             };
         auto moments = solve(matter, ordinates, beam, -towards_sun, shine, 1 - f, outside, settings,
                              threads, deadline, light);
         if (!moments.ok()) return moments.error();
         LightBand band;
         band.color = shine.color;
-        if (!shine.beam && !part.outside)
+        if (!shine.beam && !part.surroundings)
             band.most =
                 static_cast<float>(albedo * (1 - f) * std::max(shine.zenith, shine.horizon));
         band.moments.resize(mean.size());

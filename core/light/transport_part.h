@@ -9,14 +9,15 @@ namespace awan {
 
 // Radiance that reaches a part along `direction` (unit, the way the light goes) in the units of band `band`, where the open
 // sky would send `sky`.
-using Outside = std::function<double(std::size_t band, const glm::dvec3& direction, double sky)>;
+using Surroundings =
+    std::function<double(std::size_t band, const glm::dvec3& direction, double sky)>;
 
 struct LightPart {
     const ParticleSet& own;  // the grid goes around these; not empty, with mass
     const ParticleSet& all;  // and holds what of these lies in it
     SunDepth sun;
-    double deepest = 0;  // optical depth of the longest line towards the lights
-    Outside outside;     // empty: the open sky
+    double deepest = 0;         // optical depth of the longest line towards the lights
+    Surroundings surroundings;  // empty: the open sky
 };
 
 // As transport_light; settings.islands is not looked at.

@@ -78,6 +78,9 @@ Criterion criterion(Effect effect, const Scene& scene, const Survey& survey) {
             return survey.eye_inside
                        ? Criterion{true, "the eye is within 4 s of a particle"}
                        : Criterion{false, "the eye is more than 4 s away from every particle"};
+        case Effect::kDetail:
+            if (!scene->detail) return {false, "the scene asks for none"};
+            return {true, "asked for"};
         default:
             return {false, ""};
     }

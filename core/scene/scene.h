@@ -105,8 +105,8 @@ struct Haze {
 
 // Structure finer than the particles (core/generate/detail.h).
 struct Detail {
-    double amount = 0.5;  // 0: none .. 1
-    double size = 0.5;    // of the largest bumps, in mean particle radii
+    double amount = 0.7;  // 0: none .. 1
+    double size = 1.5;    // of the largest bumps, in mean particle radii
 };
 
 struct Camera {

@@ -254,12 +254,13 @@ bool pays(const ParticleSet& particles, int cells, Volume& volume, std::vector<P
     return parts[0].cut.axis >= 0;
 }
 
-// A quick look at coarse cells: where matter fills the box, no cuts can pay.
+// A quick look at coarse cells: where matter fills the box or has no gaps at all, no cuts can pay.
 bool hopeless(const ParticleSet& particles) {
     const Volume volume = volume_of(particles, kQuickCells);
     std::size_t full = 0;
     for (const float depth : volume.depth) full += static_cast<double>(depth) >= kEmpty;
-    return static_cast<double>(full) > 0.6 * static_cast<double>(volume.depth.size());
+    return static_cast<double>(full) > 0.6 * static_cast<double>(volume.depth.size()) ||
+           parts_of(volume).size() == 1;
 }
 
 }  // namespace

@@ -46,17 +46,31 @@ double sun_cosine(const Scene& scene, const Survey& survey) {
 }
 
 void measure_matter(const ParticleSet& particles, Survey& survey) {
+    double radii = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         survey.max_sigma_s =
             std::max(survey.max_sigma_s,
                      static_cast<double>(particles.density[i]) * gaussian_s(particles, i));
         survey.total_mass += gaussian_mass(particles, i);
+        radii += gaussian_mass(particles, i) * static_cast<double>(particles.radius[i]);
         double power = 1;
         for (double& sum : survey.s_sums) {
             sum += power;
             power *= gaussian_s(particles, i);
         }
     }
+    if (survey.total_mass > 0) survey.detail.radius = radii / survey.total_mass;
+    survey.detail.origin = 0.5 * (survey.bounds.min + survey.bounds.max);
+}
+
+// By mass: what a point in the matter has around it.
+double typical_extinction(const DensityVolume& volume) {
+    double sum = 0, squares = 0;
+    for (const float cell : volume.extinction) {
+        sum += static_cast<double>(cell);
+        squares += static_cast<double>(cell) * static_cast<double>(cell);
+    }
+    return sum > 0 ? squares / sum : 0;
 }
 
 }  // namespace
@@ -97,6 +111,7 @@ Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int thre
     });
     for (const float cell : survey.volume.extinction)
         survey.max_extinction = std::max(survey.max_extinction, static_cast<double>(cell));
+    survey.detail.extinction = typical_extinction(survey.volume);
     if (auto error = deadline.over()) return *error;
     return survey;
 }

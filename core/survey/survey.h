@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/deadline.h"
+#include "core/generate/detail.h"
 #include "core/generate/particle_set.h"
 #include "core/scene/scene.h"
 #include "core/survey/islands.h"
@@ -51,6 +52,7 @@ struct Survey {
     double max_sigma_s = 0;          // largest density * s of one particle (dimensionless)
     double min_projected_px = 0;     // smallest and largest projected s in the picture, pixels;
     double max_projected_px = 0;     //   infinite for a particle that holds the eye
+    DetailFigures detail;            // what detail would be made for
     bool eye_inside = false;         // the eye is within 4 s of a particle
 };
 

@@ -200,7 +200,7 @@ void list_by_column(Matter& m) {
                });
 }
 
-// A trilinear field is nowhere above its nodes.
+// A trilinear field is nowhere above its nodes, nor its lumps above what most_detailed says.
 void find_most(Matter& m, int threads) {
     if (m.extinction.empty()) return;
     parallel_for(threads, static_cast<std::size_t>(m.bricks.z), [&](std::size_t bz) {
@@ -219,8 +219,30 @@ void find_most(Matter& m, int threads) {
                                                              (static_cast<std::size_t>(j) +
                                                               static_cast<std::size_t>(m.nodes.y) *
                                                                   static_cast<std::size_t>(k))]);
+                if (m.detail)
+                    most = static_cast<float>(
+                        m.cell * most_detailed(*m.detail, static_cast<double>(most) / m.cell));
                 m.most[m.brick({x, y, z})] = most * 1.00001f;  // interpolation rounds
             }
+    });
+}
+
+// The sun's lattice, from smooth extinctions to those with detail.
+void add_detail_to_sun(Matter& m, double sun_cell, int threads) {
+    const glm::dmat3 back = glm::inverse(m.sun_axes);  // to the matter's cells
+    const auto row = static_cast<std::size_t>(m.sun_nodes.x);
+    parallel_for(threads, m.sun_depth.size() / row, [&](std::size_t line) {
+        const auto j = static_cast<double>(line % static_cast<std::size_t>(m.sun_nodes.y));
+        const auto k = static_cast<double>(line / static_cast<std::size_t>(m.sun_nodes.y));
+        for (std::size_t i = 0; i < row; ++i) {
+            float& value = m.sun_depth[line * row + i];
+            const glm::dvec3 q(static_cast<double>(i), j, k);
+            const double ratio = m.cell / sun_cell;
+            value = static_cast<float>(
+                with_detail(m, static_cast<float>(static_cast<double>(value) * ratio),
+                            back * (q - m.sun_origin)) /
+                ratio);
+        }
     });
 }
 
@@ -307,6 +329,7 @@ Result<Matter> make_matter(const ParticleSet& particles, const glm::dvec3& to_su
     const double sun_cell = std::max(wanted, smallest_cell(sun_box, kMaxNodes));
     const double largest = about_largest(sources, box);
 
+    m.detail = particles.detail;
     m.origin = middle + box.low;
     m.cell = cell;
     m.nodes = nodes_for(box, cell);
@@ -321,7 +344,9 @@ Result<Matter> make_matter(const ParticleSet& particles, const glm::dvec3& to_su
 
     std::vector<LatticeGaussian> on_lattice, on_sun_lattice;
     std::vector<glm::vec3> colors;
-    const std::vector<bool> listed = choose_listed(sources, std::max(cell, sun_cell), largest);
+    const std::vector<bool> listed =
+        particles.detail ? std::vector<bool>(sources.size(), false)
+                         : choose_listed(sources, std::max(cell, sun_cell), largest);
     for (std::size_t i = 0; i < sources.size(); ++i) {
         const Source& g = sources[i];
         const glm::dvec3 c = (g.center - box.low) / cell;
@@ -343,6 +368,7 @@ Result<Matter> make_matter(const ParticleSet& particles, const glm::dvec3& to_su
         auto depth = sum_on_lattice(m.sun_nodes, on_sun_lattice, threads, deadline);
         if (!depth.ok()) return depth.error();
         m.sun_depth = *std::move(depth);
+        if (m.detail) add_detail_to_sun(m, sun_cell, threads);
         gather_along_sun(m.sun_depth, m.sun_nodes);
         on_sun_lattice = {};
         auto sum = sum_on_lattice(m.nodes, on_lattice, threads, deadline);
@@ -369,10 +395,9 @@ double extinction(const Matter& m, const glm::dvec3& p) {
     if (m.empty || glm::any(glm::lessThan(p, glm::dvec3(0))) ||
         glm::any(glm::greaterThan(p, m.top)))
         return 0;
-    double sum =
-        m.extinction.empty()
-            ? 0.0
-            : static_cast<double>(interpolated(m.extinction.data(), m.nodes, p.x, p.y, p.z));
+    double sum = m.extinction.empty()
+                     ? 0.0
+                     : with_detail(m, interpolated(m.extinction.data(), m.nodes, p.x, p.y, p.z), p);
     if (m.listed.empty()) return sum;
     const std::size_t b = m.brick(brick_of(p, m.bricks));
     for (std::uint32_t i = m.brick_begin[b]; i < m.brick_begin[b + 1]; ++i) {

@@ -9,6 +9,9 @@
 // Error of the extinction: below .35% of the cloud's largest as long as the lists hold all that would be seen; with tens of
 // thousands of narrow, thin particles what is finer than a cell is smoothed. Its mean over a few cells is exact in any case. Of
 // a Gaussian's cut tails: 1e-5 of its peak. Optical depth towards the sun: below .5% or .005, whichever is larger.
+//
+// With detail (core/generate/detail.h) all particles are on the lattice, which then holds the smooth extinction; the lumps are
+// looked up where a path asks, so they are exact, but for the optical depth to the sun, tabulated by cells.
 #pragma once
 
 #include <array>
@@ -18,6 +21,7 @@
 #include <vector>
 
 #include "core/deadline.h"
+#include "core/generate/detail.h"
 #include "core/generate/particle_set.h"
 #include "core/truth/lattice.h"
 
@@ -35,9 +39,10 @@ struct Matter {
     std::array<std::vector<float>, 3>
         color;  // r g b: sums of extinction * colour; EMPTY when every particle is white
     bool colored = false;
+    std::shared_ptr<const DetailField> detail;  // null: `extinction` is all there is
 
     glm::ivec3 bricks{1};
-    std::vector<float> most;  // no lattice extinction in the brick is above it
+    std::vector<float> most;  // no lattice extinction in the brick, detail and all, is above it
 
     struct Listed {
         glm::dvec3 center;  // cells
@@ -73,6 +78,15 @@ struct Matter {
 // to_sun: unit. Memory: at most 256 MB and 200 bytes a listed particle. Errors: kOverDeadline, kCancelled.
 Result<Matter> make_matter(const ParticleSet& particles, const glm::dvec3& to_sun, int threads,
                            const Deadline& deadline);
+
+// Extinction on the lattice with its detail, from the smooth one, at p (cells).
+inline double with_detail(const Matter& m, float smooth, const glm::dvec3& p) {
+    if (!m.detail || !(smooth > 0)) return static_cast<double>(smooth);
+    const double per_unit = static_cast<double>(smooth) / m.cell;
+    const glm::dvec3 place = m.origin + m.cell * p;
+    return m.cell * static_cast<double>(detailed(*m.detail, static_cast<float>(per_unit),
+                                                 bumps_at(*m.detail, place)));
+}
 
 // Of all particles at p (cells), per cell. 0 outside.
 double extinction(const Matter& matter, const glm::dvec3& p);

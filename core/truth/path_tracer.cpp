@@ -97,12 +97,14 @@ Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles,
         const PixelRay ray = pixel_ray(view, width, height, x, y);
         const glm::dvec3 o = (ray.origin - matter->origin) / matter->cell;
         const double ground = ground_ahead(setting, o, ray.direction);  // cells
-        const double depth =
-            line_optical_depth(near, ray.origin, ray.direction, 0, ground * matter->cell);
+        const truth::PrimaryRay primary(*matter, o, ray.direction, ground);
+        // Gaussians alone have it in closed form.
+        const double depth = matter->detail ? primary.depth()
+                                            : line_optical_depth(near, ray.origin, ray.direction, 0,
+                                                                 ground * matter->cell);
         const double covered = -std::expm1(-depth), through = std::exp(-depth);
         Sums sums;
         Tally tally;
-        const truth::PrimaryRay primary(*matter, o, ray.direction, ground);
         if (covered > 0 && primary.meets()) {
             const std::uint32_t paths = worthwhile_paths(samples, covered);
             const bool done = average(

@@ -9,9 +9,10 @@
 namespace awan::truth {
 namespace {
 
-constexpr double kStep = 0.7;       // cells
-constexpr double kStepDepth = 0.1;  // optical depth a step
-constexpr double kDark = 30;        // optical depth: e^-30 of the light comes from behind it
+constexpr double kStep = 0.7;         // cells
+constexpr double kStepDepth = 0.1;    // optical depth a step
+constexpr double kDetailStep = 0.05;  // of the largest bumps; the smallest are four times that
+constexpr double kDark = 30;          // optical depth: e^-30 of the light comes from behind it
 
 // A listed particle that the ray meets, and where.
 struct Met {
@@ -55,9 +56,11 @@ PrimaryRay::PrimaryRay(const Matter& m, const glm::dvec3& o, const glm::dvec3& d
     const auto on_lattice = [&](double at) {
         if (m.extinction.empty()) return 0.0;
         const glm::dvec3 p = o + at * d;
-        return static_cast<double>(interpolated(m.extinction.data(), m.nodes, p.x, p.y, p.z));
+        return with_detail(m, interpolated(m.extinction.data(), m.nodes, p.x, p.y, p.z), p);
     };
-    double depth = 0, here = on_lattice(t), step = kStep;
+    const double longest =
+        m.detail ? std::min(kStep, kDetailStep * m.detail->bump / m.cell) : kStep;
+    double depth = 0, here = on_lattice(t), step = longest;
     t_.push_back(t);
     depth_.push_back(0);
     while (t < end && depth < kDark) {
@@ -75,7 +78,7 @@ PrimaryRay::PrimaryRay(const Matter& m, const glm::dvec3& o, const glm::dvec3& d
         t = next;
         here = there;
         depth += more;
-        step = std::min(2 * step, kStep);
+        step = std::min(2 * step, longest);
         if (more > 0 || t_.size() > 1) {
             t_.push_back(t);
             depth_.push_back(depth);

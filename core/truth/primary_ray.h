@@ -16,6 +16,8 @@ class PrimaryRay {
   public:
     PrimaryRay(const Matter& matter, const glm::dvec3& o, const glm::dvec3& d, double end);
 
+    // Of the whole ray, or at least a depth of 30.
+    double depth() const { return depth_.empty() ? 0 : depth_.back(); }
     bool meets() const { return !depth_.empty() && depth_.back() > 0; }
     // t of the first scattering of light that has one; share in (0, 1): of such light, met before t.
     double first_meeting(double share) const;

@@ -74,8 +74,10 @@ Flight free_flight(const Matter& m, const glm::dvec3& o, const glm::dvec3& d, do
                 const double further = t + left * per_most;
                 if (!(further < leave)) break;
                 t = further;
-                const float here =
+                const float smooth =
                     interpolated(values, m.nodes, o.x + t * d.x, o.y + t * d.y, o.z + t * d.z);
+                const float here =
+                    m.detail ? static_cast<float>(with_detail(m, smooth, o + t * d)) : smooth;
                 if (random.unit_float() * m.most[brick] < here) return {true, t};
                 if (++tentative > kMaxTentative) return {};
                 left = static_cast<double>(-std::log(random.unit_float()));

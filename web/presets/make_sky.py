@@ -20,17 +20,30 @@ def layouts(name):
     return [cloud["cubes"] for cloud in scene.get("clouds", [scene])]
 
 
+def grown(cube):
+    """Few turrets stand for many: larger, and lower to meet what the smaller ones would have joined them to."""
+    x, y, z = cube["center"]
+    return {"size": [1.4 * v for v in cube["size"]], "center": [x, 0.85 * y, z]}
+
+
+def touch(a, b):
+    return all(abs(p - q) < 0.6 * (s + t) for p, q, s, t in zip(a["center"], b["center"], a["size"], b["size"]))
+
+
+def within(a, b):
+    return math.dist(a["center"], b["center"]) < 0.3 * max(max(a["size"]), b["size"][1])
+
+
 def spread_out(cubes, count):
-    """The largest cubes that stand neither within each other nor apart, from the lowest of them up."""
-    rest = sorted(cubes, key=lambda c: -math.prod(c["size"]))[:4 * count]
-    kept = [min(rest[:6], key=lambda c: c["center"][1])]
+    """The largest cubes that stand neither within each other nor apart, once each is grown."""
+    flat = min(cubes[:1], key=lambda c: c["center"][1])
+    rest = [grown(c) for c in sorted(cubes, key=lambda c: -math.prod(c["size"]))[:12 * count] if c is not flat]
+    kept = [flat]
     while len(kept) < count:
-        def apart(cube):
-            return min(math.dist(cube["center"], k["center"]) / (max(k["size"]) + max(cube["size"])) for k in kept)
-        free = [c for c in rest if 0.25 < apart(c) < 0.62]
+        free = [c for c in rest if any(touch(c, k) for k in kept) and all(not within(c, k) for k in kept)]
         if not free:
             break
-        kept.append(min(free, key=lambda c: c["center"][1] if len(kept) % 2 else -math.prod(c["size"])))
+        kept.append(free[0])
     return kept
 
 
@@ -39,14 +52,12 @@ def wide(cubes):
 
 
 def rounded(cubes, particles):
-    """Turrets grown into each other, since few stand for many, and `particles` shared by volume."""
-    flat = min(cubes, key=lambda c: c["size"][1] / c["size"][0])
-    grown = [[v * (1 if c is flat else 1.1) for v in c["size"]] for c in cubes]
-    volumes = [math.prod(size) ** 0.8 for size in grown]
-    return [{"particles": max(4, round(particles * volume / sum(volumes))), "size": [round(v, 2) for v in size],
+    """With `particles` shared by volume."""
+    volumes = [math.prod(c["size"]) ** 0.8 for c in cubes]
+    return [{"particles": max(4, round(particles * volume / sum(volumes))), "size": [round(v, 2) for v in c["size"]],
              "center": [round(v, 2) for v in c["center"]],
-             "radius": round(0.75 * min(size), 2)}
-            for c, size, volume in zip(cubes, grown, volumes)]
+             "radius": round(0.5 * min(c["size"]) if c is not cubes[0] else 0.9 * c["size"][1], 2)}
+            for c, volume in zip(cubes, volumes)]
 
 
 def main():
@@ -60,7 +71,7 @@ def main():
         tower = index % 14 == 4
         cubes = towers if tower else small[dice.randrange(len(small))]
         # Half the width of the cloud in the scene.
-        radius = (2.2 if tower else 1.3) * min(size, 4.5) ** 0.7
+        radius = (1.7 if tower else 1.3) * min(size, 4.5) ** 0.7
         for _ in range(10_000):
             z = dice.uniform(-92, 6)
             x = dice.uniform(-1, 1) * (12 + 0.6 * (14 - z))
@@ -69,7 +80,7 @@ def main():
         places.append((x, z, radius))
         clouds.append((cubes, radius / wide(cubes), x, z, radius))
     weight = sum(radius ** 1.5 for *_, radius in clouds)
-    document = {"clouds": [], "density": 0.12, "seed": 100,
+    document = {"clouds": [], "density": 0.3, "seed": 100,
                 "medium": {"g": 0.6, "albedo": 0.999},
                 "sky": {"zenith": [0.09, 0.25, 0.72], "horizon": [0.44, 0.67, 0.95], "intensity": 1.7},
                 "sun": {"elevation": 34, "azimuth": 110, "intensity": 40},

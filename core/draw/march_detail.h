@@ -1,0 +1,101 @@
+// Detail (core/generate/detail.h) in a tile's depth profile, sixteen pixels at a time. Bodies are inlined into one function
+// a target in march_block.cpp.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <glm/vec3.hpp>
+
+#include "core/draw/march_kernels.h"
+#include "core/generate/detail.h"
+
+namespace awan {
+
+// A block's rays in the detail's tile, voxels: at distance t the ray of direction middle + x right + y up + z middle is at
+// start + (t - reference) middle + t (x right + y up + z middle).
+struct DetailRays {
+    const DetailField* field = nullptr;  // null: there is no detail
+    float start[3] = {};                 // in 0..kDetailSide
+    float right[3] = {}, up[3] = {}, middle[3] = {};
+    float reference = 0;  // distance of the block's reference
+};
+
+// n at voxels p.
+AWAN_INLINE Floats bumps_at(const std::uint32_t* words, const Floats p[3]) {
+    constexpr auto side = static_cast<float>(kDetailSide);
+    Ints low[3];
+    Floats part[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        const Floats turns = p[axis] * (1 / side);
+        Ints whole = __builtin_convertvector(turns, Ints);
+        whole += turns < __builtin_convertvector(whole, Floats);  // a mask is -1
+        const Floats in = p[axis] - __builtin_convertvector(whole, Floats) * side;
+        const Floats kept = simd::min(simd::max(in, Floats{}), simd::all(side * 0.9999999f));
+        low[axis] = __builtin_convertvector(kept, Ints);
+        part[axis] = kept - __builtin_convertvector(low[axis], Floats);
+    }
+    const Ints at = (low[2] * kDetailSide + low[1]) * kDetailSide + low[0];
+    std::int32_t index[kLanes];
+    std::uint32_t near[kLanes], far[kLanes];
+    std::memcpy(index, &at, sizeof index);
+    for (int lane = 0; lane < kLanes; ++lane) {
+        near[lane] = words[index[lane]];
+        far[lane] = words[index[lane] + kDetailSide * kDetailSide];
+    }
+    const auto layer = [&](const std::uint32_t* from) __attribute__((always_inline)) {
+        Ints w;
+        std::memcpy(&w, from, sizeof w);
+        const Floats a = __builtin_convertvector(w & 255, Floats);
+        const Floats b = __builtin_convertvector(w >> 8 & 255, Floats);
+        const Floats c = __builtin_convertvector(w >> 16 & 255, Floats);
+        const Floats d = __builtin_convertvector(w >> 24 & 255, Floats);
+        const Floats low_y = a + part[0] * (b - a), high_y = c + part[0] * (d - c);
+        return low_y + part[1] * (high_y - low_y);
+    };
+    const Floats a = layer(near), b = layer(far);
+    return (a + part[2] * (b - a) + 0.5f) * (1.0f / 256);
+}
+
+// detailed() of core/generate/detail.h for u in 0..1, without keep * edge.
+AWAN_INLINE Floats lumps(const Floats& u, const Floats& n) {
+    constexpr float w = kSoftness;
+    const Floats ramp =
+        simd::min(simd::max((n - 1.0f + u * (1 + w)) * (1 / w), Floats{}), simd::all(1.0f));
+    const Floats a = 1.0f - u * (1 + w);
+    const Floats rest = 1.0f - a;
+    const Floats early = rest * rest * (1 / (2 * w)), middle = rest - 0.5f * w;
+    const Floats late = 1.0f - (a + w) * (a + w) * (1 / (2 * w));
+    const Floats share = a >= 1 - w ? early : (a >= 0.0f ? middle : late);
+    const Floats lump =
+        simd::min(u / simd::max(share, simd::all(1e-20f)), simd::all(kMostGathered));
+    return lump * ramp;
+}
+
+// Every sample of the tile: from the smooth depth to the detailed one.
+AWAN_INLINE void add_detail(const DetailRays& rays, const Chunk& chunk, Tile& tile) {
+    const DetailField& field = *rays.field;
+    const float whole = field.edge * chunk.step;  // depth of a sample at the edge
+    const float per_whole = 1 / whole;
+    Floats slope[3], start[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        const Floats aside =
+            tile.x * rays.right[axis] + tile.y * rays.up[axis] + tile.z * rays.middle[axis];
+        slope[axis] = aside + rays.middle[axis];
+        start[axis] = rays.start[axis] + rays.reference * aside;
+    }
+    for (int k = tile.first; k <= tile.last; ++k) {
+        const Floats u = tile.profile[k] * per_whole;
+        const Ints thin = static_cast<Ints>(u < 1.0f) & static_cast<Ints>(1e-6f < u);
+        Floats detailed = tile.profile[k] * field.keep;
+        if (simd::any(thin)) {
+            const float t = chunk.from + (static_cast<float>(k) + 0.5f) * chunk.step;
+            const Floats p[3] = {start[0] + t * slope[0], start[1] + t * slope[1],
+                                 start[2] + t * slope[2]};
+            const Floats lump = lumps(simd::max(u, Floats{}), bumps_at(field.words.data(), p));
+            detailed = u < 1.0f ? (whole * field.keep) * lump : detailed;
+        }
+        tile.profile[k] = detailed;
+    }
+}
+
+}  // namespace awan

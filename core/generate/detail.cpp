@@ -1,0 +1,231 @@
+#include "core/generate/detail.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "core/generate/keyed_random.h"
+#include "core/parallel.h"
+
+namespace awan {
+namespace {
+
+constexpr double kEdge = 1.4;  // `edge` of amount 1, in typical extinctions
+
+// Bumps along the tile and their share: each size sits on the one before.
+struct Octave {
+    int cells;
+    float share;
+};
+constexpr std::array kOctaves = {Octave{kDetailBumps, 0.58F}, Octave{11, 0.28F}, Octave{23, 0.14F}};
+
+constexpr int kWaves = 10;
+constexpr double kWarp = 0.32;  // of a largest bump
+
+// A divergence-free displacement with the tile's period: the curl of a sum of waves.
+class Warp {
+  public:
+    explicit Warp(std::uint64_t key) {
+        for (int i = 0; i < kWaves; ++i) {
+            const auto number = [&](std::uint64_t which, double from, double to) {
+                const auto bits = static_cast<std::uint32_t>(
+                    keyed(keyed(key, static_cast<std::uint64_t>(i)), which) >> 32);
+                return from + (to - from) * unit_open(bits);
+            };
+            Wave& wave = waves_[static_cast<std::size_t>(i)];
+            glm::dvec3 k(0);
+            for (int axis = 0; axis < 3; ++axis)
+                k[axis] = std::floor(number(static_cast<std::uint64_t>(axis), -7, 8));
+            if (k == glm::dvec3(0)) k.x = 3;
+            const glm::dvec3 a(number(3, -1, 1), number(4, -1, 1), number(5, -1, 1));
+            wave.k = glm::vec3(2 * std::numbers::pi * k);
+            wave.phase = static_cast<float>(number(6, 0, 2 * std::numbers::pi));
+            const glm::dvec3 swing = glm::cross(k, a);
+            // Each the same in size: together about kWarp of a bump (rms).
+            const double length = std::max(glm::length(swing), 1e-9);
+            wave.swing =
+                glm::vec3(swing / length * (kWarp / kDetailBumps * std::sqrt(2.0 / kWaves)));
+        }
+    }
+    // p: in tiles.
+    glm::vec3 operator()(const glm::vec3& p) const {
+        glm::vec3 sum(0);
+        for (const Wave& wave : waves_)
+            sum += wave.swing * std::cos(glm::dot(wave.k, p) + wave.phase);
+        return sum;
+    }
+
+  private:
+    struct Wave {
+        glm::vec3 k{0}, swing{0};
+        float phase = 0;
+    };
+    std::array<Wave, kWaves> waves_;
+};
+
+// One point in each cell of a periodic grid; bumps about them.
+class Bumps {
+  public:
+    Bumps(int cells, std::uint64_t key) : cells_(cells) {
+        const auto n = static_cast<std::size_t>(cells);
+        points_.resize(n * n * n);
+        for (std::size_t i = 0; i < points_.size(); ++i)
+            for (int axis = 0; axis < 3; ++axis)
+                points_[i][axis] = static_cast<float>(unit_open(static_cast<std::uint32_t>(
+                    keyed(keyed(key, i), static_cast<std::uint64_t>(axis)) >> 32)));
+    }
+    // 1 at a point, down by the square of the distance (in cells) to the nearest.
+    float operator()(const glm::vec3& p) const {
+        const glm::vec3 at = p * static_cast<float>(cells_);
+        const glm::vec3 floor = glm::vec3(std::floor(at.x), std::floor(at.y), std::floor(at.z));
+        const glm::vec3 in = at - floor;
+        const glm::ivec3 cell(floor);
+        float nearest = 4;
+        for (int k = -1; k <= 1; ++k)
+            for (int j = -1; j <= 1; ++j)
+                for (int i = -1; i <= 1; ++i) {
+                    const glm::vec3 apart =
+                        point(cell + glm::ivec3(i, j, k)) + glm::vec3(i, j, k) - in;
+                    nearest = std::min(nearest, glm::dot(apart, apart));
+                }
+        return 1 - nearest;
+    }
+
+  private:
+    const glm::vec3& point(const glm::ivec3& cell) const {
+        const auto wrapped = [&](int i) {
+            return static_cast<std::size_t>(((i % cells_) + cells_) % cells_);
+        };
+        const auto n = static_cast<std::size_t>(cells_);
+        return points_[(wrapped(cell.z) * n + wrapped(cell.y)) * n + wrapped(cell.x)];
+    }
+    int cells_;
+    std::vector<glm::vec3> points_;
+};
+
+constexpr auto kSide = static_cast<std::size_t>(kDetailSide);
+
+// By rank: the bytes are uniform, which makes the shares of space exact.
+std::vector<std::uint8_t> ranks(const std::vector<float>& values) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    constexpr std::size_t kBins = 1u << 16;
+    const float scale = static_cast<float>(kBins - 1) / std::max(*high - *low, 1e-20F);
+    const auto bin = [&, least = *low](float v) {
+        return static_cast<std::size_t>((v - least) * scale);
+    };
+    std::vector<std::uint32_t> below(kBins + 1, 0);
+    for (const float v : values) ++below[bin(v) + 1];
+    for (std::size_t i = 1; i <= kBins; ++i) below[i] += below[i - 1];
+    std::vector<std::uint8_t> bytes(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::size_t b = bin(values[i]);
+        const std::size_t middle = (std::size_t{below[b]} + below[b + 1]) / 2;
+        bytes[i] =
+            static_cast<std::uint8_t>(std::min<std::size_t>(middle * 256 / values.size(), 255));
+    }
+    return bytes;
+}
+
+std::vector<std::uint32_t> packed(const std::vector<std::uint8_t>& bytes) {
+    std::vector<std::uint32_t> words(kSide * kSide * (kSide + 1));
+    for (std::size_t z = 0; z <= kSide; ++z)
+        for (std::size_t y = 0; y < kSide; ++y)
+            for (std::size_t x = 0; x < kSide; ++x) {
+                const auto byte = [&](std::size_t dx, std::size_t dy) -> std::uint32_t {
+                    return bytes[((z % kSide) * kSide + (y + dy) % kSide) * kSide +
+                                 (x + dx) % kSide];
+                };
+                words[(z * kSide + y) * kSide + x] =
+                    byte(0, 0) | byte(1, 0) << 8 | byte(0, 1) << 16 | byte(1, 1) << 24;
+            }
+    return words;
+}
+
+// No axis of the tile along one of the scene: its repetition would show on flat bases.
+glm::dmat3 turned() {
+    const glm::dvec3 x = glm::normalize(glm::dvec3(0.78, 0.41, -0.47));
+    const glm::dvec3 y = glm::normalize(glm::cross(glm::dvec3(0.31, -0.62, 0.72), x));
+    return glm::transpose(glm::dmat3(x, y, glm::cross(x, y)));
+}
+
+}  // namespace
+
+float gathered_share(float u) {
+    constexpr float w = kSoftness;
+    const float a = 1 - u * (1 + w);  // where the ramp begins
+    if (a >= 1 - w) return (1 - a) * (1 - a) / (2 * w);
+    if (a >= 0) return 1 - a - 0.5F * w;
+    return 1 - (a + w) * (a + w) / (2 * w);
+}
+
+DetailField make_detail(const DetailFigures& figures, double amount, double size,
+                        std::uint64_t seed, int threads) {
+    DetailField field;
+    const std::uint64_t key = keyed(seed, 0xde7a11);
+    const Warp warp(keyed(key, 100));
+    std::vector<Bumps> octaves;
+    for (std::size_t i = 0; i < kOctaves.size(); ++i)
+        octaves.emplace_back(kOctaves[i].cells, keyed(key, i));
+    std::vector<float> values(kSide * kSide * kSide);
+    parallel_for(threads, kSide, [&](std::size_t z) {
+        for (std::size_t i = z * kSide * kSide; i < (z + 1) * kSide * kSide; ++i) {
+            const glm::vec3 p =
+                glm::vec3(i % kSide, i / kSide % kSide, z) / static_cast<float>(kSide);
+            const glm::vec3 at = p + warp(p);
+            float sum = 0;
+            for (std::size_t o = 0; o < kOctaves.size(); ++o)
+                sum += kOctaves[o].share * octaves[o](at);
+            values[i] = sum;
+        }
+    });
+    field.words = packed(ranks(values));
+    field.bump = std::clamp(size * figures.radius, 1e-9, 1e9);
+    field.to_tile = turned() * (kDetailSide / (kDetailBumps * field.bump));
+    field.origin = figures.origin;
+    field.edge = static_cast<float>(std::clamp(amount * kEdge * figures.extinction, 1e-30, 1e9));
+    return field;
+}
+
+float bumps_at(const DetailField& field, const glm::dvec3& point) {
+    const glm::dvec3 at = field.to_tile * (point - field.origin);
+    std::size_t low[3];
+    float part[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        double p = at[axis] - kDetailSide * std::floor(at[axis] / kDetailSide);
+        if (!(p >= 0 && p < kDetailSide)) p = 0;  // rounding; or too far away to have digits
+        low[axis] = static_cast<std::size_t>(p);
+        part[axis] = static_cast<float>(p - std::floor(p));
+    }
+    const std::uint32_t* const word =
+        field.words.data() + (low[2] * kSide + low[1]) * kSide + low[0];
+    const auto layer = [&](std::uint32_t w) {
+        const auto byte = [&](int shift) { return static_cast<float>(w >> shift & 255u); };
+        const float a = byte(0) + part[0] * (byte(8) - byte(0));
+        const float b = byte(16) + part[0] * (byte(24) - byte(16));
+        return a + part[1] * (b - a);
+    };
+    const float a = layer(word[0]), b = layer(word[kSide * kSide]);
+    return (a + part[2] * (b - a) + 0.5F) * (1.0F / 256);
+}
+
+double kept_by_detail(const DetailField& field, double extinction) {
+    const double u = extinction / static_cast<double>(field.edge);
+    if (!(u < 1)) return 1;
+    if (!(u > 0)) return 0;
+    const auto share = static_cast<double>(gathered_share(static_cast<float>(u)));
+    return std::min(1.0, static_cast<double>(kMostGathered) * share / u);
+}
+
+double most_detailed(const DetailField& field, double extinction) {
+    const double u = extinction / static_cast<double>(field.edge);
+    // Below 1 a lump is at most kMostGathered * edge, and the ramp at most u (1 + w) / w.
+    const double most = static_cast<double>(kMostGathered);
+    const double lumps =
+        static_cast<double>(field.edge) *
+        std::min(most, u * most * static_cast<double>((1 + kSoftness) / kSoftness));
+    return static_cast<double>(field.keep) * std::max(extinction, lumps) * 1.0001;
+}
+
+}  // namespace awan
