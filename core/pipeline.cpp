@@ -69,7 +69,10 @@ Status render_march(const Scene& scene, const Planned& planned, const Tools& too
     });
     if (!light.ok()) return light.error();
     auto image = timed(rendered.times.draw_ms, [&] {
-        return march(scene, planned.particles, planned.survey.view, **light, MarchSettings{},
+        MarchSettings settings;
+        settings.aerial_perspective = planned.plan.on(Effect::kAerialPerspective);
+        settings.light_shafts = planned.plan.on(Effect::kLightShafts);
+        return march(scene, planned.particles, planned.survey.view, **light, settings,
                      tools.threads, deadline);
     });
     if (!image.ok()) return image.error();
@@ -82,6 +85,8 @@ Status render_paths(const Scene& scene, const Planned& planned, const Tools& too
                     const Deadline& deadline, Rendered& rendered) {
     TruthOptions options;
     options.samples = planned.plan.samples;
+    options.aerial_perspective = planned.plan.on(Effect::kAerialPerspective);
+    options.light_shafts = planned.plan.on(Effect::kLightShafts);
     options.threads = tools.threads;
     auto truth = timed(rendered.times.draw_ms, [&] {
         return trace_truth(scene, planned.particles, planned.survey.view, options, tools.progress,

@@ -56,8 +56,7 @@ Result<std::string> render_bytes(const Scene& scene, const RenderCommand& comman
     progress.say("encoding");
     const ImageSettings& image = scene->image;
     if (image.format == ImageFormat::kExr) return encode_exr(rendered->image, image.precision);
-    return encode_png(rendered->image,
-                      image.exposure.value_or(auto_exposure(scene->sun, scene->sky)));
+    return encode_png(rendered->image, image.exposure.value_or(auto_exposure(scene)));
 }
 
 }  // namespace

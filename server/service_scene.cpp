@@ -170,7 +170,7 @@ std::string effects_on(const Plan& plan) {
 
 Result<std::string> encode(const Image& image, const Scene& scene, std::string_view type) {
     if (type == kExr) return encode_exr(image, scene->image.precision);
-    return encode_png(image, scene->image.exposure.value_or(auto_exposure(scene->sun, scene->sky)));
+    return encode_png(image, scene->image.exposure.value_or(auto_exposure(scene)));
 }
 
 // A number of a header.

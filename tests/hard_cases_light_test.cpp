@@ -70,6 +70,19 @@ SceneDraft colored() {
     return draft;
 }
 
+// Under the clear sky that belongs to the sun.
+SceneDraft daylight(SceneDraft draft, double elevation, double turbidity) {
+    draft.sun.direction.reset();
+    draft.sun.elevation = elevation;
+    draft.sun.auto_color = true;
+    draft.sun.intensity = 40;
+    draft.sky = {};
+    draft.sky.physical = true;
+    draft.sky.intensity = kPhysicalSkyIntensity;
+    draft.sky.turbidity = turbidity;
+    return draft;
+}
+
 // Thin matter: light is scattered once, on every rung.
 constexpr test::CaseBounds kThin{.once = .01, .once_transport = .01, .once_harris = .01};
 // Deep matter: only rung single has the oracle's light.
@@ -242,6 +255,19 @@ const std::vector<HardCase> kCases = {
          draft.image.background = Background::kSky;
          return draft;
      }},
+    {"-", "daylight_at_the_zenith", [] { return daylight(ball({.depth = 2}), 90, 2); }},
+    {"-", "daylight_on_the_horizon", [] { return daylight(ball({.depth = 2}), 0, 10); }},
+    {"-", "twilight", [] { return daylight(ball({.depth = 2}), -9, 2); }},
+    {"-", "night", [] { return daylight(ball({.depth = 2}), -90, 2); }},
+    {"-", "brightest_daylight",
+     [] {
+         SceneDraft draft = daylight(ball({.depth = 2}), 45, 3);
+         draft.sun.intensity = draft.sky.intensity = 1e6;
+         return draft;
+     }},
+    // Channels of the sun that are nearly out, where colours measure the sky by the sun.
+    {"-", "coloured_particles_at_sunset", [] { return daylight(colored(), 0, 10); }},
+    {"-", "coloured_particles_as_the_sun_sets", [] { return daylight(colored(), -.999, 2); }},
     {"-",
      "coloured_particles",
      [] { return colored(); },

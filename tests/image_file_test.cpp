@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "core/formats/tone.h"
+#include "core/scene/outside.h"
+#include "core/scene/validate.h"
 
 namespace awan {
 namespace {
@@ -187,6 +189,14 @@ TEST(Tone, TheTableTakesWhatIsNoRadiance) {
 
 // --- the light meter
 
+double metered(const Sun& sun, const Sky& sky) {
+    SceneDraft draft;
+    draft.clouds.emplace_back();
+    draft.sun = sun;
+    draft.sky = sky;
+    return auto_exposure(*validate(draft));
+}
+
 TEST(Exposure, ASunlitCloudIsALittleBelowDisplayWhite) {
     // White sun, white sky: the cloud's radiance is irradiance / 4 pi + sky.
     Sun sun;
@@ -196,7 +206,7 @@ TEST(Exposure, ASunlitCloudIsALittleBelowDisplayWhite) {
     sky.zenith = sky.horizon = glm::dvec3(1);
     sky.intensity = 3;
     const double cloud = 20 / (4 * M_PI) + 3;
-    const double stops = auto_exposure(sun, sky);
+    const double stops = metered(sun, sky);
     EXPECT_NEAR(cloud * std::exp2(stops), double{metered_level()}, 1e-6);
     const int code = expected_code(static_cast<float>(cloud), stops);
     EXPECT_GE(code, 225);
@@ -216,17 +226,16 @@ TEST(Exposure, MetersTheMeanOfTheSkysFormula) {
         const glm::dvec3 color = sky.horizon + (sky.zenith - sky.horizon) * high;
         mean += 2 * m * (0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z) / kSteps;
     }
-    EXPECT_NEAR(mean * sky.intensity * std::exp2(auto_exposure(sun, sky)), double{metered_level()},
-                1e-6);
+    EXPECT_NEAR(mean * sky.intensity * std::exp2(metered(sun, sky)), double{metered_level()}, 1e-6);
 }
 
 TEST(Exposure, TwiceTheLightIsOneStopLess) {
     Sun sun;
     Sky sky;
-    const double stops = auto_exposure(sun, sky);
+    const double stops = metered(sun, sky);
     sun.intensity *= 2;
     sky.intensity *= 2;
-    EXPECT_NEAR(auto_exposure(sun, sky), stops - 1, 1e-12);
+    EXPECT_NEAR(metered(sun, sky), stops - 1, 1e-12);
 }
 
 TEST(Exposure, IsFiniteWithoutLightAndWithTheFaintestAndTheBrightest) {
@@ -234,11 +243,31 @@ TEST(Exposure, IsFiniteWithoutLightAndWithTheFaintestAndTheBrightest) {
     Sky sky;
     sky.none = true;
     sun.intensity = 0;
-    EXPECT_EQ(auto_exposure(sun, sky), 0);
+    EXPECT_EQ(metered(sun, sky), 0);
     sun.intensity = 1e-300;
-    EXPECT_EQ(auto_exposure(sun, sky), 64);
+    EXPECT_EQ(metered(sun, sky), 64);
     sun.intensity = 1e6;
-    EXPECT_TRUE(std::isfinite(auto_exposure(sun, sky)));
+    EXPECT_TRUE(std::isfinite(metered(sun, sky)));
+}
+
+TEST(Exposure, KeepsACloudInsideThePictureFromNoonToSunset) {
+    // The radiances that a cloud can have at an hour: a white one lit by the sun straight on (irradiance / pi), a thick one
+    // lit from all sides, and its shaded side, which has the sky's mean alone. As display codes after exposure.
+    SceneDraft draft;
+    draft.clouds.emplace_back();
+    draft.sky.physical = draft.sun.auto_color = true;
+    draft.sky.intensity = kPhysicalSkyIntensity;
+    for (const double turbidity : {2., 6.})
+        for (const double elevation : {90., 45., 20., 5., 1., 0., -4.}) {
+            draft.sun.elevation = elevation;
+            draft.sky.turbidity = turbidity;
+            const Outside outside = outside_of(draft);
+            const double stops = auto_exposure(*validate(draft));
+            const double shade = luminance(means_of(outside.sky).above);
+            const double lit = luminance(outside.sun) / M_PI + shade;
+            EXPECT_GT(expected_code(static_cast<float>(shade), stops), 60) << elevation;
+            EXPECT_LT(expected_code(static_cast<float>(lit), stops), 255) << elevation;
+        }
 }
 
 // --- PNG

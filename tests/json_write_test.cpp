@@ -53,6 +53,13 @@ TEST(SceneToJson, ReadsBackTheSame) {
           cubes + R"(, "sun": {"direction": [1, 2, 3]}, "sky": "none", "fill": "printed"})",
           cubes + R"(, "sun": {"color": "auto"}})", cubes + R"(, "accuracy": {"error": 0.1}})",
           cubes + R"(, "accuracy": {"time_ms": 0.1}})",
+          cubes + R"(, "sky": "physical", "haze": {"extinction": 0.1, "scale_height": 3}})",
+          cubes + R"(, "sky": {"model": "physical", "turbidity": 2.5, "intensity": 0.1},
+             "sun": {"color": "auto"}, "ground": {}, "detail": {}})",
+          cubes + R"(, "sun": {"color": "auto"}, "sky": {"turbidity": 7, "zenith": [0, 0, 1]}})",
+          cubes + R"(, "haze": {"extinction": 1e-9, "height": -0.1, "scale_height": 0.1,
+             "albedo": [0.1, 0.2, 0.3], "g": -0.1}, "detail": {"amount": 0.1, "size": 0.3},
+             "effects": {"light_shafts": false, "sun_color": true}})",
           cubes + R"(, "ground": {"height": 1, "albedo": [0.1, 0.2, 0.3]}})",
           std::string(R"({"clouds": [{"model": "cubes", "cubes": [{)") + cube +
               R"(, "texture": "a\"b\\c\u0001\u20ac"}]},

@@ -79,6 +79,49 @@ const tests = {
     assert.equal((await look(page)).hash, (await look(page, truth)).hash, "what is shown is the last state");
   },
 
+  async "sets daylight, ground, haze and detail, and takes them back"(page) {
+    const sent = () => renders[renders.length - 1].scene;
+    const before = sent();
+    const sun = group(page, "Sun"), sky = group(page, "Sky");
+    const automatic = sun.getByLabel("Colour from its elevation"), model = sky.getByLabel("Model");
+    const { hash } = await look(page);
+    await automatic.check();
+    assert.equal(await sun.getByLabel("Colour", { exact: true }).isVisible(), false);
+    await model.selectOption("physical");
+    assert.equal(await sky.getByLabel("Zenith").isVisible(), false);
+    assert.equal(await sky.getByLabel("Intensity, number").inputValue(), "1");
+    await sky.getByLabel("Turbidity, number").fill("5");
+    await settled(page);
+    assert.equal(sent().sun.color, "auto");
+    assert.deepEqual(sent().sky, { model: "physical", turbidity: 5 });
+    assert.notEqual((await look(page)).hash, hash);
+    await model.selectOption("gradient");
+    await automatic.uncheck();
+
+    const switches = [];
+    for (const [title, box, field, value] of [
+      ["Ground", "A level ground", "Level, number", -9],
+      ["Haze", "Hazy air", "Extinction, number", 0.02],
+      ["Detail", "Finer structure", "Amount, number", 0.25],
+    ]) {
+      await group(page, title).locator("summary").click();
+      switches.push(group(page, title).getByLabel(box));
+      await switches[switches.length - 1].check();
+      await group(page, title).getByLabel(field).fill(String(value));
+    }
+    await settled(page);
+    const { ground, haze, detail, sky: gradient, sun: light } = sent();
+    assert.deepEqual(gradient, { ...before.sky, turbidity: 5 }, "the gradient is as it was, in the same air");
+    assert.deepEqual(light.color, before.sun?.color);
+    assert.deepEqual([ground.height, haze.extinction, detail.amount], [-9, 0.02, 0.25]);
+    assert.ok(haze.scale_height > 0);
+    for (const box of switches) await box.uncheck();
+    for (const title of ["Ground", "Haze", "Detail"]) await group(page, title).locator("summary").click();
+    await settled(page);
+    assert.deepEqual([sent().ground, sent().haze, sent().detail], [undefined, undefined, undefined]);
+    assert.equal(await page.textContent("#alert"), "");
+  },
+
   async "adds, duplicates and deletes cubes"(page) {
     const before = await particles(page);
     await page.getByRole("button", { name: "Add a cube" }).click();

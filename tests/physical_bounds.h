@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <numbers>
 
 #include "core/pipeline.h"
+#include "core/scene/outside.h"
 #include "core/truth/oracles.h"
 
 namespace awan::test {
@@ -19,18 +21,41 @@ inline constexpr double kDiffuse = 6;
 // By how much a rung may pass a bound: tables and steps of the march; where the discrete ordinates' light meets it is trilinear.
 inline constexpr double kExceed = 0.02;
 
-// The most radiance in a channel, behind matter of alpha 1. Of the sky: nothing that it lights is brighter than it.
-inline double radiance_bound(const SceneDraft& draft, int channel) {
-    const double peak =
-        std::max(phase_value(draft.medium, 1), phase_value(draft.medium, -1)) + kDiffuse;
-    const double sun = draft.sun.color[channel] * draft.sun.intensity;
-    const double sky = draft.sky.none ? 0
-                                      : draft.sky.intensity * std::max(draft.sky.zenith[channel],
-                                                                       draft.sky.horizon[channel]);
+// The sky's largest radiance of each channel: of a gradient one of its colours; of a physical sky at the sun, or near the
+// horizon, where a grid of 4 degrees misses no more than a tenth.
+inline glm::dvec3 brightest(const SkyDome& sky) {
+    if (!sky.shines) return glm::dvec3(0);
+    if (!sky.physical) return glm::max(sky.zenith, sky.horizon);
+    glm::dvec3 most = sky_radiance(sky, sky.clear.to_sun);
+    constexpr int kUp = 45, kAround = 90;
+    for (int i = 0; i < kUp; ++i)
+        for (int j = 0; j < kAround; ++j) {
+            const double up = -1 + 2 * (i + 0.5) / kUp, side = std::sqrt(1 - up * up);
+            const double turn = 2 * std::numbers::pi * j / kAround;
+            most = glm::max(most,
+                            sky_radiance(sky, {side * std::sin(turn), up, side * std::cos(turn)}));
+        }
+    return 1.1 * most;
+}
+
+// The most radiance in each channel, behind matter of alpha 1. Of the sky: nothing that it lights is brighter than it.
+inline glm::dvec3 radiance_bound(const SceneDraft& draft) {
+    const auto peak_of = [](const Medium& medium) {
+        return std::max(phase_value(medium, 1), phase_value(medium, -1));
+    };
+    const Outside outside = outside_of(draft);
+    const glm::dvec3 sky = brightest(outside.sky);
+    glm::dvec3 most =
+        outside.sun * (peak_of(draft.medium) + kDiffuse) / (4 * std::numbers::pi) + sky;
     // Light from the ground: Lambertian under the sun and the sky.
-    const double ground =
-        draft.ground ? draft.ground->albedo[channel] * (sun / std::numbers::pi + sky) : 0;
-    return sun * peak / (4 * std::numbers::pi) + sky + ground;
+    if (draft.ground) most += draft.ground->albedo * (outside.sun / std::numbers::pi + sky);
+    // Haze scatters once what comes from all of these.
+    if (draft.haze) {
+        const Medium air{1, draft.haze->g, PhaseFunction::kHenyeyGreenstein};
+        most += draft.haze->albedo *
+                (outside.sun * peak_of(air) / (4 * std::numbers::pi) + glm::max(most, sky));
+    }
+    return most;
 }
 
 inline void expect_within_bounds(const SceneDraft& draft, const Rendered& rendered) {
@@ -39,6 +64,7 @@ inline void expect_within_bounds(const SceneDraft& draft, const Rendered& render
                                        static_cast<std::size_t>(draft.image.height));
     const Method method = rendered.plan.predicted.rung->method;
     const bool behind = draft.image.background == Background::kSky;
+    const glm::dvec3 bounds = radiance_bound(draft);
     for (std::size_t p = 0; p < image.pixels.size(); p += 4) {
         const auto alpha = static_cast<double>(image.pixels[p + 3]);
         ASSERT_TRUE(std::isfinite(alpha)) << "pixel " << p / 4;
@@ -48,15 +74,14 @@ inline void expect_within_bounds(const SceneDraft& draft, const Rendered& render
         const double lost = method == Method::kSplats
                                 ? 1e-7 * static_cast<double>(1 + rendered.survey.particles)
                                 : 1e-30;
-        const double share = behind ? 1 : std::min(1., alpha + lost);
+        // Haze is no matter of the clouds': it may shine where they are not.
+        const double share = behind || draft.haze ? 1 : std::min(1., alpha + lost);
         for (int c = 0; c < 3; ++c) {
             const auto value = static_cast<double>(image.pixels[p + static_cast<std::size_t>(c)]);
             ASSERT_TRUE(std::isfinite(value)) << "pixel " << p / 4;
             // A splat's light has one gradient for all channels: that of the brightest may show in the others.
-            const double bound = method == Method::kSplats
-                                     ? std::max({radiance_bound(draft, 0), radiance_bound(draft, 1),
-                                                 radiance_bound(draft, 2)})
-                                     : radiance_bound(draft, c);
+            const double bound =
+                method == Method::kSplats ? std::max({bounds.x, bounds.y, bounds.z}) : bounds[c];
             ASSERT_GE(value, -1e-6 * bound) << "pixel " << p / 4;
             // A few paths a pixel are far from the mean that the bound is about.
             if (method == Method::kPaths) continue;

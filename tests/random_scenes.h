@@ -177,6 +177,41 @@ struct RandomScene {
     bool furnace = false;
 };
 
+// Daylight, ground, haze and detail; last, so that the rest of a seed's scene is what it was without them. A furnace has a
+// sky of its own, and no ground or haze, which need not be white.
+inline void random_surroundings(Dice& dice, const Whereabouts& where, RandomScene& random) {
+    SceneDraft& draft = random.draft;
+    if (dice.chance(0.2))
+        draft.detail = {dice.chance(0.2) ? 1 : dice.uniform(),
+                        dice.log_between(limits::kMinDetailSize, limits::kMaxDetailSize)};
+    for (const Effect effect : {Effect::kGroundLight, Effect::kGroundShadow, Effect::kSunColor,
+                                Effect::kAerialPerspective, Effect::kLightShafts, Effect::kDetail})
+        if (dice.chance(0.1))
+            draft.effects[static_cast<int>(effect)] = dice.chance(0.5) ? Switch::kOff : Switch::kOn;
+    if (random.furnace) return;
+    draft.sun.auto_color = dice.chance(0.25);
+    if (!draft.sky.none && dice.chance(0.25)) {
+        draft.sky.physical = true;
+        draft.sky.intensity =
+            dice.chance(0.5) ? kPhysicalSkyIntensity : dice.log_between(1e-3, 1e3);
+    }
+    draft.sky.turbidity = dice.chance(0.2) ? dice.either({2, 10}) : dice.between(2, 10);
+    if (!draft.ground && dice.chance(0.15))
+        draft.ground = {where.middle.y - where.size * dice.between(-0.5, 3),
+                        dice.chance(0.3)
+                            ? glm::dvec3(dice.either({0, 1}))
+                            : glm::dvec3(dice.uniform(), dice.uniform(), dice.uniform())};
+    if (dice.chance(0.15)) {
+        Haze& haze = draft.haze.emplace();
+        // Thin and thick on the way to the clouds, low and high.
+        haze.extinction = std::min(dice.log_between(1e-3, 1e2) / where.size, limits::kMaxDensity);
+        haze.scale_height = where.size * dice.log_between(1e-2, 1e2);
+        haze.height = where.middle.y + where.size * dice.between(-3, 1);
+        haze.albedo = glm::dvec3(dice.chance(0.3) ? 1 : dice.uniform());
+        haze.g = dice.between(-limits::kMaxAnisotropy, limits::kMaxAnisotropy);
+    }
+}
+
 inline RandomScene random_scene(std::uint64_t seed) {
     Dice dice(seed);
     RandomScene random;
@@ -237,6 +272,7 @@ inline RandomScene random_scene(std::uint64_t seed) {
                                 Effect::kViewExtinction, Effect::kSkyLight, Effect::kInterior})
         if (dice.chance(0.15))
             draft.effects[static_cast<int>(effect)] = dice.chance(0.5) ? Switch::kOff : Switch::kOn;
+    random_surroundings(dice, where, random);
     return random;
 }
 

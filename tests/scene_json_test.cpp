@@ -102,6 +102,49 @@ TEST(SceneJson, EveryFieldArrivesWhereItBelongs) {
     EXPECT_TRUE(validate(draft).ok()) << validate(draft).error().message;
 }
 
+TEST(SceneJson, ReadsAPhysicalSkyHazeGroundAndDetail) {
+    const SceneDraft word = draft_of(scene_with(R"("sky": "physical", "sun": {"color": "auto"})"));
+    EXPECT_TRUE(word.sky.physical);
+    EXPECT_FALSE(word.sky.none);
+    EXPECT_EQ(word.sky.intensity, kPhysicalSkyIntensity);
+    EXPECT_EQ(word.sky.turbidity, 3);
+    EXPECT_TRUE(word.sun.auto_color);
+    const SceneDraft full = draft_of(scene_with(
+        R"("sky": {"model": "physical", "turbidity": 5, "intensity": 0.5},
+           "ground": {"height": -2, "albedo": [0.1, 0.2, 0.3]},
+           "haze": {"extinction": 0.01, "height": -1, "scale_height": 9, "albedo": [0.9, 0.8, 0.7], "g": 0.4},
+           "detail": {"amount": 0.25, "size": 0.75})"));
+    EXPECT_TRUE(full.sky.physical);
+    EXPECT_EQ(full.sky.turbidity, 5);
+    EXPECT_EQ(full.sky.intensity, 0.5);
+    EXPECT_FALSE(full.sun.auto_color);
+    ASSERT_TRUE(full.ground && full.haze && full.detail);
+    EXPECT_EQ(full.ground->height, -2);
+    EXPECT_EQ(full.ground->albedo, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(full.haze->extinction, 0.01);
+    EXPECT_EQ(full.haze->height, -1);
+    EXPECT_EQ(full.haze->scale_height, 9);
+    EXPECT_EQ(full.haze->albedo, glm::dvec3(0.9, 0.8, 0.7));
+    EXPECT_EQ(full.haze->g, 0.4);
+    EXPECT_EQ(full.detail->amount, 0.25);
+    EXPECT_EQ(full.detail->size, 0.75);
+    EXPECT_TRUE(validate(full).ok());
+    // Of a physical sky without an intensity, whatever the order, the default is its own.
+    for (const char* const sky :
+         {R"({"model": "physical", "turbidity": 4})", R"({"turbidity": 4, "model": "physical"})"})
+        EXPECT_EQ(draft_of(scene_with(std::string("\"sky\": ") + sky)).sky.intensity,
+                  kPhysicalSkyIntensity);
+    EXPECT_EQ(draft_of(scene_with(R"("sky": {"model": "gradient"})")).sky.intensity,
+              Sky{}.intensity);
+    // A number stands for a grey albedo.
+    EXPECT_EQ(draft_of(scene_with(R"("haze": {"extinction": 1, "scale_height": 1, "albedo": 0.5})"))
+                  .haze->albedo,
+              glm::dvec3(0.5));
+    expect_invalid(scene_with(R"("haze": {"scale_height": 1})"), "/haze", {"extinction"});
+    expect_invalid(scene_with(R"("sky": {"model": "cloudy"})"), "/sky/model", {"\"physical\""});
+    expect_invalid(scene_with(R"("haze": {"density": 1})"), "/haze/density", {"extinction"});
+}
+
 TEST(SceneJson, WordsThatMeanTheDefaultAreAllowed) {
     for (const char* const member :
          {R"("sky": "none")", R"("ground": "none")", R"("camera": "auto")", R"("effects": "auto")",

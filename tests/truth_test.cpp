@@ -456,7 +456,8 @@ TEST(Ground, AloneIsLambertian) {
     setting.ground_albedo = {0.2, 0.5, 1};
     setting.to_sun = glm::normalize(glm::dvec3(1, 1, 0));
     setting.sun_irradiance = glm::dvec3(3);
-    setting.sky_zenith = setting.sky_horizon = glm::dvec3(0.7);
+    setting.dome.shines = true;
+    setting.dome.zenith = setting.dome.horizon = glm::dvec3(0.7);
     for (const SkySampling sky : {SkySampling::kEscape, SkySampling::kNextEvent}) {
         setting.sky = sky;
         PathRandom random(1);
@@ -497,7 +498,8 @@ TEST(Ground, OfAWhiteFurnaceIsWhite) {
     const SceneDraft draft = test::balls({{{0, 0, 0}, 2, 2}});
     const truth::Matter matter = truth::make_matter(particles_of(draft), {0, 1, 0}, 1, {}).value();
     truth::Setting setting = over_ground(matter, 0.3 * matter.top.y);
-    setting.ground_albedo = setting.sky_horizon = setting.sky_zenith = glm::dvec3(1);
+    setting.dome.shines = true;
+    setting.ground_albedo = setting.dome.horizon = setting.dome.zenith = glm::dvec3(1);
     for (const SkySampling sky : {SkySampling::kEscape, SkySampling::kNextEvent}) {
         setting.sky = sky;
         PathRandom random(1);

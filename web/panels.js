@@ -4,9 +4,18 @@ import { cameraOf, isAutomatic, kSteepest, orbitOf, sizeOf } from "./camera.js";
 import { checkbox, colour, group, numberField, select, slider } from "./controls.js";
 import { at, atOrDefault, withAt } from "./document.js";
 import { el, freshId } from "./dom.js";
+import { detailPanel, groundPanel, hazePanel } from "./surroundings.js";
 
 const turn = (degrees) => ((degrees % 360) + 360) % 360;
 const SIZES = ["640 × 360", "960 × 600", "1280 × 720", "1920 × 1080", "3840 × 2160", "1024 × 1024"];
+
+const shownIf = (shown, { element, refresh }) => ({
+  element,
+  refresh() {
+    element.hidden = !shown();
+    refresh();
+  },
+});
 
 function sunPanel(store) {
   // A document may give the sun as a direction; the angles then are read from it, and replace it
@@ -29,11 +38,20 @@ function sunPanel(store) {
       }, { key: "/sun/direction", ...options });
     },
   });
+  let kept; // its colour before that was left to the elevation
   const fields = [
     slider(store, { label: "Elevation", pointer: "/sun/elevation", min: -10, max: 90, step: 0.5, unit: "°", ...angle("elevation") }),
     slider(store, { label: "Azimuth", pointer: "/sun/azimuth", min: 0, max: 360, step: 1, unit: "°", ...angle("azimuth") }),
     slider(store, { label: "Intensity", pointer: "/sun/intensity", min: 0.5, max: 400, log: true }),
-    colour(store, { label: "Colour", pointer: "/sun/color" }),
+    checkbox({
+      label: "Colour from its elevation", pointer: "/sun/automatic-color", get: () => at(store.scene, "/sun/color") === "auto",
+      set: (on) => {
+        const color = at(store.scene, "/sun/color");
+        if (on) kept = color;
+        store.set("/sun/color", on ? "auto" : kept);
+      },
+    }),
+    shownIf(() => at(store.scene, "/sun/color") !== "auto", colour(store, { label: "Colour", pointer: "/sun/color" })),
   ];
   return { title: "Sun", pointer: "/sun", fields };
 }
@@ -81,18 +99,51 @@ export function cameraPanel(store, bounds) {
 
 function skyPanel(store) {
   let kept = {}; // what the sky was before it was put out
+  const other = {}; // what each model was before the other was chosen
+  // The word "physical" is short for an object.
+  const sky = () => {
+    const value = at(store.scene, "/sky");
+    if (value === "physical") return { model: "physical" };
+    return value !== null && typeof value === "object" ? value : {};
+  };
+  const model = () => sky().model ?? "gradient";
+  const own = (member, standard) => ({
+    get: () => sky()[member] ?? standard(),
+    set: (value, options) => store.update((scene) => ({ ...scene, sky: { ...sky(), [member]: value } }),
+      { key: `/sky/${member}`, ...options }),
+  });
+  const ofGradient = (control) => shownIf(() => model() !== "physical", control);
   const fields = [
     checkbox({
       label: "Sky light", pointer: "/sky", get: () => at(store.scene, "/sky") !== "none",
       set: (on) => {
-        const sky = at(store.scene, "/sky");
-        if (!on) kept = sky;
+        if (!on) kept = at(store.scene, "/sky");
         store.set("/sky", on ? kept : "none");
       },
     }),
-    colour(store, { label: "Zenith", pointer: "/sky/zenith" }),
-    colour(store, { label: "Horizon", pointer: "/sky/horizon" }),
-    slider(store, { label: "Intensity", pointer: "/sky/intensity", min: 0.02, max: 50, log: true }),
+    select(store, {
+      label: "Model", pointer: () => "/sky/model",
+      choices: [["gradient", "gradient: two colours"], ["physical", "physical: clear daylight"]],
+      get: model,
+      set: (chosen) => {
+        const { turbidity } = sky();
+        other[model()] = sky();
+        const { turbidity: _old, ...before } = other[chosen] ?? {};
+        store.set("/sky", {
+          ...before, ...(turbidity === undefined ? {} : { turbidity }), ...(chosen === "physical" ? { model: chosen } : {}),
+        });
+      },
+    }),
+    slider(store, {
+      label: "Turbidity", pointer: "/sky/turbidity", min: 2, max: 10, step: 0.1,
+      ...own("turbidity", () => atOrDefault(store.scene, "/sky/turbidity")),
+    }),
+    ofGradient(colour(store, { label: "Zenith", pointer: "/sky/zenith" })),
+    ofGradient(colour(store, { label: "Horizon", pointer: "/sky/horizon" })),
+    slider(store, {
+      label: "Intensity", pointer: "/sky/intensity", min: 0.02, max: 50, log: true,
+      ...own("intensity", () => (model() === "physical" ? 1 : atOrDefault(store.scene, "/sky/intensity"))),
+    }),
   ];
   return { title: "Sky", pointer: "/sky", fields };
 }
@@ -179,6 +230,7 @@ export function createPanels(store, camera) {
   });
   return [
     build(sunPanel(store), true), build(camera, open), build(skyPanel(store), open),
-    build(matterPanel(store), open), build(imagePanel(store), false),
+    build(matterPanel(store), open), build(groundPanel(store), false), build(hazePanel(store), false),
+    build(detailPanel(store), false), build(imagePanel(store), false),
   ];
 }

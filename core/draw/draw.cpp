@@ -5,14 +5,18 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "core/draw/air_image.h"
 #include "core/draw/splats.h"
 #include "core/gl/programs.h"
+#include "core/light/sun_depth.h"
+#include "core/scene/outside.h"
 
 namespace awan {
 namespace {
 
 constexpr std::uint64_t kMaxEntries =
     1u << 20;  // list entries a dispatch: at most about half a second of llvmpipe
+constexpr int kShadowCells = 32;  // along the clouds' longest side, of their shadows in haze
 constexpr std::uint64_t kMaxTiles = 1u << 14;  // 4 Mi pixels, 64 MiB of them in GL at a time
 
 void set_uniforms(const Scene& scene, const View& view, const Plan& plan) {
@@ -27,11 +31,12 @@ void set_uniforms(const Scene& scene, const View& view, const Plan& plan) {
     glUniform2i(1, scene->image.width, scene->image.height);
     glUniform2f(2, static_cast<float>(view.tan_half_fov * view.aspect),
                 static_cast<float>(view.tan_half_fov));
-    set3(3, in_frame(sun_direction(scene->sun)));
+    const Outside outside = outside_of(scene);
+    set3(3, in_frame(outside.to_sun));
     set3(4, in_frame({0, 1, 0}));
-    const double sky = scene->sky.none ? 0.0 : scene->sky.intensity;
-    set3(5, scene->sky.zenith * sky);
-    set3(6, scene->sky.horizon * sky);
+    // Black where the sky is physical: the program draws gradients only.
+    set3(5, outside.sky.zenith);
+    set3(6, outside.sky.horizon);
     glUniform1f(7, static_cast<float>(scene->medium.g));
     glUniform1i(8, scene->medium.phase == PhaseFunction::kCornetteShanks ? 1 : 0);
     glUniform1i(9, plan.on(Effect::kViewExtinction) ? 1 : 0);
@@ -68,7 +73,15 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
     Image image{
         scene->image.width, scene->image.height, scene->image.background == Background::kSky, {}};
     image.pixels.resize(4 * image.pixel_count());
-    const SplatList list = make_splats(scene, particles, view, plan, lighting);
+    std::optional<Air> air;
+    if (plan.on(Effect::kAerialPerspective)) {
+        SunDepth sun;
+        if (scene->haze && plan.on(Effect::kLightShafts))
+            sun = sun_depth(particles, sun_direction(scene->sun), kShadowCells, 1);
+        air = make_air(scene, view, &sun, 1);
+    }
+    const SplatList list =
+        make_splats(scene, particles, view, plan, lighting, air ? &*air : nullptr);
     const gl::TexelBuffer splats{std::span<const Splat>(list.splats)};
     std::vector<float> spare;
 
@@ -79,6 +92,7 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
         (list.reaches_eye && scene->effects[static_cast<int>(Effect::kInterior)] != Switch::kOff);
     (half_lines ? programs.splat_interior : programs.splat).use();
     set_uniforms(scene, view, plan);
+    if (air) glUniform1i(10, 0);  // what is behind is put there through the haze
     const auto status = gl::for_each_region(
         list.tiles, (image.width + kTileWidth - 1) / kTileWidth,
         (image.height + kTileHeight - 1) / kTileHeight, 1, kMaxEntries, kMaxTiles, deadline,
@@ -109,6 +123,10 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
             return gl::gl_status("the eye pass");
         });
     if (status) return *status;
+    if (air) {
+        const SkyDome sky = outside_of(scene).sky;
+        put_air_behind(*air, image.opaque ? &sky : nullptr, image);
+    }
     return image;
 }
 

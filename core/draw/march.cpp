@@ -9,6 +9,7 @@
 #include "core/draw/march_block.h"
 #include "core/generate/detail.h"
 #include "core/parallel.h"
+#include "core/scene/outside.h"
 
 namespace awan {
 namespace {
@@ -117,8 +118,9 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     march.light = source_towards(light, view.eye, threads);
     march.medium = scene->medium;
     if (light.cell > 0) march.peak = {light.peak_from, light.peak_share};
-    march.to_sun = sun_direction(scene->sun);
-    march.sun = glm::vec3(scene->sun.color * scene->sun.intensity);
+    const Outside outside = outside_of(scene);
+    march.to_sun = outside.to_sun;
+    march.sun = glm::vec3(outside.sun);
     march.scaled = static_cast<float>(1 - scene->medium.albedo * march.peak.share);
     march.rest = rest_of(march.medium, march.peak);
     // Steps cost about the square of their length.
@@ -131,14 +133,19 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     if (!seen.empty()) march.table = peak_table(march.medium, march.peak, least, most);
 
     SkyBehind& sky = march.sky;
-    if (!scene->sky.none) {
+    if (outside.sky.shines && !outside.sky.physical) {
         for (int c = 0; c < 3; ++c) {
-            sky.zenith[c] = static_cast<float>(scene->sky.zenith[c] * scene->sky.intensity);
-            sky.horizon[c] = static_cast<float>(scene->sky.horizon[c] * scene->sky.intensity);
+            sky.zenith[c] = static_cast<float>(outside.sky.zenith[c]);
+            sky.horizon[c] = static_cast<float>(outside.sky.horizon[c]);
         }
         sky.peak = light.sky && march.peak.share != 0;
     }
     sky.behind = behind;
+
+    std::optional<Air> air;
+    if (settings.aerial_perspective)
+        air = make_air(scene, view, settings.light_shafts ? &light.sun : nullptr, threads);
+    if (air) march.air = &*air;
 
     Rooms rooms;
     std::atomic<bool> late = false;

@@ -8,6 +8,8 @@ namespace awan {
 
 struct MarchSettings {
     double step_error = 0.01;  // about the share of a pixel's radiance that the steps may cost
+    bool aerial_perspective = true;  // the scene's haze, if it has any
+    bool light_shafts = true;        // and the clouds' shadows in it
 };
 
 // Threads do not show in the result. Errors: kOverDeadline, kCancelled.

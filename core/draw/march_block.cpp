@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/draw/march_air.h"
 #include "core/draw/march_detail.h"
 #include "core/draw/march_kernels.h"
 #include "core/draw/march_rays.h"
@@ -75,17 +76,30 @@ AWAN_INLINE void finish_body(const MarchScene& scene, const float* up, const Til
     finish(scene.sky, scene.scaled, high, tile.depth, radiance, to);
 }
 
+AWAN_INLINE void finish_air_body(const MarchScene& scene, const AirTile& air, const SunInBlock& sun,
+                                 const float* up, const Tile& tile, float (*to)[4]) {
+    const Floats high = up[0] * tile.x + up[1] * tile.y + up[2] * (1.0f + tile.z);
+    const Floats radiance[3] = {tile.red, tile.green, tile.blue};
+    const Floats ray[3] = {tile.x, tile.y, tile.z};
+    finish_in_air(scene.sky, scene.air->phase, air, {tile.seen_air, tile.seen_lost},
+                  chords(sun, ray), scene.scaled, high, tile.depth, radiance, to);
+}
+
 struct Kernels {
     void (*rays)(const BlockFrame&, const float*, const float*, Floats*);
     void (*phases)(const MarchScene&, const SunInBlock&, Tile&, Floats*);
     void (*finish)(const MarchScene&, const float*, const Tile&, float (*)[4]);
+    void (*finish_air)(const MarchScene&, const AirTile&, const SunInBlock&, const float*,
+                       const Tile&, float (*)[4]);
     void (*measure)(const BlockParticles&, const Floats*, const Floats&, ActiveParticle&);
     void (*ratio)(const BlockParticles&, float, std::vector<ActiveParticle>&);
     void (*deposit)(const BlockParticles&, const std::vector<ActiveParticle>&, const Chunk&, Tile*);
     void (*detail)(const DetailRays&, const Chunk&, Tile*);
     int (*too_deep)(const Tile&, float, float);
-    void (*spread)(const Bilinear&, const LightAt (*)[kChunk + 2], int, int, bool, TileLight&);
+    void (*spread)(const Bilinear&, const LightAt (*)[kChunk + 2], int, int, bool, bool,
+                   TileLight&);
     void (*march)(const Shade&, const TileLight&, int, Tile&);
+    void (*march_haze)(const Shade&, const TileLight&, int, Tile&);
 };
 
 #define AWAN_KERNELS(name, attribute)                                                            \
@@ -100,6 +114,11 @@ struct Kernels {
     attribute void finish_##name(const MarchScene& scene, const float* up, const Tile& tile,     \
                                  float(*to)[4]) {                                                \
         finish_body(scene, up, tile, to);                                                        \
+    }                                                                                            \
+    attribute void finish_air_##name(const MarchScene& scene, const AirTile& air,                \
+                                     const SunInBlock& sun, const float* up, const Tile& tile,   \
+                                     float(*to)[4]) {                                            \
+        finish_air_body(scene, air, sun, up, tile, to);                                          \
     }                                                                                            \
     attribute void measure_##name(const BlockParticles& p, const Floats* ray,                    \
                                   const Floats& spread, ActiveParticle& a) {                     \
@@ -121,16 +140,21 @@ struct Kernels {
         return first_too_deep(tile, scaled, allowed);                                            \
     }                                                                                            \
     attribute void spread_##name(const Bilinear& b, const LightAt(*corners)[kChunk + 2],         \
-                                 int first, int last, bool albedo, TileLight& light) {           \
-        spread_light(b, corners, first, last, albedo, light);                                    \
+                                 int first, int last, bool albedo, bool air, TileLight& light) { \
+        spread_light(b, corners, first, last, albedo, air, light);                               \
     }                                                                                            \
     attribute void march_##name(const Shade& shade, const TileLight& light, int count,           \
                                 Tile& tile) {                                                    \
-        march_tile(shade, light, count, tile);                                                   \
+        march_tile<false>(shade, light, count, tile);                                            \
     }                                                                                            \
-    constexpr Kernels kKernels_##name{                                                           \
-        rays_##name,    phases_##name, finish_##name,   measure_##name, ratio_##name,            \
-        deposit_##name, detail_##name, too_deep_##name, spread_##name,  march_##name};
+    attribute void march_haze_##name(const Shade& shade, const TileLight& light, int count,      \
+                                     Tile& tile) {                                               \
+        march_tile<true>(shade, light, count, tile);                                             \
+    }                                                                                            \
+    constexpr Kernels kKernels_##name{rays_##name,       phases_##name,  finish_##name,          \
+                                      finish_air_##name, measure_##name, ratio_##name,           \
+                                      deposit_##name,    detail_##name,  too_deep_##name,        \
+                                      spread_##name,     march_##name,   march_haze_##name};
 
 AWAN_KERNELS(plain, )
 #if defined(__x86_64__)
@@ -237,7 +261,11 @@ class BlockMarch {
             const int across = std::min(kTileSide, image.width - x);
             if (across <= 0) continue;
             float pixels[kLanes][4];
-            kernels_.finish(scene_, up, room_.tiles[t], pixels);
+            if (scene_.air != nullptr)
+                kernels_.finish_air(scene_, air_tile(*scene_.air, x, y), sun_, up, room_.tiles[t],
+                                    pixels);
+            else
+                kernels_.finish(scene_, up, room_.tiles[t], pixels);
             for (int j = 0; j < std::min(kTileSide, image.height - y); ++j)
                 std::memcpy(
                     image.pixels.data() +
@@ -284,6 +312,7 @@ class BlockMarch {
             tile.alive = left_ + across < scene_.width && top_ + down < scene_.height;
             tile.started = false;
             tile.depth = tile.red = tile.green = tile.blue = Floats{};
+            tile.seen_air = tile.seen_lost = Floats{};
             tile.left = tile.scaled_left = simd::all(1.0f);
         }
         const glm::dvec3 sun = to_frame(scene_.view, scene_.to_sun);
@@ -458,10 +487,11 @@ class BlockMarch {
             const bool albedo = !scene_.light.light->albedo.empty();
             if (spacing >= 0)
                 kernels_.spread(room_.bilinear[spacing][t], room_.corners, tile.first, end, albedo,
-                                room_.light);
+                                scene_.air != nullptr, room_.light);
             else
                 look_up_pixels(t, base, step, tile.first, end);
-            kernels_.march(shade(t, seam), room_.light, count, tile);
+            (scene_.air != nullptr ? kernels_.march_haze : kernels_.march)(
+                shade(t, seam), room_.light, count, tile);
         }
     }
 
@@ -480,7 +510,10 @@ class BlockMarch {
         if (spacing < 0) return 1e300;
         // At the middle of the picture: the widest.
         const double apart = kSpacings[spacing] * 2 * scene_.view.tan_half_fov / scene_.height;
-        return apart <= 0.2 ? most / apart : 0;
+        if (!(apart <= 0.2)) return 0;
+        if (scene_.air != nullptr)
+            return std::min(most / apart, farthest_for_air(*scene_.air, apart));
+        return most / apart;
     }
 
     LightRay ray_of(double x, double y, double base) const {
@@ -500,6 +533,10 @@ class BlockMarch {
             const LightRay ray = ray_of(left_ + c % side * apart, top_ + c / side * apart, base);
             light_along(scene_.light, ray, (static_cast<float>(first) - 0.5f) * h, h,
                         last - first + 3, room_.corners[c] + first);
+            if (scene_.air != nullptr)
+                air_along(*scene_.air, left_ + c % side * apart, top_ + c / side * apart,
+                          base + (first + 0.5) * step, step, last - first + 1,
+                          room_.corners[c] + first + 1);
         }
     }
 
@@ -511,9 +548,15 @@ class BlockMarch {
                                         top_ + t / 4 * kTileSide + lane / 4 + 0.5, base);
             light_along(scene_.light, ray, (static_cast<float>(first) - 0.5f) * h, h,
                         last - first + 3, at);
+            if (scene_.air != nullptr)
+                air_along(*scene_.air, left_ + t % 4 * kTileSide + lane % 4 + 0.5,
+                          top_ + t / 4 * kTileSide + lane / 4 + 0.5, base + (first + 0.5) * step,
+                          step, last - first + 1, at + 1);
             TileLight& light = room_.light;
             for (int k = first; k <= last + 2; ++k) {
                 light.depth[k][lane] = at[k - first].depth;
+                light.air[k][lane] = at[k - first].air;
+                light.lost[k][lane] = at[k - first].lost;
                 for (int c = 0; c < 3; ++c) {
                     light.source[c][k][lane] = at[k - first].source[c];
                     light.albedo[c][k][lane] = at[k - first].albedo[c];

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <vector>
 
+#include "core/draw/air.h"
 #include "core/draw/image.h"
 #include "core/draw/march_bins.h"
 #include "core/draw/march_fineness.h"
@@ -41,6 +42,7 @@ struct MarchScene {
     float step_depth = 1;             // longest step in scaled optical depth, where it is seen
     SkyBehind sky;
     const DetailField* detail = nullptr;  // null: none
+    const Air* air = nullptr;  // null: there is no haze
 };
 
 inline constexpr int kTileSide = 4;

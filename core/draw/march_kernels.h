@@ -52,7 +52,8 @@ struct Chunk {
 struct TileLight {
     Floats depth[kChunk + 2];
     Floats source[3][kChunk + 2];
-    Floats albedo[3][kChunk + 2];  // only if cells have their own
+    Floats albedo[3][kChunk + 2];              // only if cells have their own
+    Floats air[kChunk + 2], lost[kChunk + 2];  // only in haze
 };
 
 struct alignas(64) Tile {
@@ -64,7 +65,8 @@ struct alignas(64) Tile {
     Floats depth;              // optical, so far
     Floats left, scaled_left;  // exp(-depth), exp(-scaled depth)
     Floats red, green, blue;
-    Floats rest_phase;  // p1
+    Floats rest_phase;           // p1
+    Floats seen_air, seen_lost;  // in haze: sums of alpha weight * O and * L (air.h)
 };
 
 constexpr float kRootTwoPi = 2.50662827f;
@@ -224,7 +226,7 @@ AWAN_INLINE Floats blend(const Bilinear& b, float c0, float c1, float c2, float 
     return b.weight[0] * c0 + b.weight[1] * c1 + b.weight[2] * c2 + b.weight[3] * c3;
 }
 AWAN_INLINE void spread_light(const Bilinear& b, const LightAt (*corners)[kChunk + 2], int first,
-                              int last, bool albedo, TileLight& light) {
+                              int last, bool albedo, bool air, TileLight& light) {
     const LightAt *c0 = corners[b.corner[0]], *c1 = corners[b.corner[1]],
                   *c2 = corners[b.corner[2]], *c3 = corners[b.corner[3]];
     for (int k = first; k <= last + 2; ++k) {
@@ -236,6 +238,11 @@ AWAN_INLINE void spread_light(const Bilinear& b, const LightAt (*corners)[kChunk
             for (int c = 0; c < 3; ++c)
                 light.albedo[c][k] =
                     blend(b, c0[k].albedo[c], c1[k].albedo[c], c2[k].albedo[c], c3[k].albedo[c]);
+    }
+    if (!air) return;
+    for (int k = first + 1; k <= last + 1; ++k) {
+        light.air[k] = blend(b, c0[k].air, c1[k].air, c2[k].air, c3[k].air);
+        light.lost[k] = blend(b, c0[k].lost, c1[k].lost, c2[k].lost, c3[k].lost);
     }
 }
 
@@ -287,6 +294,7 @@ AWAN_INLINE Floats at_seam(float seam, const Floats& rise) {
 // whole steps give, exact for even light, is off by step^2 in each: where light has the slope S' along the ray, by
 // step^2 / 24 sigma^2 S' T in all. That is what the light is leant by, half of what light linear within a step of even
 // extinction would ask for; a deep step goes over into that. Where the step changes, Euler & Maclaurin's first term.
+template <bool kHaze>
 AWAN_INLINE void march_tile(const Shade& shade, const TileLight& light, int count, Tile& tile) {
     const float scaled = shade.scaled, per_scaled = 1.0f / shade.scaled;
     const int end = tile.last < count - 1 ? tile.last : count - 1;
@@ -300,7 +308,8 @@ AWAN_INLINE void march_tile(const Shade& shade, const TileLight& light, int coun
         // How far before the step's middle light is looked up: x/24 - ... ; 1/2 - 1/x, all of it from the front.
         const Floats off = -0.5f * x * (1.0f + x) / (12.0f + x * (3.0f + x)) + seam;
         if (shade.grid) {
-            const Floats weight = tile.scaled_left * taken;
+            Floats weight = tile.scaled_left * taken;
+            if constexpr (kHaze) weight *= 1.0f - light.air[k + 1];
             const Floats* const r = light.source[0] + k;
             const Floats* const g = light.source[1] + k;
             const Floats* const b = light.source[2] + k;
@@ -332,9 +341,17 @@ AWAN_INLINE void march_tile(const Shade& shade, const TileLight& light, int coun
                 (deep ? taken
                       : mean_decay(half, 0.25f * x * (x + rise)) * depth * at_seam(seam, rise));
             beam += 0.5f * (before + after);
-            tile.left *= half_whole * half_whole;
+            if constexpr (!kHaze) tile.left *= half_whole * half_whole;
         }
         beam = simd::max(beam, Floats{});
+        if constexpr (kHaze) {
+            beam *= 1.0f - light.air[k + 1];
+            const Floats through = simd::exp(-depth);
+            const Floats alpha = tile.left * simd::one_minus(through, depth);
+            tile.seen_air += alpha * light.air[k + 1];
+            tile.seen_lost += alpha * light.lost[k + 1];
+            tile.left *= through;
+        }
         if (shade.albedo) {
             tile.red += beam * (shade.beam[0] * light.albedo[0][k + 1]);
             tile.green += beam * (shade.beam[1] * light.albedo[1][k + 1]);

@@ -33,9 +33,10 @@ LightRay light_ray(const EyeLight& light, const glm::dvec3& start, const glm::dv
 
 // Light at one point.
 struct LightAt {
-    Rgb4 source;  // >= 0
-    Rgb4 albedo;  // only if light.albedo is not empty
-    float depth;  // from the sun, >= 0
+    Rgb4 source;      // >= 0
+    Rgb4 albedo;      // only if light.albedo is not empty
+    float depth;      // from the sun, >= 0
+    float air, lost;  // of the haze before it (march_air.h); only in haze
 };
 
 // Each point has the light of the island in whose region it is. At distances first, first + step, ... from the ray's start.

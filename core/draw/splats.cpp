@@ -8,7 +8,9 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/draw/air_image.h"
 #include "core/generate/gaussian.h"
+#include "core/scene/outside.h"
 #include "core/shaders/shared.h"
 #include "core/survey/projection.h"
 
@@ -27,13 +29,18 @@ struct LightSources {
 };
 
 LightSources light_sources(const Scene& scene, const Plan& plan) {
-    const Sky& sky = scene->sky;
-    LightSources sources{scene->sun.color * (scene->sun.intensity / (4 * std::numbers::pi)),
-                         glm::dvec3(0), glm::dvec3(0), scene->medium.albedo};
-    if (plan.on(Effect::kSkyLight) && !sky.none) {
-        sources.above =
-            0.5 * sky.intensity * glm::dvec3(shader::sky_mean_above(sky.zenith, sky.horizon));
-        sources.below = 0.5 * sky.intensity * sky.horizon;
+    const Outside outside = outside_of(scene);
+    const SkyDome& sky = outside.sky;
+    LightSources sources{outside.sun / (4 * std::numbers::pi), glm::dvec3(0), glm::dvec3(0),
+                         scene->medium.albedo};
+    if (!plan.on(Effect::kSkyLight) || !sky.shines) return sources;
+    if (sky.physical) {
+        const SkyMeans means = means_of(sky);
+        sources.above = 0.5 * means.above;
+        sources.below = 0.5 * means.below;
+    } else {
+        sources.above = 0.5 * glm::dvec3(shader::sky_mean_above(sky.zenith, sky.horizon));
+        sources.below = 0.5 * sky.horizon;
     }
     return sources;
 }
@@ -183,7 +190,7 @@ void radix_sort(std::vector<std::uint64_t>& keys) {
 }  // namespace
 
 SplatList make_splats(const Scene& scene, const ParticleSet& particles, const View& view,
-                      const Plan& plan, const Lighting& lighting) {
+                      const Plan& plan, const Lighting& lighting, const Air* air) {
     const LightSources sources = light_sources(scene, plan);
     SplatList list;
     std::vector<Seen> seen(particles.size());
@@ -210,7 +217,8 @@ SplatList make_splats(const Scene& scene, const ParticleSet& particles, const Vi
         const glm::dvec3 color =
             particles.color.empty() ? glm::dvec3(1) : glm::dvec3(particles.color[i]);
         const ParticleLight* lit = lighting.particles.empty() ? nullptr : &lighting.particles[i];
-        const Splat splat = make_splat(seen[i], color, lit, view, sources);
+        Splat splat = make_splat(seen[i], color, lit, view, sources);
+        if (air != nullptr) see_through_air(*air, view, seen[i].q, splat);
         if (sorted && previous < particles.size() &&
             particles.center[i] == particles.center[previous] &&
             particles.radius[i] == particles.radius[previous]) {

@@ -4,6 +4,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include "core/draw/air.h"
 #include "core/gl/tile_lists.h"
 #include "core/light/light.h"
 
@@ -25,7 +26,8 @@ inline constexpr int kTileWidth = 8, kTileHeight = 16;  // as in splat.glsl
 // so that its mass stays whole; one with s below .6 pixels is widened to it, its optical depth times area kept.
 // Sorted (effect view_extinction) by distance from the eye, ties by index; particles of one centre and radius are then
 // merged (optical depths add, light and colour are weighted by them), so that no order decides among them.
+// air: the haze that they are seen through (air_image.h); null: none.
 SplatList make_splats(const Scene& scene, const ParticleSet& particles, const View& view,
-                      const Plan& plan, const Lighting& lighting);
+                      const Plan& plan, const Lighting& lighting, const Air* air = nullptr);
 
 }  // namespace awan

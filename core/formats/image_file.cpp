@@ -17,6 +17,7 @@
 
 #include "core/formats/tone.h"
 #include "core/scene/limits.h"
+#include "core/scene/outside.h"
 
 namespace awan {
 namespace {
@@ -103,10 +104,6 @@ float storable(float value, float largest) {
     return std::isnan(value) ? 0.0f : std::clamp(value, -largest, largest);
 }
 
-double luminance(const glm::dvec3& color) {
-    return glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722));  // Rec. 709
-}
-
 }  // namespace
 
 Result<std::string> encode_png(const Image& image, double exposure_stops) {
@@ -162,13 +159,17 @@ Result<std::string> encode_exr(const Image& image, Precision precision) {
     });
 }
 
-double auto_exposure(const Sun& sun, const Sky& sky) {
-    // Mean of the sky's radiance (core/shaders/sky.glsl) over the upper hemisphere, weighted with
+double auto_exposure(const Scene& scene) {
+    const Outside outside = outside_of(scene);
+    const SkyDome& sky = outside.sky;
+    // Mean of a gradient's radiance (core/shaders/sky.glsl) over the upper hemisphere, weighted with
     // the cosine to the zenith u: the integral of 2 u 1.09 u^2 / (u^2 + .09) over u = 0..1 is 1.09
     // (1 - .09 ln(1.09 / .09)).
-    const double mean_sky =
-        sky.none ? 0.0 : sky.intensity * luminance(glm::mix(sky.horizon, sky.zenith, 0.845326504));
-    const double cloud = sun.intensity * luminance(sun.color) / (4 * std::numbers::pi) + mean_sky;
+    const double mean_sky = !sky.shines ? 0.0
+                            : sky.physical
+                                ? luminance(means_of(sky).irradiance_up) / std::numbers::pi
+                                : luminance(glm::mix(sky.horizon, sky.zenith, 0.845326504));
+    const double cloud = luminance(outside.sun) / (4 * std::numbers::pi) + mean_sky;
     if (!(cloud > 0)) return 0;  // no light: nothing to meter
     return std::clamp(std::log2(static_cast<double>(metered_level()) / cloud),
                       -limits::kMaxExposure, limits::kMaxExposure);

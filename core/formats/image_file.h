@@ -19,7 +19,7 @@ Result<std::string> encode_exr(const Image& image, Precision precision);
 // Exposure in stops for "auto": what a photographer would meter on the sunlit side of a thick
 // cloud, as the two passes light it: radiance sun irradiance / 4 pi + mean sky radiance. It is
 // brought to kMeteredLevel before the tone curve. Depends on the lights only, so it does not
-// flicker as a camera moves.
-double auto_exposure(const Sun& sun, const Sky& sky);
+// flicker as a camera moves; light of the sun that sets is made up for, whatever is left of it.
+double auto_exposure(const Scene& scene);
 
 }  // namespace awan

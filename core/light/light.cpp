@@ -9,6 +9,7 @@
 #include "core/gl/programs.h"
 #include "core/gl/tile_lists.h"
 #include "core/light/light_grid.h"
+#include "core/scene/outside.h"
 
 namespace awan {
 namespace {
@@ -171,7 +172,7 @@ Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const P
     };
     const glm::vec4 full(0, 0, 0, 1), none(0);
     lighting.particles.assign(particles.size(), {full, none, full, full});
-    if (scene->sun.intensity > 0) {
+    if (outside_of(scene).sun != glm::dvec3(0)) {
         auto sun = one_light(particles, {sun_direction(scene->sun), gain(kSunGathering), false},
                              device, deadline);
         if (!sun.ok()) return sun.error();

@@ -10,10 +10,12 @@
 #include "core/light/gmres.h"
 #include "core/light/islands.h"
 #include "core/light/legendre.h"
+#include "core/light/sky_inflow.h"
 #include "core/light/sun_depth.h"
 #include "core/light/sweep.h"
 #include "core/light/transport_part.h"
 #include "core/parallel.h"
+#include "core/scene/outside.h"
 #include "core/shaders/shared.h"
 #include "core/survey/lattice.h"
 #include "core/survey/lattice_detail.h"
@@ -47,12 +49,31 @@ struct Shine {
     bool beam = false;               // the sun, irradiance 1
     double zenith = 0, horizon = 0;  // the sky's two colours
     glm::vec3 color{1};
+    // Of a physical sky: `share` of this channel's radiance. Null: none.
+    const SkyInflow* physical = nullptr;
+    int channel = 0;
+    double share = 0;
+
+    bool has_sky() const { return physical != nullptr || zenith > 0 || horizon > 0; }
 };
 
 double sky_radiance(double up, double zenith, double horizon) {
     const auto one = [](double v) { return shader::vec3(static_cast<float>(v)); };
     return static_cast<double>(
         shader::sky_radiance(static_cast<float>(up), one(zenith), one(horizon)).x);
+}
+
+// From a direction (unit).
+double sky_from(const Shine& shine, const glm::dvec3& direction) {
+    if (shine.physical != nullptr)
+        return shine.share * mean_from(*shine.physical, direction)[shine.channel];
+    return sky_radiance(direction.y, shine.zenith, shine.horizon);
+}
+
+// The most radiance from any direction.
+double brightest_sky(const Shine& shine) {
+    if (shine.physical != nullptr) return shine.share * shine.physical->most[shine.channel];
+    return std::max(shine.zenith, shine.horizon);
 }
 
 // Means over blocks of sub^3 cells.
@@ -126,10 +147,8 @@ Result<std::vector<float>> solve(const Matter& matter, const Ordinates& ordinate
     Inflow inflow;
     if (outside)
         inflow = outside;
-    else if (shine.zenith > 0 || shine.horizon > 0)
-        inflow = [&](const glm::dvec3& direction) {
-            return sky_radiance(-direction.y, shine.zenith, shine.horizon);
-        };
+    else if (shine.has_sky())
+        inflow = [&](const glm::dvec3& d) { return sky_from(shine, -d); };
     SweepSpace space;
     std::vector<float> right(source.size());
     sweep(matter.grid, ordinates, source, inflow, threads, space, right);
@@ -176,13 +195,37 @@ double largest(const glm::dvec3& v) {
 }
 
 // The parts of the light, each with one shape in space: in grey matter the sun, the zenith's share of the sky and the
-// horizon's; where particles have colours, one for each colour channel.
-std::vector<Shine> parts_of(const Scene& scene, bool colored, bool with_sky) {
-    const glm::dvec3 sun = scene->sun.color * scene->sun.intensity;
-    const bool sky = with_sky && !scene->sky.none;
-    const glm::dvec3 zenith = sky ? scene->sky.zenith * scene->sky.intensity : glm::dvec3(0);
-    const glm::dvec3 horizon = sky ? scene->sky.horizon * scene->sky.intensity : glm::dvec3(0);
+// horizon's; where particles have colours, one for each colour channel. A physical sky has a shape of its own in each channel.
+std::vector<Shine> parts_of(const Outside& outside, const SkyInflow& physical, bool colored,
+                            bool with_sky) {
+    const glm::dvec3 sun = outside.sun;
+    const glm::dvec3 zenith = with_sky ? outside.sky.zenith : glm::dvec3(0);
+    const glm::dvec3 horizon = with_sky ? outside.sky.horizon : glm::dvec3(0);
     std::vector<Shine> parts;
+    if (with_sky && outside.sky.physical) {
+        if (!colored && largest(sun) > 0) parts.push_back({true, 0, 0, glm::vec3(sun)});
+        for (int c = 0; c < 3; ++c) {
+            glm::vec3 color(0);
+            // Less than a float is nothing to share by.
+            const double most = static_cast<double>(static_cast<float>(physical.most[c]));
+            // One solve for both, as below; the sun's last light is too little to measure the sky by.
+            const bool one_solve = colored && sun[c] > 1e-30 && sun[c] > 1e-6 * most;
+            if (colored && sun[c] > 0) {
+                color[c] = static_cast<float>(sun[c]);
+                parts.push_back({true, 0, 0, color});
+                if (one_solve) {
+                    parts.back().physical = &physical;
+                    parts.back().channel = c;
+                    parts.back().share = 1 / sun[c];
+                }
+            }
+            if (!one_solve && most > 0) {
+                color[c] = static_cast<float>(most);
+                parts.push_back({false, 0, 0, color, &physical, c, 1 / most});
+            }
+        }
+        return parts;
+    }
     if (colored) {
         for (int c = 0; c < 3; ++c) {
             glm::vec3 color(0);
@@ -312,7 +355,10 @@ Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
     if (auto error = deadline.over()) return *error;
 
     const bool colored = !particles.color.empty();
-    const std::vector<Shine> parts = parts_of(scene, colored, settings.sky);
+    const Outside outside = outside_of(scene);
+    SkyInflow physical;
+    if (settings.sky && outside.sky.physical) physical = sky_inflow(outside.sky);
+    const std::vector<Shine> parts = parts_of(outside, physical, colored, settings.sky);
     std::vector<float> beam;
     if (std::any_of(parts.begin(), parts.end(), [](const Shine& shine) { return shine.beam; }))
         beam = beam_source(coarse, fine_lattice, fine, sub, light.sun, kept, threads, deadline);
@@ -338,20 +384,19 @@ Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
             matter.albedo[i] = static_cast<float>(a);
             matter.scattered[i] = static_cast<float>(depth * a * (1 - f) / (1 - a * f));
         }
-        Inflow outside;
+        Inflow inflow;
         if (part.surroundings)
-            outside = [&, band = light.bands.size()](const glm::dvec3& direction) {
-                const double sky = sky_radiance(-direction.y, shine.zenith, shine.horizon);
+            inflow = [&, band = light.bands.size()](const glm::dvec3& direction) {
+                const double sky = shine.has_sky() ? sky_from(shine, -direction) : 0;
                 return part.surroundings(band, direction, sky);
             };
-        auto moments = solve(matter, ordinates, beam, -towards_sun, shine, 1 - f, outside, settings,
+        auto moments = solve(matter, ordinates, beam, -towards_sun, shine, 1 - f, inflow, settings,
                              threads, deadline, light);
         if (!moments.ok()) return moments.error();
         LightBand band;
         band.color = shine.color;
         if (!shine.beam && !part.surroundings)
-            band.most =
-                static_cast<float>(albedo * (1 - f) * std::max(shine.zenith, shine.horizon));
+            band.most = static_cast<float>(albedo * (1 - f) * brightest_sky(shine));
         band.moments.resize(mean.size());
         const auto count = static_cast<std::size_t>(matter.grid.harmonics);
         for (std::size_t i = 0; i < mean.size(); ++i) {

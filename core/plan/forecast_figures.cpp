@@ -8,6 +8,7 @@
 
 #include "core/plan/island_settings.h"
 #include "core/plan/transport_settings.h"
+#include "core/scene/outside.h"
 
 namespace awan {
 namespace {
@@ -24,11 +25,14 @@ double mean_s(const Survey& survey) {
 // Of the light that reaches a cloud from all sides.
 double sun_share(const Scene& scene) {
     const auto grey = [](const glm::dvec3& c) { return (c.x + c.y + c.z) / 3; };
-    const double sun = grey(scene->sun.color) * scene->sun.intensity / (4 * std::numbers::pi);
-    const double sky =
-        scene->sky.none
-            ? 0
-            : scene->sky.intensity * grey(0.67 * scene->sky.zenith + 1.33 * scene->sky.horizon) / 2;
+    const Outside outside = outside_of(scene);
+    const SkyDome& dome = outside.sky;
+    const double sun = grey(outside.sun) / (4 * std::numbers::pi);
+    double sky = grey(0.67 * dome.zenith + 1.33 * dome.horizon) / 2;
+    if (dome.physical) {
+        const SkyMeans means = means_of(dome, 8);
+        sky = grey(means.above + means.below) / 2;
+    }
     return sun + sky > 0 ? sun / (sun + sky) : 0;
 }
 
@@ -142,7 +146,10 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
         const IslandWork islands = one ? IslandWork{} : island_work(settings, survey);
         const double cells =
             one ? cells_in(survey.bounds.max - survey.bounds.min, rung.cells) : islands.cells;
-        const double bands = (scene->sun.intensity > 0 ? 1 : 0) + (scene->sky.none ? 0 : 2);
+        const double bands = (scene->sun.intensity > 0 ? 1 : 0) + (scene->sky.none ? 0
+                                                                   : scene->sky.physical
+                                                                       ? 3  // a colour channel each
+                                                                       : 2);
         const double harmonics = scene->medium.g == 0 ? 0.5 : 1;  // of the cost of 16
         // Sweeps that the solve takes: few in thin matter, three times as many at depth 30.
         const double sweeps = 1 + 0.7 * std::log1p(std::min(survey.optical_depth_sun, 1e3));

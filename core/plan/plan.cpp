@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <glm/common.hpp>
+
+#include "core/scene/outside.h"
 
 namespace awan {
 namespace {
@@ -15,6 +16,10 @@ constexpr double kShadowDepth = 0.03;
 constexpr double kViewDepth = 0.03;
 constexpr double kScatterDepthIsotropic = 0.04;  // g = 0
 constexpr double kScatterDepthForward = 0.02;    // |g| >= .5; linear in between
+
+// Of the haze, likewise: what it takes from a pixel or adds to it goes with its depth.
+constexpr double kHazeDepth = 0.01;
+constexpr double kShafts = 0.01;
 
 constexpr double kPatience_ms = 20e3;  // longer paths than these are not chosen, only taken by name
 constexpr double kTruthNoise = 0.05;   // of a pixel, when rung truth is asked for by name
@@ -44,17 +49,21 @@ double scatter_threshold(double g) {
     return kScatterDepthIsotropic + t * (kScatterDepthForward - kScatterDepthIsotropic);
 }
 
-bool sky_shines(const Sky& sky) {
-    const glm::dvec3 most = glm::max(sky.zenith, sky.horizon);
-    return !sky.none && sky.intensity > 0 && most.x + most.y + most.z > 0;
-}
-
 // Whether the scene calls for an effect, by its own figures.
 Criterion criterion(Effect effect, const Scene& scene, const Survey& survey) {
+    if (effect == Effect::kAerialPerspective || effect == Effect::kLightShafts) {
+        if (!scene->haze || !(scene->haze->extinction > 0)) return {false, "the scene has no haze"};
+        const HazeFigures& haze = survey.haze;
+        if (effect == Effect::kLightShafts)
+            return above("the clouds' shadows in the haze, over a typical pixel,", haze.shaded,
+                         kShafts);
+        return above("the haze's largest optical depth in view,",
+                     std::max(haze.depth_to_clouds, haze.depth_behind), kHazeDepth);
+    }
     if (survey.particles == 0 || !(survey.total_mass > 0))
         return {false, "there is no matter in the scene"};
     const bool sun = scene->sun.intensity > 0;
-    const bool sky = sky_shines(scene->sky);
+    const bool sky = outside_of(scene).sky.shines;
     const double towards_lights =
         std::max(sun ? survey.optical_depth_sun : 0.0, sky ? survey.optical_depth_zenith : 0.0);
     switch (effect) {
@@ -93,9 +102,6 @@ const char* missing_reason(Effect effect) {
             return "the scene has no ground; a ground is not in this version";
         case Effect::kSunColor:
             return "the sun's colour is given; colour from its elevation is not in this version";
-        case Effect::kAerialPerspective:
-        case Effect::kLightShafts:
-            return "haze is not in this version";
         case Effect::kDetail:
             return "procedural detail is not in this version";
         default:
@@ -117,6 +123,15 @@ void join_scattering_to_shadow(Plan& plan, const Scene& scene) {
         shadow.on = true;
         shadow.reason = "multiple_scattering travels with it (" + shadow.reason + ")";
     }
+}
+
+// Shadows are seen in haze that is drawn.
+void join_shafts_to_haze(Plan& plan) {
+    EffectDecision& shafts = plan.effects[static_cast<std::size_t>(Effect::kLightShafts)];
+    if (!shafts.on || plan.on(Effect::kAerialPerspective)) return;
+    shafts.on = false;
+    shafts.reason =
+        "aerial_perspective is off, and shadows are seen in the haze (" + shafts.reason + ")";
 }
 
 }  // namespace
@@ -278,6 +293,7 @@ Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSp
         }
     }
     join_scattering_to_shadow(plan, scene);
+    join_shafts_to_haze(plan);
     choose_rung(scene, survey, threads, speed, plan);
     fit_effects_to_rung(plan);
     return plan;

@@ -32,7 +32,7 @@ Outside outside_of(const SceneDraft& scene) {
         dome.clear = clear_sky(outside.to_sun, sky.turbidity);
         // The model's luminance is relative to the sun's.
         dome.intensity = sky.intensity * scene.sun.intensity;
-        dome.shines = dome.intensity > 0;
+        dome.shines = dome.intensity > 0 && dome.clear.dimmed > 0;
     } else {
         dome.zenith = sky.zenith * sky.intensity;
         dome.horizon = sky.horizon * sky.intensity;
@@ -48,19 +48,20 @@ glm::dvec3 sky_radiance(const SkyDome& sky, const glm::dvec3& direction) {
     return glm::mix(sky.horizon, sky.zenith, 1.09 * up * up / (up * up + 0.09));
 }
 
-SkyMeans means_of(const SkyDome& sky) {
+SkyMeans means_of(const SkyDome& sky, int steps) {
     SkyMeans means;
     if (!sky.shines) return means;
-    constexpr int kUp = 48, kAround = 96;
-    for (int i = 0; i < kUp; ++i)
-        for (int j = 0; j < kAround; ++j) {
-            const double up = (i + 0.5) / kUp, side = std::sqrt(1 - up * up);
-            const double turn = 2 * std::numbers::pi * (j + 0.5) / kAround;
+    const int around = 2 * steps;
+    const double share = 1.0 / (steps * around);
+    for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < around; ++j) {
+            const double up = (i + 0.5) / steps, side = std::sqrt(1 - up * up);
+            const double turn = 2 * std::numbers::pi * (j + 0.5) / around;
             const glm::dvec3 d(side * std::sin(turn), up, side * std::cos(turn));
-            const glm::dvec3 from_above = sky_radiance(sky, d) / (1.0 * kUp * kAround);
+            const glm::dvec3 from_above = share * sky_radiance(sky, d);
             means.above += from_above;
             means.irradiance_up += 2 * std::numbers::pi * up * from_above;
-            means.below += sky_radiance(sky, {d.x, -d.y, d.z}) / (1.0 * kUp * kAround);
+            means.below += share * sky_radiance(sky, {d.x, -d.y, d.z});
         }
     return means;
 }

@@ -34,12 +34,13 @@ inline Outside outside_of(const Scene& scene) {
 glm::dvec3 sky_radiance(const SkyDome& sky, const glm::dvec3& direction);
 
 // Irradiance of a level plane that looks up (all of the sky's upper half): integral of radiance * cosine, and the mean
-// radiance of the whole sphere and of its lower half. By quadrature, relative error < 1e-3.
+// radiance of either half of the sphere. By the midpoint rule with `steps` in height and twice as many around: relative
+// error < 2e-3 with 48 (2 ms where the sky is physical), < 2% with 12 (daylight_test).
 struct SkyMeans {
     glm::dvec3 irradiance_up{0};
     glm::dvec3 above{0}, below{0};  // mean radiance of the halves
 };
-SkyMeans means_of(const SkyDome& sky);
+SkyMeans means_of(const SkyDome& sky, int steps = 48);
 
 double luminance(const glm::dvec3& rgb);  // Rec. 709
 

@@ -7,6 +7,7 @@
 
 #include "core/generate/gaussian.h"
 #include "core/parallel.h"
+#include "core/survey/haze_view.h"
 #include "core/survey/optical_depth.h"
 #include "core/survey/volume.h"
 
@@ -82,7 +83,10 @@ Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int thre
     survey.bounds = bounds_of(particles);
     survey.view = resolve_view(scene->camera, scene->image, survey.bounds);
     survey.sun_cosine = sun_cosine(scene, survey);
-    if (particles.size() == 0) return survey;
+    if (particles.size() == 0) {
+        survey.haze = haze_figures(scene, survey);
+        return survey;
+    }
 
     // Each figure is one thread's work from start to end, so the result does not depend on their
     // number.
@@ -112,6 +116,7 @@ Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int thre
     for (const float cell : survey.volume.extinction)
         survey.max_extinction = std::max(survey.max_extinction, static_cast<double>(cell));
     survey.detail.extinction = typical_extinction(survey.volume);
+    survey.haze = haze_figures(scene, survey);
     if (auto error = deadline.over()) return *error;
     return survey;
 }

@@ -31,6 +31,16 @@ struct View {
     double aspect = 1;           // width / height
 };
 
+// Of the haze in view (core/survey/haze_view.h), on a raster of rays; 0 without haze. Optical depths, largest of all rays,
+// kMostHazeDepth at most.
+inline constexpr double kMostHazeDepth = 1e6;  // level rays may have an infinite one
+struct HazeFigures {
+    double depth_to_clouds = 0;  // from the eye to where a ray meets clouds
+    double depth_behind = 0;     // to the ground, or without end
+    double shaded =
+        0;  // the most light that the clouds' shadows take from one ray, over the mean pixel's (luminance)
+};
+
 struct Survey {
     std::size_t particles = 0;
     Bounds bounds;
@@ -54,6 +64,7 @@ struct Survey {
     double max_projected_px = 0;     //   infinite for a particle that holds the eye
     DetailFigures detail;            // what detail would be made for
     bool eye_inside = false;         // the eye is within 4 s of a particle
+    HazeFigures haze;
 };
 
 // Optical depths are sampled on a raster of 64 x 64 lines over the cloud or the picture, and on the lines through every

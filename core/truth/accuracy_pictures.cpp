@@ -6,25 +6,21 @@
 
 #include "core/formats/image_file.h"
 #include "core/formats/tone.h"
-#include "core/shaders/shared.h"
+#include "core/scene/outside.h"
 
 namespace awan {
 
 Image over_sky(const Image& transparent, const Scene& scene, const View& view) {
     Image image = transparent;
     image.opaque = true;
-    const Sky& sky = scene->sky;
-    const double intensity = sky.none ? 0.0 : sky.intensity;
-    const glm::vec3 zenith(sky.zenith * intensity);
-    const glm::vec3 horizon(sky.horizon * intensity);
+    const SkyDome sky = outside_of(scene).sky;
     float* pixel = image.pixels.data();
     for (int y = 0; y < image.height; ++y) {
         const double v = (1 - (y + 0.5) / image.height * 2) * view.tan_half_fov;
         for (int x = 0; x < image.width; ++x, pixel += 4) {
             const double u = ((x + 0.5) / image.width * 2 - 1) * view.tan_half_fov * view.aspect;
             const glm::dvec3 ray = glm::normalize(view.forward + u * view.right + v * view.up);
-            const glm::vec3 behind =
-                shader::sky_radiance(static_cast<float>(ray.y), zenith, horizon);
+            const glm::vec3 behind(sky_radiance(sky, ray));
             for (int c = 0; c < 3; ++c) pixel[c] += (1 - pixel[3]) * behind[c];
             pixel[3] = 1;
         }
@@ -43,7 +39,7 @@ std::vector<std::uint8_t> display_bytes(const Image& image, double exposure) {
 }
 
 double exposure_of(const Scene& scene) {
-    return scene->image.exposure.value_or(auto_exposure(scene->sun, scene->sky));
+    return scene->image.exposure.value_or(auto_exposure(scene));
 }
 
 PictureSize fitted_size(int width, int height, int side) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/generate/gaussian.h"
+#include "core/scene/outside.h"
 #include "core/truth/phase_law.h"
 
 namespace awan {
@@ -174,7 +175,7 @@ glm::dvec3 single_scattering(const Scene& scene, const ParticleSet& particles,
     glm::dvec3 sum(0);
     for (std::size_t i = 1; i < pieces.size(); ++i)
         sum += integrate(source, pieces[i - 1], pieces[i], allowed, 16);
-    return sum * scale * scene->sun.color * scene->sun.intensity;
+    return sum * scale * outside_of(scene).sun;
 }
 
 PixelRay pixel_ray(const View& view, int width, int height, int x, int y) {

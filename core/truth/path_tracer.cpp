@@ -9,6 +9,7 @@
 
 #include "core/generate/keyed_random.h"
 #include "core/parallel.h"
+#include "core/truth/haze_walk.h"
 #include "core/truth/oracles.h"
 #include "core/truth/primary_ray.h"
 #include "core/truth/walk.h"
@@ -82,6 +83,8 @@ Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles,
     if (!matter.ok()) return matter.error();
     const Setting setting = truth::setting_of(scene, *matter, options);
     const std::uint32_t samples = std::max(options.samples / 2, 1u) * 2;
+    const auto air = options.aerial_perspective ? truth::haze_of(scene, options.light_shafts)
+                                                : std::optional<truth::HazeSetting>();
 
     const int across = (width + kTile - 1) / kTile, down = (height + kTile - 1) / kTile;
     const std::size_t tiles = static_cast<std::size_t>(across) * static_cast<std::size_t>(down);
@@ -105,33 +108,55 @@ Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles,
         const double covered = -std::expm1(-depth), through = std::exp(-depth);
         Sums sums;
         Tally tally;
+        std::optional<truth::HazePath> haze;
+        if (air) haze.emplace(air->haze, ray.origin.y, ray.direction.y);
+        // Light from distance t (cells) as the eye gets it, through the haze and with its light.
+        const auto seen = [&](const glm::dvec3& light, double t, truth::PathRandom& random) {
+            if (!haze) return light;
+            const double end = t * matter->cell;
+            return light * haze->transmittance(end) +
+                   haze_light(*air, setting, *haze, o, ray.direction, end, random);
+        };
         if (covered > 0 && primary.meets()) {
             const std::uint32_t paths = worthwhile_paths(samples, covered);
             const bool done = average(
                 key, paths, deadline, stop, sums, [&](truth::PathRandom& random, double stratum) {
-                    const glm::dvec3 p = o + primary.first_meeting(stratum) * ray.direction;
-                    return covered * walk_from_matter(setting, p, ray.direction, random, tally);
+                    const double t = primary.first_meeting(stratum);
+                    const glm::dvec3 p = o + t * ray.direction;
+                    const glm::dvec3 light =
+                        walk_from_matter(setting, p, ray.direction, random, tally);
+                    return covered * seen(light, t, random);
                 });
             if (!done) return;
             tile_paths[tile] += paths;
             tile_scatterings[tile] += tally.scatterings;
         }
-        if (opaque && std::isinf(ground)) {
+        if (haze && through > 1e-9 && (!opaque || std::isinf(ground))) {
+            const glm::dvec3 sky = opaque ? sky_radiance(setting, ray.direction) : glm::dvec3(0);
+            const bool done = average(keyed(key, 1), samples, deadline, stop, sums,
+                                      [&](truth::PathRandom& random, double) {
+                                          return through * seen(sky, ground, random);
+                                      });
+            if (!done) return;
+        } else if (opaque && std::isinf(ground)) {
             for (glm::dvec3& half : sums.half)
                 half += through * sky_radiance(setting, ray.direction);
         } else if (opaque && through > 1e-9) {
             glm::dvec3 p = o + ground * ray.direction;
             p.y = setting.ground_height;
             Tally unused;
-            const bool done =
-                average(keyed(key, 1), samples, deadline, stop, sums,
-                        [&](truth::PathRandom& random, double) {
-                            return through * walk_from_ground(setting, p, random, unused);
-                        });
+            const bool done = average(keyed(key, 1), samples, deadline, stop, sums,
+                                      [&](truth::PathRandom& random, double) {
+                                          const glm::dvec3 light =
+                                              walk_from_ground(setting, p, random, unused);
+                                          return through * seen(light, ground, random);
+                                      });
             if (!done) return;
         }
-        store(truth.half_a, at, sums.half[0], opaque ? 1 : covered);
-        store(truth.half_b, at, sums.half[1], opaque ? 1 : covered);
+        const double clear = through * (haze ? haze->transmittance(ground * matter->cell) : 1.0);
+        const double alpha = opaque ? 1 : haze ? 1 - clear : covered;
+        store(truth.half_a, at, sums.half[0], alpha);
+        store(truth.half_b, at, sums.half[1], alpha);
     };
 
     parallel_for(options.threads, tiles, [&](std::size_t tile) {

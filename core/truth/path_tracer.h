@@ -34,6 +34,8 @@ struct TruthOptions {
     std::uint32_t max_orders = 0;  // scatterings a path may have; 0 = no end but the albedo's and
                                    // the limit kMaxOrders
     SkySampling sky = SkySampling::kEscape;
+    bool aerial_perspective = true;  // the scene's haze, if it has any
+    bool light_shafts = true;        // and the clouds' shadows in it
     std::uint64_t seed = 1;
     int threads = 1;
 };
@@ -45,7 +47,7 @@ struct TruthImage {
     double scatterings = 0;  // a path that met the cloud, mean
 };
 
-// Linear radiance as core/draw gives it: premultiplied, alpha = 1 - transmittance (exact, by
+// Linear radiance as core/draw gives it: premultiplied, alpha = 1 - transmittance of clouds and haze (exact, by
 // line_optical_depth, no noise), over the sky and the ground or over nothing as the scene's background says.
 // A picture depends on scene, samples and seed, not on threads. Errors: kOverDeadline, kCancelled.
 Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles, const View& view,

@@ -177,7 +177,7 @@ struct Walk {
         const Matter& matter = *s.matter;
         glm::dvec3 weight(1);
         const bool sun = s.sun_irradiance != glm::dvec3(0);
-        const bool sky = s.sky_zenith != glm::dvec3(0) || s.sky_horizon != glm::dvec3(0);
+        const bool sky = s.dome.shines;
         std::uint32_t orders = 0, since_start = 0;
         for (std::uint32_t event = 0;; ++event) {
             const glm::dvec3 before = weight;
@@ -262,9 +262,12 @@ struct Walk {
 }  // namespace
 
 glm::dvec3 sky_radiance(const Setting& setting, const glm::dvec3& direction) {
+    const SkyDome& dome = setting.dome;
+    if (!dome.shines) return glm::dvec3(0);
+    if (dome.physical) return dome.intensity * radiance(dome.clear, direction);
     const double up = std::max(direction.y, 0.0);
     const double share = 1.09 * up * up / (up * up + 0.09);
-    return (1 - share) * setting.sky_horizon + share * setting.sky_zenith;
+    return (1 - share) * dome.horizon + share * dome.zenith;
 }
 
 int worthwhile_from_sun(double g) {
@@ -277,12 +280,10 @@ Setting setting_of(const Scene& scene, const Matter& matter, const TruthOptions&
     s.matter = &matter;
     s.phase = phase_law(scene->medium);
     s.albedo = scene->medium.albedo;
-    s.to_sun = sun_direction(scene->sun);
-    s.sun_irradiance = scene->sun.color * scene->sun.intensity;
-    if (!scene->sky.none) {
-        s.sky_zenith = scene->sky.zenith * scene->sky.intensity;
-        s.sky_horizon = scene->sky.horizon * scene->sky.intensity;
-    }
+    const Outside outside = outside_of(scene);
+    s.to_sun = outside.to_sun;
+    s.sun_irradiance = outside.sun;
+    s.dome = outside.sky;
     s.sky = options.sky;
     if (scene->ground) {
         s.has_ground = true;

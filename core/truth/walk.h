@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/scene/outside.h"
 #include "core/truth/matter.h"
 #include "core/truth/path_random.h"
 #include "core/truth/path_tracer.h"
@@ -22,7 +23,7 @@ struct Setting {
     double albedo = 1;
     glm::dvec3 to_sun{0, 1, 0};
     glm::dvec3 sun_irradiance{0};
-    glm::dvec3 sky_zenith{0}, sky_horizon{0};  // radiance
+    SkyDome dome;
     SkySampling sky = SkySampling::kEscape;
     bool has_ground = false;
     double ground_height = 0;  // cells
@@ -45,8 +46,8 @@ struct Tally {
     double absorbed = 0, escaped = 0, cut_off = 0;  // cut off: by max_orders or kMaxTentative
 };
 
-// The sky's radiance from a direction (unit): zenith and horizon mixed by 1.09 u^2 / (u^2 + .09), u the sine of its
-// elevation; the horizon's colour below it.
+// The sky's radiance from a direction (unit). A gradient, by a second opinion on core/shaders/sky.glsl: zenith and horizon
+// mixed by 1.09 u^2 / (u^2 + .09), u the sine of its elevation; the horizon's colour below it.
 glm::dvec3 sky_radiance(const Setting& setting, const glm::dvec3& direction);
 
 struct Flight {

@@ -1,0 +1,177 @@
+#include "core/draw/air_shadows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/light/sun_depth.h"
+#include "core/parallel.h"
+
+namespace awan {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMostSlices = 96;
+// Pictures up to this many pixels have rays 2, 4 pixels apart, larger ones 8.
+constexpr int kSmall = 160 * 120, kMiddling = 400 * 300;
+
+int spacing_for(int width, int height) {
+    const std::int64_t pixels = std::int64_t{width} * height;
+    return pixels <= kSmall ? 2 : pixels <= kMiddling ? 4 : 8;
+}
+
+// The part of a line at + t by that is in low..high; cuts from..to.
+void clip(double at, double by, double low, double high, double& from, double& to) {
+    if (by == 0) {
+        if (at < low || at > high) to = from;
+        return;
+    }
+    const double a = (low - at) / by, b = (high - at) / by;
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
+}
+
+std::uint32_t slices(double length, double per_unit) {
+    if (!(length > 0)) return 0;
+    return static_cast<std::uint32_t>(std::clamp(std::ceil(length * per_unit), 1.0, kMostSlices));
+}
+
+// Where the ray may meet shadow: in the prism that the lattice of the sun's depth sweeps along the light. In the lattice
+// shadow changes over a cell, behind it only as the ray crosses the light.
+AirShadows::Ray place(const SunDepth& sun, const glm::dvec3& eye, const glm::dvec3& direction,
+                      double end) {
+    AirShadows::Ray ray;
+    const glm::dvec3 off = (eye - sun.origin) / sun.cell, step = direction / sun.cell;
+    double from = 0, to = end;
+    clip(glm::dot(off, sun.u), glm::dot(step, sun.u), -0.5, sun.nodes.x - 0.5, from, to);
+    clip(glm::dot(off, sun.v), glm::dot(step, sun.v), -0.5, sun.nodes.y - 0.5, from, to);
+    const double w = glm::dot(off, sun.w), down = glm::dot(step, sun.w);
+    clip(w, down, 0, kInfinity, from, to);
+    if (!(from < to)) return ray;
+    const double deepest = sun.nodes.z - 1;
+    const double passes =
+        down == 0 ? (w < deepest ? kInfinity : 0.0) : std::max((deepest - w) / down, 0.0);
+    const bool leaves = down > 0 || (down == 0 && w < deepest);  // the lattice, not enters it
+    ray.from = from;
+    ray.to = to;
+    ray.mid = std::clamp(passes, from, to);
+    const double inside = 1 / sun.cell;
+    const double behind = std::hypot(glm::dot(step, sun.u), glm::dot(step, sun.v));
+    ray.first = slices(ray.mid - from, leaves ? inside : behind);
+    ray.second = slices(to - ray.mid, leaves ? behind : inside);
+    ray.per_first = ray.first > 0 ? ray.first / (ray.mid - from) : 0;
+    ray.per_second = ray.second > 0 ? ray.second / (to - ray.mid) : 0;
+    return ray;
+}
+
+// Fills the ray's nodes.
+void integrate(const HazeRay& haze, const SunDepth& sun, const glm::dvec3& eye,
+               const glm::dvec3& direction, AirShadows::Ray& ray, float* lost) {
+    if (ray.first + ray.second == 0) {
+        *lost = 0;
+        return;
+    }
+    double sum = 0, before = haze.opacity(ray.from);
+    const auto shade = [&](double t) { return -std::expm1(-depth_at(sun, eye + t * direction)); };
+    *lost = ray.from > 0 ? 0 : static_cast<float>(shade(0));
+    const auto part = [&](double from, double to, std::uint32_t count) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            // A part without end runs along the light: its shade is the same everywhere.
+            const bool endless = std::isinf(to);
+            const double share = (i + 1.0) / count, half = (i + 0.5) / count;
+            const double end = i + 1 == count ? to : from + share * (to - from);
+            const double after = haze.opacity(end);
+            const double here = shade(endless ? from : from + half * (to - from));
+            sum += here * (after - before);
+            before = after;
+            *++lost = static_cast<float>(after > 0 ? std::min(sum / after, 1.0) : here);
+        }
+    };
+    part(ray.from, ray.mid, ray.first);
+    part(ray.mid, ray.to, ray.second);
+    ray.whole = sum;
+}
+
+double lost_on(const AirShadows& shadows, const AirShadows::Ray& ray, double t, double opacity) {
+    if (t <= ray.from || !(opacity > 0)) return 0;
+    if (t >= ray.to) return std::min(ray.whole / opacity, 1.0);
+    const double place =
+        t < ray.mid ? (t - ray.from) * ray.per_first : ray.first + (t - ray.mid) * ray.per_second;
+    const std::uint32_t last = ray.first + ray.second;
+    const std::uint32_t low = std::min(static_cast<std::uint32_t>(place), last - 1);
+    const float* node = shadows.lost.data() + ray.at + low;
+    const double share = std::min(place - low, 1.0);
+    return static_cast<double>(node[0]) +
+           share * (static_cast<double>(node[1]) - static_cast<double>(node[0]));
+}
+
+template <typename Value>
+double bilinear(const AirShadows& shadows, double x, double y, const Value& value) {
+    const double u = std::clamp(x / shadows.spacing, 0.0, shadows.across - 1.0);
+    const double v = std::clamp(y / shadows.spacing, 0.0, shadows.down - 1.0);
+    const int i = std::min(static_cast<int>(u), shadows.across - 2);
+    const int j = std::min(static_cast<int>(v), shadows.down - 2);
+    const double fx = u - i, fy = v - j;
+    const AirShadows::Ray* const row =
+        shadows.rays.data() +
+        static_cast<std::size_t>(j) * static_cast<std::size_t>(shadows.across) + i;
+    const auto along = [&](const AirShadows::Ray* at) {
+        const double a = fx < 1 ? (1 - fx) * value(at[0]) : 0;
+        return fx > 0 ? a + fx * value(at[1]) : a;
+    };
+    const double near = fy < 1 ? (1 - fy) * along(row) : 0;
+    return fy > 0 ? near + fy * along(row + shadows.across) : near;
+}
+
+}  // namespace
+
+AirShadows air_shadows(const PictureRays& picture, const Haze& haze, double ground,
+                       const SunDepth& sun, int threads) {
+    AirShadows shadows;
+    if (sun.depth.empty() || !(sun.cell > 0) || !(haze.extinction > 0)) return shadows;
+    shadows.spacing = spacing_for(picture.width, picture.height);
+    // A block of pixels may look up to its corner beyond the picture's edge.
+    constexpr int kWhole = 16;
+    const int per_block = kWhole / shadows.spacing;
+    shadows.across = (picture.width + kWhole - 1) / kWhole * per_block + 1;
+    shadows.down = (picture.height + kWhole - 1) / kWhole * per_block + 1;
+    const auto across = static_cast<std::size_t>(shadows.across);
+    shadows.rays.resize(across * static_cast<std::size_t>(shadows.down));
+    const auto direction = [&](std::size_t i) {
+        const double x = static_cast<double>(i % across) * shadows.spacing;
+        const double y = static_cast<double>(i / across) * shadows.spacing;
+        return glm::normalize(picture.corner + x * picture.per_x + y * picture.per_y);
+    };
+    std::uint32_t nodes = 0;
+    for (std::size_t i = 0; i < shadows.rays.size(); ++i) {
+        const glm::dvec3 d = direction(i);
+        const double end =
+            d.y < 0 && picture.eye.y > ground ? (picture.eye.y - ground) / -d.y : kInfinity;
+        AirShadows::Ray& ray = shadows.rays[i];
+        ray = place(sun, picture.eye, d, end);
+        ray.at = nodes;
+        nodes += ray.first + ray.second + 1;
+    }
+    shadows.lost.resize(nodes);
+    parallel_for(threads, static_cast<std::size_t>(shadows.down), [&](std::size_t row) {
+        for (std::size_t i = row * across; i < (row + 1) * across; ++i) {
+            const glm::dvec3 d = direction(i);
+            AirShadows::Ray& ray = shadows.rays[i];
+            integrate(HazeRay(haze, picture.eye.y, d.y), sun, picture.eye, d, ray,
+                      shadows.lost.data() + ray.at);
+        }
+    });
+    return shadows;
+}
+
+double lost_at(const AirShadows& shadows, double x, double y, double t, double opacity) {
+    return bilinear(shadows, x, y,
+                    [&](const AirShadows::Ray& ray) { return lost_on(shadows, ray, t, opacity); });
+}
+
+double whole_lost(const AirShadows& shadows, double x, double y) {
+    return bilinear(shadows, x, y, [](const AirShadows::Ray& ray) { return ray.whole; });
+}
+
+}  // namespace awan

@@ -1,0 +1,52 @@
+#include "core/survey/haze_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace awan {
+namespace {
+
+constexpr double kLevel = 1e-200;  // slopes below it change no height within any finite picture
+
+}  // namespace
+
+HazeRay::HazeRay(const Haze& haze, double y, double slope)
+    : extinction_(haze.extinction),
+      start_((y - haze.height) / haze.scale_height),
+      slope_(std::abs(slope) < kLevel ? 0 : slope),
+      rate_(slope_ / haze.scale_height),
+      crossing_(std::numeric_limits<double>::infinity()) {
+    if ((start_ < 0 && slope_ > 0) || (start_ > 0 && slope_ < 0)) crossing_ = -start_ / rate_;
+}
+
+// Over extinction; `start` >= 0 in scale heights, `length` may be infinite where it leads upwards or is level.
+double HazeRay::above(double start, double length) const {
+    const double rise = rate_ == 0 ? 0 : rate_ * length;
+    const double density = std::exp(-std::max(std::min(start, start + rise), 0.0));
+    if (density == 0 || length <= 0) return 0;
+    const double x = std::abs(rise);
+    const double mean =
+        x < 1e-5 ? length * (1 - x * (0.5 - x / 6)) : -std::expm1(-x) / std::abs(rate_);
+    return density * mean;
+}
+
+double HazeRay::depth(double t) const {
+    if (extinction_ == 0 || t <= 0) return 0;
+    if (start_ > 0 || (start_ == 0 && slope_ >= 0)) {
+        if (t <= crossing_) return extinction_ * above(start_, t);
+        return extinction_ * (above(start_, crossing_) + (t - crossing_));
+    }
+    if (t <= crossing_) return extinction_ * t;
+    return extinction_ * (crossing_ + above(0, t - crossing_));
+}
+
+double HazeRay::opacity(double t) const {
+    return -std::expm1(-depth(t));
+}
+
+double vertical_haze_depth(const Haze& haze, double low, double high) {
+    return HazeRay(haze, low, 1).depth(high - low);
+}
+
+}  // namespace awan

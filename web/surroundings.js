@@ -1,0 +1,60 @@
+// The groups for what surrounds the clouds or is finer than they: ground, haze, detail. Each is "none" or an object.
+
+import { checkbox, slider } from "./controls.js";
+import { at, atOrDefault } from "./document.js";
+
+// `fresh`: what it is when it is first switched on. Its fields write whole objects, so that what is required is there.
+function optional(store, { title, pointer, label, fresh, sliders }) {
+  const now = () => {
+    const value = at(store.scene, pointer);
+    return value !== null && typeof value === "object" ? value : null;
+  };
+  let kept = fresh; // what it was before it was switched off
+  const fields = [
+    checkbox({
+      label, pointer, get: () => now() !== null,
+      set: (on) => {
+        if (!on) kept = now() ?? kept;
+        store.set(pointer, on ? kept : undefined);
+      },
+    }),
+    ...sliders.map(({ member, ...spec }) => slider(store, {
+      ...spec, pointer: `${pointer}/${member}`,
+      get: () => {
+        const value = now()?.[member] ?? kept[member] ?? atOrDefault(store.scene, `${pointer}/${member}`);
+        // A colour is shown by its mean, and becomes grey when it is moved.
+        return Array.isArray(value) ? Number(((value[0] + value[1] + value[2]) / 3).toFixed(4)) : value;
+      },
+      set: (value, options) => store.update(
+        (scene) => ({ ...scene, [pointer.slice(1)]: { ...(now() ?? kept), [member]: value } }),
+        { key: `${pointer}/${member}`, ...options }),
+    })),
+  ];
+  return { title, pointer, fields };
+}
+
+const albedo = { label: "Albedo", member: "albedo", min: 0, max: 1, step: 0.01 };
+
+export const groundPanel = (store) => optional(store, {
+  title: "Ground", pointer: "/ground", label: "A level ground", fresh: { height: -6, albedo: 0.2 },
+  sliders: [{ label: "Level", member: "height", min: -50, max: 10, step: 0.1 }, albedo],
+});
+
+export const hazePanel = (store) => optional(store, {
+  title: "Haze", pointer: "/haze", label: "Hazy air", fresh: { extinction: 0.01, height: -6, scale_height: 10 },
+  sliders: [
+    { label: "Extinction", member: "extinction", min: 0.0001, max: 1, log: true },
+    { label: "Scale height", member: "scale_height", min: 0.1, max: 1000, log: true },
+    { label: "Base", member: "height", min: -50, max: 10, step: 0.1 },
+    albedo,
+    { label: "Forward g", member: "g", min: -0.9, max: 0.98, step: 0.01 },
+  ],
+});
+
+export const detailPanel = (store) => optional(store, {
+  title: "Detail", pointer: "/detail", label: "Finer structure", fresh: { amount: 0.5, size: 0.5 },
+  sliders: [
+    { label: "Amount", member: "amount", min: 0, max: 1, step: 0.01 },
+    { label: "Bump size", member: "size", min: 0.05, max: 4, log: true },
+  ],
+});
