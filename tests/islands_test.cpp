@@ -239,7 +239,7 @@ TEST(Islands, AreCloserToTheTruthThanOneGrid) {
 }
 
 // The preset of a hundred clouds: memory within what the plan says, cells and nodes as the forecast counts them to a factor
-// of 2 (boxes are rounded up to cells, and turned for the sun). Times are for the reader.
+// of 2 (boxes are rounded up to cells), nodes to 4 (the box of a flat field is thicker where it is turned to the sun). Times are for the reader.
 TEST(Islands, SkyOfAHundredCostsWhatIsPredicted) {
     std::ifstream file(AWAN_SOURCE_DIR "/web/presets/sky-of-100.json");
     std::ostringstream text;
@@ -272,7 +272,7 @@ TEST(Islands, SkyOfAHundredCostsWhatIsPredicted) {
         1e-6 * plan.plan.predicted.bytes, ms);
     EXPECT_LT(static_cast<double>(light.bytes()), plan.plan.predicted.bytes);
     EXPECT_LT(std::abs(std::log2(cells / work.cells)), 1);
-    EXPECT_LT(std::abs(std::log2(nodes / work.nodes)), 1);
+    EXPECT_LT(std::abs(std::log2(nodes / work.nodes)), 2);
 }
 
 }  // namespace

@@ -11,12 +11,12 @@
 namespace awan {
 namespace {
 
-constexpr double kReach = 2.5;      // of a particle's box, in s
-constexpr double kIslandReach = 4;  // of what an island holds, in s
-constexpr double kEmpty = 1e-3;     // optical depth of a cell that counts as empty
-constexpr double kMostDepth = 1e3;  // of one particle in a cell: keeps the sums' digits
-constexpr int kQuickCells = 40;     // that find whether there is any use
-constexpr int kFineCells = 200;     // along the longest side
+constexpr double kReach = 2.5;        // of a particle's box, in s
+constexpr double kIslandReach = 4;    // of what an island holds, in s
+constexpr double kEmpty = 1e-3;       // optical depth of a cell that counts as empty
+constexpr double kMostDepth = 1e3;    // of one particle in a cell: keeps the sums' digits
+constexpr double kQuickCells = 64e3;  // that find whether there is any use
+constexpr int kFineCells = 200;       // along the longest side
 constexpr double kMostCells = 1e6;
 constexpr int kLeastSide = 4;  // cells; a smaller part is not cut again
 
@@ -40,7 +40,7 @@ struct Volume {
 };
 
 // Each particle is a box: eight additions to the volume's differences, however large it is.
-Volume volume_of(const ParticleSet& particles, int most_cells) {
+Volume volume_of(const ParticleSet& particles, double most_cells) {
     Volume volume;
     glm::dvec3 low(INFINITY), high(-INFINITY);
     for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -51,12 +51,12 @@ Volume volume_of(const ParticleSet& particles, int most_cells) {
     const glm::dvec3 size = high - low;
     const double longest = std::max({size.x, size.y, size.z, 1e-9});
     volume.origin = low;
-    int count = most_cells;
+    int count = kFineCells;
     for (;; count = count * 9 / 10) {
         volume.cell = longest / count;
         const glm::dvec3 n = glm::ceil(size / volume.cell);
         volume.n = glm::clamp(glm::ivec3(n), glm::ivec3(1), glm::ivec3(count));
-        if (n.x * n.y * n.z <= kMostCells || count <= 16) break;
+        if (n.x * n.y * n.z <= most_cells || count <= 16) break;
     }
     // Differences need one more on each side.
     Volume edges = volume;
@@ -248,7 +248,7 @@ std::vector<Part> parts_of(const Volume& volume) {
     return parts;
 }
 
-bool pays(const ParticleSet& particles, int cells, Volume& volume, std::vector<Part>& parts) {
+bool pays(const ParticleSet& particles, double cells, Volume& volume, std::vector<Part>& parts) {
     volume = volume_of(particles, cells);
     parts = parts_of(volume);
     return parts[0].cut.axis >= 0;
@@ -270,7 +270,7 @@ Islands find_islands(const ParticleSet& particles) {
     if (particles.size() < 2 || hopeless(particles)) return islands;
     Volume volume;
     std::vector<Part> parts;
-    if (!pays(particles, kFineCells, volume, parts)) return islands;
+    if (!pays(particles, kMostCells, volume, parts)) return islands;
 
     std::vector<std::size_t> open{0};  // parts, node by node
     islands.nodes.resize(1);

@@ -73,9 +73,9 @@ def main():
         # Half the width of the cloud in the scene.
         radius = (1.7 if tower else 1.3) * min(size, 4.5) ** 0.7
         for _ in range(10_000):
-            z = dice.uniform(-92, 6)
-            x = dice.uniform(-1, 1) * (12 + 0.6 * (14 - z))
-            if all(math.hypot(x - u, z - v) > 0.95 * (radius + r) for u, v, r in places):
+            z = dice.uniform(-110, 6)
+            x = dice.uniform(-1, 1) * (16 + 0.8 * (14 - z))
+            if all(math.hypot(x - u, z - v) > 1.2 * (radius + r) for u, v, r in places):
                 break
         places.append((x, z, radius))
         clouds.append((cubes, radius / wide(cubes), x, z, radius))
