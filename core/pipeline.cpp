@@ -7,6 +7,7 @@
 #include "core/generate/generate.h"
 #include "core/light/light.h"
 #include "core/light/transport.h"
+#include "core/plan/island_settings.h"
 #include "core/survey/detail_of.h"
 #include "core/truth/path_tracer.h"
 
@@ -110,6 +111,8 @@ Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& dead
     if (!surveyed.ok()) return surveyed.error();
     planned.survey = *std::move(surveyed);
     planned.plan = plan(scene, planned.survey, threads, speed);
+    if (planned.plan.predicted.rung->method == Method::kMarch)
+        planned.plan.transport.islands = island_cells(planned.plan.transport, planned.survey);
     if (planned.plan.on(Effect::kDetail))
         planned.particles.detail = detail_of(scene, planned.survey, threads);
     return planned;

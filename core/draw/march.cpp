@@ -38,24 +38,40 @@ class Rooms {
     std::vector<BlockRoomPtr> free_;
 };
 
-// Least of the longest steps, in cells of the light. Matter that is smaller than a step is uneven within it: whole cells
-// took three times the error and were seen as edges between blocks that step differently, at no gain in time.
-constexpr double kLeastStepCells = 0.7;
-
-// Longest step where nothing is deep: about a cell of the light, or a few to the smallest lattice of the sun's depth.
-double longest_step(const TransportLight& light, const std::vector<SeenParticle>& seen) {
-    if (light.cell > 0) {
-        double sum = 0;
-        for (const SeenParticle& one : seen) sum += static_cast<double>(one.s);
-        const double mean = sum / static_cast<double>(seen.size());
-        return std::clamp(mean, kLeastStepCells * light.cell, light.cell);
-    }
-    const glm::ivec3 n = light.sun.nodes;
-    if (light.sun.cell > 0 && !light.sun.depth.empty())
-        return light.sun.cell * std::max({n.x, n.y, n.z, 1}) / 32;
+// Lengths of steps and distances of looked up rays; `longer`: of what is usual.
+void set_fineness(const TransportLight& light, const std::vector<SeenParticle>& seen, double longer,
+                  MarchScene& march) {
+    double sum = 0;
     float least = seen.front().s;
-    for (const SeenParticle& one : seen) least = std::min(least, one.s);
-    return static_cast<double>(least);
+    for (const SeenParticle& one : seen) {
+        sum += static_cast<double>(one.s);
+        least = std::min(least, one.s);
+    }
+    const double mean = sum / static_cast<double>(seen.size());
+    // Samples that see the smaller bumps.
+    const double most = march.detail != nullptr ? kDetailStep * march.detail->bump : INFINITY;
+    const auto step_in = [&](const TransportLight& own, double mean_s, double least_s) {
+        return std::min(longest_step(own, mean_s, least_s), most) * longer;
+    };
+    march.apart = most_apart(light);
+    march.step = step_in(light, mean, static_cast<double>(least));
+    // Steps are halves of each other, so that blocks sample at the same distances.
+    for (const LightIsland& island : light.islands)
+        if (island.lit)
+            march.step = std::max(march.step, step_in(island.light, island.mean_s, island.mean_s));
+    for (const LightIsland& island : light.islands) {
+        if (!island.lit) continue;
+        const double own = step_in(island.light, island.mean_s, island.mean_s);
+        double step = march.step;
+        while (step > own * 1.0001) step /= 2;
+        const glm::dvec3 middle = 0.5 * (island.low + island.high);
+        const glm::dvec3 apart = middle - march.view.eye;
+        march.islands.push_back({{glm::dot(apart, march.view.right), glm::dot(apart, march.view.up),
+                                  glm::dot(apart, march.view.forward)},
+                                 glm::length(island.high - middle),
+                                 most_apart(island.light),
+                                 step});
+    }
 }
 
 // Chords between the sun's direction and those of the picture: least and most, over its blocks' corners, less what lies between.
@@ -109,11 +125,8 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     march.rest = rest_of(march.medium, march.peak);
     // Steps cost about the square of their length.
     const double finer = std::sqrt(std::clamp(settings.step_error, 1e-5, 0.1) / 0.01);
-    march.step = seen.empty() ? 1 : longest_step(light, seen) * std::min(finer, 1.5);
-    // Samples that see the smaller bumps.
     march.detail = particles.detail.get();
-    if (march.detail != nullptr)
-        march.step = std::min(march.step, kDetailStep * march.detail->bump * std::min(finer, 1.5));
+    if (!seen.empty()) set_fineness(light, seen, std::min(finer, 1.5), march);
     march.step_depth = static_cast<float>(kStepDepth * finer);
     double least = 0, most = 2;
     chords_of(march, least, most);

@@ -17,9 +17,6 @@ namespace {
 
 constexpr int kSpacings[] = {16, 8, 4, 2};  // pixels between rays along which light is looked up
 constexpr int kMostCorners = 81;
-// Their most distance, in cells of the light and of the sun's depth: linear interpolation between them. 1.5 of the sun's
-// made 4 times the error, .5% of a backlit picture, and edges where the spacing changes.
-constexpr double kLightApart = 0.75, kSunApart = 0.75;
 constexpr double kMostSamples = 2048;  // about, of a ray
 constexpr double kFinest = 4096;  // the longest step over the shortest: these end soon, in opacity
 
@@ -199,6 +196,7 @@ struct BlockRoom {
     Floats middle[3], spread;  // of the tiles' rays, a tile a lane
     BlockParticles particles;
     std::vector<ActiveParticle> active;
+    std::vector<FineInterval> fineness;
     struct alignas(64) Column {
         Floats value;
     };
@@ -389,10 +387,15 @@ class BlockMarch {
             length += std::max(0.0, last - std::max(end, one.nearest));
             end = std::max(end, last);
         }
+        const double slope = frame_.du * kBlockSide * 0.75;  // of the block's corners to its middle
+        fineness_in_cone(scene_.islands, frame_.forward, slope, {scene_.apart, scene_.step},
+                         room_.fineness);
         if (scene_.detail != nullptr) place_detail();
         longest_ = scene_.step;
-        while (longest_ * kMostSamples < length) longest_ *= 2;
-        shortest_ = scene_.step / kFinest;
+        const double finest = finest_step(room_.fineness);
+        for (double samples = finest; samples * kMostSamples < length; samples *= 2) stretch_ *= 2;
+        longest_ *= stretch_;
+        shortest_ = finest / kFinest;
     }
 
     void place_detail() {
@@ -431,6 +434,12 @@ class BlockMarch {
                 at = std::max(at, std::floor(static_cast<double>(p.near[next]) / step));
                 from = at * step;
             }
+            Fineness fineness = fineness_at(room_.fineness, reference_ + from + 0.5 * step);
+            for (; step > fineness.step * stretch_; at *= 2) {
+                step /= 2;
+                fineness = fineness_at(room_.fineness, reference_ + from + 0.5 * step);
+            }
+            const double longest = fineness.step * stretch_;
             for (; next < p.s.size() && static_cast<double>(p.near[next]) < from + kChunk * step;
                  ++next) {
                 ActiveParticle a;
@@ -441,10 +450,10 @@ class BlockMarch {
             kernels_.ratio(p, static_cast<float>(step), active);
             // All blocks change the spacing at one distance, or the change would be seen between them.
             const double near = reference_ + from;
-            const int spacing = choose_spacing(near + 0.5 * step);
-            const int ahead =
-                static_cast<int>(std::clamp(std::ceil((farthest(spacing) - near) / step - 0.5), 1.0,
-                                            static_cast<double>(kChunk)));
+            const int spacing = choose_spacing(near + 0.5 * step, fineness.apart);
+            const double until = std::min(farthest(spacing, fineness.apart), fineness.until);
+            const int ahead = static_cast<int>(std::clamp(std::ceil((until - near) / step - 0.5),
+                                                          1.0, static_cast<double>(kChunk)));
             const Chunk chunk{static_cast<float>(from), static_cast<float>(step),
                               static_cast<float>(marched), ahead, step != marched};
             int count = ahead;
@@ -457,7 +466,7 @@ class BlockMarch {
                 if (!tile.alive) continue;
                 if (step > shortest_)
                     count = std::min(count, kernels_.too_deep(tile, scene_.scaled, allowed));
-                if (step < longest_ && fine)
+                if (step < longest && fine)
                     fine = kernels_.too_deep(tile, scene_.scaled, allowed * 0.3f) == kChunk;
             }
             if (step > shortest_) count = std::min(count, first_too_shaded(from, step, count));
@@ -470,7 +479,7 @@ class BlockMarch {
             if (count < ahead) {
                 step /= 2;
                 at *= 2;
-            } else if (step < longest_ && fine && std::fmod(at, 2) == 0) {
+            } else if (step < longest && fine && std::fmod(at, 2) == 0) {
                 step *= 2;
                 at /= 2;
             }
@@ -534,20 +543,17 @@ class BlockMarch {
         return tile.alive && tile.first <= std::min(tile.last, count - 1);
     }
 
-    // Widest spacing of looked up rays that takes a sample in each cell at this distance; -1: every pixel.
-    int choose_spacing(double distance) const {
+    // Widest spacing of looked up rays that are at most `apart` from each other at this distance; -1: every pixel.
+    int choose_spacing(double distance, double apart) const {
         for (int s = 0; s < static_cast<int>(std::size(kSpacings)); ++s)
-            if (distance <= farthest(s)) return s;
+            if (distance <= farthest(s, apart)) return s;
         return -1;
     }
     // Up to where a spacing will do.
-    double farthest(int spacing) const {
+    double farthest(int spacing, double most) const {
         if (spacing < 0) return 1e300;
         // At the middle of the picture: the widest.
         const double apart = kSpacings[spacing] * 2 * scene_.view.tan_half_fov / scene_.height;
-        const TransportLight& light = *scene_.light.light;
-        double most = light.cell > 0 ? kLightApart * light.cell : 1e300;
-        if (light.sun.cell > 0) most = std::min(most, kSunApart * light.sun.cell);
         if (!(apart <= 0.2)) return 0;
         if (scene_.air != nullptr)
             return std::min(most / apart, farthest_for_air(*scene_.air, apart));
@@ -639,6 +645,7 @@ class BlockMarch {
     SunInBlock sun_{};
     DetailRays detail_;
     double reference_ = 0, longest_ = 1, shortest_ = 1;
+    double stretch_ = 1;  // of all steps, where a ray is long
 };
 
 }  // namespace

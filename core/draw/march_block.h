@@ -9,6 +9,7 @@
 #include "core/draw/backdrop.h"
 #include "core/draw/image.h"
 #include "core/draw/march_bins.h"
+#include "core/draw/march_fineness.h"
 #include "core/draw/march_light.h"
 #include "core/draw/march_phase.h"
 #include "core/draw/march_simd.h"
@@ -39,7 +40,9 @@ struct MarchScene {
     glm::vec3 sun{0};      // irradiance
     float scaled = 1;      // share of extinction that is not the peak's: 1 - albedo * f
     double step = 1;       // longest step, scene units
-    float step_depth = 1;  // longest step in scaled optical depth, where it is seen
+    double apart = 1e300;  // most distance between rays along which light is looked up, scene units
+    std::vector<SeenIsland> islands;  // where both are less
+    float step_depth = 1;             // longest step in scaled optical depth, where it is seen
     SkyBehind sky;
     const DetailField* detail = nullptr;  // null: none
     const Air* air = nullptr;             // null: there is no haze

@@ -95,7 +95,12 @@ Rgb4 along_ray(const TransportLight& light, const Corners& c, const LightRay& ra
 }  // namespace
 
 EyeLight source_towards(const TransportLight& light, const glm::dvec3& eye, int threads) {
-    EyeLight result{&light, {}, false};
+    EyeLight result{&light, {}, false, {}};
+    result.islands.resize(light.islands.size());
+    parallel_for(threads, light.islands.size(), [&](std::size_t i) {
+        if (light.islands[i].lit)
+            result.islands[i] = source_towards(light.islands[i].light, eye, 1);
+    });
     if (!(light.cell > 0) || light.bands.empty()) return result;
     const glm::dvec3 place = (eye - light.origin) / light.cell;
     const glm::dvec3 beyond =
@@ -125,6 +130,8 @@ LightRay light_ray(const EyeLight& eye_light, const glm::dvec3& start,
                    const glm::dvec3& direction) {
     const TransportLight& light = *eye_light.light;
     LightRay ray;
+    ray.start = start;
+    ray.direction = direction;
     if (light.cell > 0) {
         ray.grid = glm::vec3((start - light.origin) / light.cell - 0.5);
         ray.grid_step = glm::vec3(direction / light.cell);
@@ -142,8 +149,10 @@ LightRay light_ray(const EyeLight& eye_light, const glm::dvec3& start,
     return ray;
 }
 
-void light_along(const EyeLight& eye_light, const LightRay& ray, float first, float step, int count,
-                 LightAt* out) {
+namespace {
+
+void along_one(const EyeLight& eye_light, const LightRay& ray, float first, float step, int count,
+               LightAt* out) {
     const TransportLight& light = *eye_light.light;
     const bool grid = light.cell > 0;
     const bool sun = light.sun.cell > 0 && !light.sun.depth.empty();
@@ -168,6 +177,32 @@ void light_along(const EyeLight& eye_light, const LightRay& ray, float first, fl
                 std::max(0.0f, between(c, [&](std::size_t i) { return light.sun.depth[i]; }));
         }
         out[k] = at;
+    }
+}
+
+}  // namespace
+
+void light_along(const EyeLight& eye_light, const LightRay& ray, float first, float step, int count,
+                 LightAt* out) {
+    if (eye_light.islands.empty()) {
+        along_one(eye_light, ray, first, step, count, out);
+        return;
+    }
+    const Islands& regions = eye_light.light->regions;
+    const auto at = [&](int k) {
+        return static_cast<double>(first + static_cast<float>(k) * step);
+    };
+    for (int k = 0; k < count;) {
+        const IslandOnRay here = island_on_ray(regions, ray.start, ray.direction, at(k));
+        int end = k + 1;
+        while (end < count && at(end) < here.until) ++end;
+        const EyeLight& island = eye_light.islands[static_cast<std::size_t>(here.island)];
+        if (island.light == nullptr)
+            along_one(eye_light, ray, static_cast<float>(at(k)), step, end - k, out + k);
+        else
+            along_one(island, light_ray(island, ray.start, ray.direction),
+                      static_cast<float>(at(k)), step, end - k, out + k);
+        k = end;
     }
 }
 

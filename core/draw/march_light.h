@@ -18,6 +18,7 @@ struct EyeLight {
         source;  // of each cell, towards the eye, radiance per optical depth; empty: see `close`
     // The eye is in the grid or near it: a cell has no one direction to it, and the moments are evaluated along each ray.
     bool close = false;
+    std::vector<EyeLight> islands;  // one for each of light->islands; `light` null: not lit
 };
 EyeLight source_towards(const TransportLight& light, const glm::dvec3& eye, int threads);
 
@@ -26,6 +27,7 @@ struct LightRay {
     glm::vec3 grid{0}, grid_step{0};            // cells, 0 = centre of the first
     glm::vec3 sun{0}, sun_step{0};              // nodes of SunDepth
     std::array<float, kHarmonics> harmonics{};  // of the way from matter to the eye; for `close`
+    glm::dvec3 start{0}, direction{0};          // scene units; for islands
 };
 LightRay light_ray(const EyeLight& light, const glm::dvec3& start, const glm::dvec3& direction);
 
@@ -37,7 +39,7 @@ struct LightAt {
     float air, lost;  // of the haze before it (march_air.h); only in haze
 };
 
-// At distances first, first + step, ... from the ray's start.
+// Each point has the light of the island in whose region it is. At distances first, first + step, ... from the ray's start.
 void light_along(const EyeLight& light, const LightRay& ray, float first, float step, int count,
                  LightAt* out);
 

@@ -44,7 +44,12 @@ std::string light_key(const Scene& scene, const TransportSettings& settings) {
     std::snprintf(text, sizeof text, ":%d:%d:%a:%d:%d:%d:%d", settings.cells, settings.sun_cells,
                   settings.tolerance, settings.max_sweeps, settings.sky ? 1 : 0,
                   settings.ground ? 1 : 0, settings.ground_shadow ? 1 : 0);
-    return light_fingerprint(scene) + text;
+    std::string key = light_fingerprint(scene) + text;
+    for (const IslandCells& island : settings.islands) {
+        std::snprintf(text, sizeof text, ":%d.%d", island.cells, island.sun_cells);
+        key += text;
+    }
+    return key;
 }
 
 }  // namespace awan

@@ -9,10 +9,12 @@
 #include "core/light/diffusion.h"
 #include "core/light/gmres.h"
 #include "core/light/ground_band.h"
+#include "core/light/islands.h"
 #include "core/light/legendre.h"
 #include "core/light/sky_inflow.h"
 #include "core/light/sun_depth.h"
 #include "core/light/sweep.h"
+#include "core/light/transport_part.h"
 #include "core/parallel.h"
 #include "core/scene/outside.h"
 #include "core/shaders/shared.h"
@@ -54,7 +56,8 @@ struct Shine {
     int channel = 0;
     double share = 0;
 
-    InflowFromBelow from_below{};  // the ground's light
+    InflowFromBelow from_below{};            // the ground's light
+    const LightBand* from_ground = nullptr;  // it, for a part of a scene: the whole's band
 
     bool has_sky() const { return physical != nullptr || zenith > 0 || horizon > 0; }
 };
@@ -127,7 +130,7 @@ std::vector<float> beam_source(const Lattice& coarse, const Lattice& fine_lattic
 // The moments of the light in each cell, harmonics floats each.
 Result<std::vector<float>> solve(const Matter& matter, const Ordinates& ordinates,
                                  const std::vector<float>& beam, const glm::dvec3& beam_direction,
-                                 const Shine& shine, double peak_kept,
+                                 const Shine& shine, double peak_kept, const Inflow& outside,
                                  const TransportSettings& settings, int threads,
                                  const Deadline& deadline, TransportLight& light) {
     const auto harmonics_count = static_cast<std::size_t>(matter.grid.harmonics);
@@ -147,8 +150,11 @@ Result<std::vector<float>> solve(const Matter& matter, const Ordinates& ordinate
                     static_cast<float>(peak_kept * matter.moment[order[m]] * y[m]);
     }
     Inflow inflow;
-    if (shine.has_sky()) inflow = [&](const glm::dvec3& d) { return sky_from(shine, -d); };
-    if (inflow && matter.over_ground)
+    if (outside)
+        inflow = outside;
+    else if (shine.has_sky())
+        inflow = [&](const glm::dvec3& d) { return sky_from(shine, -d); };
+    if (inflow && matter.over_ground && !outside)
         inflow = [open = std::move(inflow)](const glm::dvec3& direction) {
             return direction.y > 0 ? 0.0 : open(direction);
         };
@@ -258,6 +264,16 @@ int channel_of(const Shine& shine) {
     return shine.color.x > 0 ? 0 : shine.color.y > 0 ? 1 : 2;
 }
 
+// Radiance of the ground where the light that comes along `direction` to `from` left it, in units of a band's colour.
+double ground_from(const GroundLight& ground, const LightBand& band, bool colored,
+                   const glm::dvec3& from, const glm::dvec3& direction) {
+    if (!(direction.y > 0)) return 0;
+    const glm::dvec3 place =
+        from - direction * (std::max(from.y - ground.height, 0.0) / direction.y);
+    const glm::dvec3 radiance = radiance_at(ground, place.x, place.z), color(band.color);
+    return colored ? glm::dot(radiance, color) : luminance(radiance) / luminance(color);
+}
+
 // Albedo of each cell: of the particles in it, each by its share of the extinction.
 std::vector<glm::vec3> colored_albedo(const Scene& scene, const ParticleSet& particles,
                                       const Lattice& lattice, const std::vector<float>& mean,
@@ -282,9 +298,9 @@ Lattice above_ground(double height, Lattice lattice) {
 }
 
 // Without a grid of light the eye pass still needs the particles' colours, and has them from a grid.
-void color_only(const Scene& scene, const ParticleSet& particles, int threads,
-                TransportLight& light) {
-    const Lattice lattice = lattice_around_matter(particles, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0,
+void color_only(const Scene& scene, const LightPart& part, int threads, TransportLight& light) {
+    const ParticleSet& particles = part.all;
+    const Lattice lattice = lattice_around_matter(part.own, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0,
                                                   kColorCells, threads, kMaxFineWork);
     light.origin = lattice.origin;
     light.cell = lattice.cell;
@@ -299,26 +315,56 @@ std::size_t TransportLight::bytes() const {
     std::size_t bytes = sizeof *this + sun.depth.capacity() * sizeof(float) +
                         albedo.capacity() * sizeof(glm::vec3) + ground.bytes();
     for (const LightBand& band : bands) bytes += band.moments.capacity() * sizeof(band.moments[0]);
+    bytes +=
+        regions.nodes.capacity() * sizeof(IslandNode) + regions.list.capacity() * sizeof(Island);
+    for (const LightIsland& island : islands)
+        bytes += sizeof island - sizeof island.light + island.light.bytes();
     return bytes;
 }
 
 Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& particles,
                                        const Survey& survey, const TransportSettings& settings,
                                        int threads, const Deadline& deadline) {
+    if (auto error = deadline.over()) return *error;
+    if (particles.size() == 0 || !(survey.total_mass > 0)) {
+        TransportLight light;
+        light.sky = settings.sky;
+        light.ground = bare_ground(*scene);
+        return light;
+    }
+    if (!settings.islands.empty() && settings.islands.size() == survey.islands.list.size())
+        return light_in_islands(scene, particles, survey, settings, threads, deadline);
+    // Of the lights' lines only: the eye's would tie the light to a camera.
+    const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
+    return light_of_part(
+        scene,
+        {particles,
+         particles,
+         sun_depth(particles, sun_direction(scene->sun), settings.sun_cells, threads),
+         deepest,
+         {},
+         nullptr},
+        settings, threads, deadline);
+}
+
+Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
+                                     const TransportSettings& settings, int threads,
+                                     const Deadline& deadline) {
     TransportLight light;
     light.sky = settings.sky;
-    light.ground = bare_ground(*scene);
-    if (auto error = deadline.over()) return *error;
-    if (particles.size() == 0 || !(survey.total_mass > 0)) return light;
+    const ParticleSet& particles = part.all;
     const glm::dvec3 towards_sun = sun_direction(scene->sun);
-    light.sun = sun_depth(particles, towards_sun, settings.sun_cells, threads);
-    const bool over_ground = has_ground(*scene, survey.bounds);
-    light.ground.into_cloud = over_ground && settings.ground;
-    const bool shade_ground = over_ground && settings.ground_shadow;
+    light.sun = std::move(part.sun);
+    // A part of a scene has the ground's light from the solve of the whole.
+    const bool over_ground = has_ground(*scene, bounds_of(part.own));
+    const bool own_ground = over_ground && part.whole == nullptr;
+    if (part.whole == nullptr) light.ground = bare_ground(*scene);
+    light.ground.into_cloud = own_ground && settings.ground;
+    const bool shade_ground = own_ground && settings.ground_shadow;
     if (settings.cells == 0) {
         if (shade_ground)
             cast_shadow(light.sun, scene->medium.albedo, 0, scene->medium.g, threads, light.ground);
-        if (!particles.color.empty()) color_only(scene, particles, threads, light);
+        if (!particles.color.empty()) color_only(scene, part, threads, light);
         return light;
     }
 
@@ -329,11 +375,9 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
     light.peak_from = kOrders;
     const double kept = 1 - albedo * f;
 
-    // Of the lights' lines only: the eye's would tie the light to a camera.
-    const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
-    const double rest = std::min(kLeftOut, kLeftOutShare * deepest);
+    const double rest = std::min(kLeftOut, kLeftOutShare * part.deepest);
     // Of a great many particles that are large beside a cell there is a bound: what they add up to is smooth.
-    Lattice coarse = lattice_around_matter(particles, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, rest,
+    Lattice coarse = lattice_around_matter(part.own, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, rest,
                                            settings.cells, threads, kMaxCoarseWork);
     if (over_ground) coarse = above_ground(scene->ground->height, coarse);
     int sub = settings.cells <= 32 ? 3 : 2;
@@ -371,6 +415,7 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
     if (colored) light.albedo = colored_albedo(scene, particles, coarse, mean, threads);
     matter.over_ground = over_ground;
     const Ordinates ordinates = make_ordinates();
+    const glm::dvec3 middle = coarse.origin + 0.5 * coarse.cell * glm::dvec3(coarse.cells);
     const auto solved = [&](const Shine& shine) -> Result<LightBand> {
         for (std::size_t i = 0; i < mean.size(); ++i) {
             const double a =
@@ -381,12 +426,24 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
             matter.albedo[i] = static_cast<float>(a);
             matter.scattered[i] = static_cast<float>(depth * a * (1 - f) / (1 - a * f));
         }
-        auto moments = solve(matter, ordinates, beam, -towards_sun, shine, 1 - f, settings, threads,
-                             deadline, light);
+        Inflow inflow;
+        if (part.surroundings)
+            inflow = [&, band = light.bands.size()](const glm::dvec3& direction) {
+                const bool hidden = over_ground && direction.y > 0;
+                const double sky = shine.from_ground != nullptr
+                                       ? ground_from(part.whole->ground, *shine.from_ground,
+                                                     colored, middle, direction)
+                                   : shine.has_sky() && !hidden ? sky_from(shine, -direction)
+                                                                : 0;
+                return part.surroundings(band, direction, sky);
+            };
+        auto moments = solve(matter, ordinates, beam, -towards_sun, shine, 1 - f, inflow, settings,
+                             threads, deadline, light);
         if (!moments.ok()) return moments.error();
         LightBand band;
         band.color = shine.color;
-        if (!shine.beam) band.most = static_cast<float>(albedo * (1 - f) * brightest_sky(shine));
+        if (!shine.beam && !part.surroundings)
+            band.most = static_cast<float>(albedo * (1 - f) * brightest_sky(shine));
         band.moments.resize(mean.size());
         const auto count = static_cast<std::size_t>(matter.grid.harmonics);
         for (std::size_t i = 0; i < mean.size(); ++i) {
@@ -404,7 +461,16 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
         if (!band.ok()) return band.error();
         light.bands.push_back(*std::move(band));
     }
-    if (!over_ground || !(settings.ground || settings.ground_shadow)) return light;
+    if (part.whole != nullptr)
+        for (std::size_t b = parts.size(); b < part.whole->bands.size(); ++b) {
+            Shine shine;
+            shine.from_ground = &part.whole->bands[b];
+            shine.color = shine.from_ground->color;
+            auto band = solved(shine);
+            if (!band.ok()) return band.error();
+            light.bands.push_back(*std::move(band));
+        }
+    if (!own_ground || !(settings.ground || settings.ground_shadow)) return light;
 
     if (shade_ground) cast_shadow(light.sun, albedo, f, g, threads, light.ground);
     std::vector<float> depth(mean.size());

@@ -47,6 +47,8 @@ struct LightBand {
     float most = std::numeric_limits<float>::infinity();
 };
 
+struct LightIsland;
+
 // View-independent: kept while the camera moves.
 struct TransportLight {
     glm::dvec3 origin{
@@ -67,7 +69,20 @@ struct TransportLight {
     int sweeps = 0;       // transport sweeps it took, all bands
     double residual = 0;  // of the solve, relative; largest of the bands
 
+    // Of a scene that falls apart, the parts that are seen, more finely; all above is then of the whole, coarsely, and good
+    // where no finer light is (core/light/islands.h).
+    Islands regions;
+    std::vector<LightIsland> islands;  // one for each of regions.list, or EMPTY
+
     std::size_t bytes() const;  // memory it holds
+};
+
+// The light of one region. Its SunDepth counts all matter before it, whose ever it is.
+struct LightIsland {
+    bool lit = false;  // false: it is not seen, and `light` is empty
+    TransportLight light;
+    glm::dvec3 low{0}, high{0};  // holds its matter, scene units
+    double mean_s = 0;           // of its particles
 };
 
 // Errors: kOverDeadline, kCancelled. The same bytes for every number of threads. Time: cells^3 and particles; memory: see

@@ -22,8 +22,17 @@ double predicted_ms(const TimeModel& model, const TimeFigures& figures) {
     return std::inner_product(figures.begin(), figures.end(), model.coefficient.begin(), 0.0);
 }
 
+// Of a scene in islands: the solves that run at a time, the lights, the particles sorted into islands and those that the
+// islands at work have of each other.
+double island_bytes(const IslandWork& work, double bands, double particles, double vectors,
+                    int threads) {
+    return 64 * vectors * work.largest * std::max(threads, 1) + 64 * bands * work.cells +
+           6 * work.nodes + 8e6 + 64 * particles * (2 + std::max(threads, 1));
+}
+
 // At its peak, beside particles and picture: the transport solve's vectors, or the light grid and lists of the splats.
-double predicted_bytes(const Rung& rung, const TimeFigures& figures) {
+double predicted_bytes(const Rung& rung, const Scene& scene, const Survey& survey,
+                       const TimeFigures& figures, int threads) {
     constexpr double kVectors =
         2 * 12 + 8;  // of GMRES (core/light/transport.cpp) and the sweeps, 16 floats a cell
     const double pairs = figures[3], particles = figures[2];
@@ -31,6 +40,9 @@ double predicted_bytes(const Rung& rung, const TimeFigures& figures) {
         case Method::kSplats:
             return 1e6 + 160 * particles + 8 * pairs / 128;
         case Method::kMarch:
+            if (!survey.islands.list.empty())
+                return island_bytes(island_work(transport_settings(rung), survey),
+                                    scene->sky.none ? 1 : 4, particles, kVectors, threads);
             return std::pow(rung.cells, 3) * 64 * kVectors *
                        std::min(1.0, figures[5] / std::max(std::pow(rung.cells, 3), 1.0)) +
                    8e6 + 64 * particles;
@@ -87,7 +99,7 @@ RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey
             break;
     }
     forecast.time_ms = ms * speed.slowness;
-    forecast.bytes = predicted_bytes(rung, times);
+    forecast.bytes = predicted_bytes(rung, scene, survey, times, threads);
     return forecast;
 }
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/plan/island_settings.h"
 #include "core/plan/transport_settings.h"
 #include "core/scene/outside.h"
 
@@ -35,27 +36,79 @@ double sun_share(const Scene& scene) {
     return sun + sky > 0 ? sun / (sun + sky) : 0;
 }
 
-// Cell updates of a lattice with `cells` along its longest side (survey/lattice.h), by the sums over all particles.
-double updates(const Survey& survey, int cells) {
+// Cell updates of a lattice with `cells` along its longest side (survey/lattice.h), by the sums over its particles.
+double updates(double longest, const std::array<double, 4>& sum, int cells) {
     if (cells == 0) return 0;
-    const double h = longest_side(survey) / cells, side = 8 / h;
-    const auto& sum = survey.s_sums;
+    const double h = longest / cells, side = 8 / h;
     const double expanded =
         side * side * side * sum[3] + 3 * side * side * sum[2] + 3 * side * sum[1] + sum[0];
-    return std::min(expanded, static_cast<double>(survey.particles) * std::pow(cells, 3));
+    return std::min(expanded, sum[0] * std::pow(cells, 3));
+}
+
+double updates(const Survey& survey, int cells) {
+    return updates(longest_side(survey), survey.s_sums, cells);
+}
+
+// Cells of a cubic grid with `count` of them along the longest side.
+double cells_in(const glm::dvec3& size, int count) {
+    if (count == 0) return 0;
+    const glm::dvec3 share = size / std::max({size.x, size.y, size.z, 1e-12});
+    return std::pow(count, 3) * std::max(share.x, 1.0 / count) * std::max(share.y, 1.0 / count) *
+           std::max(share.z, 1.0 / count);
+}
+
+// Of an island without its fringe, as Survey::bounds are.
+glm::dvec3 island_size(const Island& island) {
+    const double fringe = 4 * island.s_sums[1] / std::max(island.s_sums[0], 1.0);
+    return glm::max(island.high - island.low - fringe, glm::dvec3(1e-12));
 }
 
 }  // namespace
+
+IslandWork island_work(const TransportSettings& settings, const Survey& survey) {
+    const TransportSettings whole = whole_settings(settings);
+    IslandWork work;
+    work.cells = cells_in(survey.bounds.max - survey.bounds.min, whole.cells);
+    work.largest = work.cells;
+    work.updates = updates(survey, whole.sun_cells) + updates(survey, 3 * whole.cells);
+    work.nodes = cells_in(survey.bounds.max - survey.bounds.min, whole.sun_cells);
+    double area = 0, sum = 0;
+    const std::vector<IslandCells> cells = island_cells(settings, survey);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const Island& island = survey.islands.list[i];
+        if (cells[i].sun_cells == 0) continue;
+        const glm::dvec3 size = island_size(island);
+        const double longest = std::max({size.x, size.y, size.z});
+        const double own = cells_in(size, cells[i].cells);
+        work.cells += own;
+        work.largest = std::max(work.largest, own);
+        work.updates += updates(longest, island.s_sums, cells[i].sun_cells) +
+                        updates(longest, island.s_sums, 3 * cells[i].cells);
+        // The sun's lattice is turned: about a half more.
+        work.nodes += 1.5 * cells_in(size, cells[i].sun_cells);
+        const double distance =
+            glm::length(0.5 * (island.low + island.high) - survey.view.eye) + longest;
+        const double seen = longest / distance * (longest / distance);
+        if (cells[i].cells > 0) {
+            area += seen;
+            sum += seen * longest / cells[i].cells;
+        }
+    }
+    work.cell = area > 0 ? sum / area : 0;
+    return work;
+}
 
 ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& survey) {
     const double g = scene->medium.g, f = g > 0 ? g * g * g * g : 0;
     const double depth = std::clamp(survey.optical_depth_eye, 1e-6, 1e6);
     double cell_depth = 0, coarseness = 0;
     if (rung.cells > 0) {
-        const double cell = longest_side(survey) / rung.cells;
+        const double cell = survey.islands.list.empty()
+                                ? longest_side(survey) / rung.cells
+                                : island_work(transport_settings(rung), survey).cell;
         cell_depth =
             std::clamp(survey.max_extinction * (1 - scene->medium.albedo * f) * cell, 0.0, 1e6);
-        coarseness = std::clamp(std::log2(cell / mean_s(survey)), -4.0, 4.0);
+        coarseness = std::clamp(std::log2(std::max(cell, 1e-12) / mean_s(survey)), -4.0, 4.0);
     }
     const double into_sun = std::max(survey.sun_cosine, 0.0), backlit = into_sun * into_sun;
     const double thin = std::log(depth / (1 + depth)), thick = std::log1p(depth);
@@ -89,12 +142,10 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
                         pixels, 0,       0,         0};
     if (rung.method == Method::kMarch) {
         const TransportSettings settings = transport_settings(rung);
-        const glm::dvec3 share = (survey.bounds.max - survey.bounds.min) / longest_side(survey);
-        const double cells = rung.cells == 0
-                                 ? 0
-                                 : std::pow(rung.cells, 3) * std::max(share.x, 1.0 / rung.cells) *
-                                       std::max(share.y, 1.0 / rung.cells) *
-                                       std::max(share.z, 1.0 / rung.cells);
+        const bool one = survey.islands.list.empty();
+        const IslandWork islands = one ? IslandWork{} : island_work(settings, survey);
+        const double cells =
+            one ? cells_in(survey.bounds.max - survey.bounds.min, rung.cells) : islands.cells;
         const double bands = (scene->sun.intensity > 0 ? 1 : 0) + (scene->sky.none ? 0
                                                                    : scene->sky.physical
                                                                        ? 3  // a colour channel each
@@ -103,7 +154,8 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
         // Sweeps that the solve takes: few in thin matter, three times as many at depth 30.
         const double sweeps = 1 + 0.7 * std::log1p(std::min(survey.optical_depth_sun, 1e3));
         figures[5] = cells * bands * harmonics * sweeps;
-        figures[6] = updates(survey, settings.sun_cells) + updates(survey, 3 * rung.cells);
+        figures[6] = one ? updates(survey, settings.sun_cells) + updates(survey, 3 * rung.cells)
+                         : islands.updates;
     }
     if (rung.method == Method::kPaths) {
         // A path that meets thick matter scatters about as often as it is deep, and as the forward peak asks for.

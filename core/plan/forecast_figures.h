@@ -5,10 +5,21 @@
 #include <cstdint>
 
 #include "core/plan/ladder.h"
+#include "core/plan/transport_settings.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
 
 namespace awan {
+
+// What the islands of a scene cost together, the coarse solve of the whole included. All 0 without islands' cells.
+struct IslandWork {
+    double cells = 0;    // of all grids
+    double largest = 0;  // of the largest
+    double nodes = 0;    // of all SunDepths
+    double updates = 0;  // cell updates of all lattices
+    double cell = 0;     // mean side of a cell, weighted by the area in the picture, scene units
+};
+IslandWork island_work(const TransportSettings& settings, const Survey& survey);
 
 inline constexpr std::size_t kErrorFigureCount = 18;
 using ErrorFigures = std::array<double, kErrorFigureCount>;

@@ -19,7 +19,7 @@ struct EffectDecision {
     bool on = false;
     bool available = true;  // false: not in this version
     std::string reason;     // one sentence, with the figure and the threshold
-    double left_out = 0;    // about the relative error of a picture without it (core/plan/criteria.h)
+    double left_out = 0;  // about the relative error of a picture without it (core/plan/criteria.h)
 };
 
 struct Plan {

@@ -1,8 +1,16 @@
 #pragma once
 
+#include <vector>
+
 #include "core/plan/ladder.h"
 
 namespace awan {
+
+// Of one island (core/survey/islands.h).
+struct IslandCells {
+    int cells = 0;      // as TransportSettings::cells; 0: no grid
+    int sun_cells = 0;  // 0: it is not seen and has no light of its own
+};
 
 // How finely the transport rungs (core/light/transport.h) solve.
 struct TransportSettings {
@@ -14,6 +22,7 @@ struct TransportSettings {
     bool ground = false;      // whether the ground's light goes into the cloud
     bool ground_shadow =
         false;  // whether the cloud shades the ground and sends it light of its own
+    std::vector<IslandCells> islands;  // one for each of Survey::islands; EMPTY: one grid holds all
 };
 
 // Of a rung of Method::kMarch.

@@ -91,7 +91,7 @@ Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int thre
 
     // Each figure is one thread's work from start to end, so the result does not depend on their
     // number.
-    parallel_for(threads, 5, [&](std::size_t task) {
+    parallel_for(threads, 6, [&](std::size_t task) {
         switch (task) {
             case 0:
                 survey.volume = density_volume(particles, kVolumeCells);
@@ -105,6 +105,9 @@ Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int thre
                 break;
             case 3:
                 survey.optical_depth_zenith = parallel_optical_depth(particles, {0, 1, 0});
+                break;
+            case 4:
+                survey.islands = find_islands(particles);
                 break;
             default:
                 measure_matter(particles, survey);

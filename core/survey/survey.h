@@ -9,6 +9,7 @@
 #include "core/generate/detail.h"
 #include "core/generate/particle_set.h"
 #include "core/scene/scene.h"
+#include "core/survey/islands.h"
 
 namespace awan {
 
@@ -53,6 +54,7 @@ struct Survey {
     Bounds bounds;
     View view;
     DensityVolume volume;
+    Islands islands;                  // empty for a single cloud
     double total_mass = 0;            // integral of extinction over space, unit^2
     double max_extinction = 0;        // largest cell mean, 1/unit
     double optical_depth_sun = 0;     // largest over parallel lines towards the sun

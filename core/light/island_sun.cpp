@@ -1,0 +1,107 @@
+#include "core/light/island_sun.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/generate/gaussian.h"
+#include "core/light/sun_depth.h"
+#include "core/survey/gauss.h"
+#include "core/survey/lattice.h"
+#include "core/survey/lattice_detail.h"
+#include "core/survey/projection.h"
+
+namespace awan {
+namespace {
+
+constexpr double kLeftOut = 0.01;  // as in sun_depth
+constexpr double kReach = 4;       // in s
+
+Lattice lattice_of(const SunPrism& prism) {
+    return {prism.origin, prism.u, prism.v, prism.w, prism.cell, prism.cells};
+}
+
+// Shares of a Gaussian in the columns from `first` on; what the cut at kReach leaves is not put back: 6e-5 of it.
+void shares(double center, double s, double cell, int first, int last, std::vector<double>& to) {
+    to.clear();
+    double before = normal_cdf((first * cell - center) / s);
+    for (int i = first; i <= last; ++i) {
+        const double next = normal_cdf(((i + 1) * cell - center) / s);
+        to.push_back(next - before);
+        before = next;
+    }
+}
+
+// Optical depth of what lies before the prism, at the middle of each of its columns' faces: means over columns.
+std::vector<double> depth_before(const SunPrism& prism, const ParticleSet& all) {
+    const auto nx = static_cast<std::size_t>(prism.cells.x);
+    std::vector<double> depth(nx * static_cast<std::size_t>(prism.cells.y)), x, y;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const double s = gaussian_s(all, i), reach = kReach * s;
+        const glm::dvec3 apart = all.center[i] - prism.origin;
+        const double before = normal_cdf(-glm::dot(apart, prism.w) / s);
+        if (before < 1e-5) continue;
+        const double cx = glm::dot(apart, prism.u), cy = glm::dot(apart, prism.v);
+        const auto column = [&](double at, int count) {
+            return static_cast<int>(
+                std::clamp(std::floor(at / prism.cell), -1.0, static_cast<double>(count)));
+        };
+        const int x0 = std::max(column(cx - reach, prism.cells.x), 0);
+        const int x1 = std::min(column(cx + reach, prism.cells.x), prism.cells.x - 1);
+        const int y0 = std::max(column(cy - reach, prism.cells.y), 0);
+        const int y1 = std::min(column(cy + reach, prism.cells.y), prism.cells.y - 1);
+        if (x0 > x1 || y0 > y1) continue;
+        shares(cx, s, prism.cell, x0, x1, x);
+        shares(cy, s, prism.cell, y0, y1, y);
+        const double most =
+            std::min(before * gaussian_mass(all, i) / (prism.cell * prism.cell), 1e30);
+        for (int j = y0; j <= y1; ++j) {
+            const double across = most * y[static_cast<std::size_t>(j - y0)];
+            double* const row =
+                depth.data() + static_cast<std::size_t>(j) * nx + static_cast<std::size_t>(x0);
+            for (std::size_t a = 0; a < x.size(); ++a) row[a] += across * x[a];
+        }
+    }
+    return depth;
+}
+
+}  // namespace
+
+SunPrism sun_prism(const ParticleSet& own, const glm::dvec3& towards_sun, int cells) {
+    const SideAxes side = side_axes(-towards_sun);
+    const Lattice lattice =
+        lattice_around_matter(own, side.u, side.v, -towards_sun, kLeftOut, cells, 1, kMaxSunWork);
+    return {side.u, side.v, -towards_sun, lattice.origin, lattice.cell, lattice.cells};
+}
+
+bool shades(const SunPrism& prism, const glm::dvec3& center, double reach) {
+    const glm::dvec3 apart = center - prism.origin;
+    const auto within = [&](double at, int cells) {
+        return at > -reach && at < cells * prism.cell + reach;
+    };
+    return glm::dot(apart, prism.w) < prism.cells.z * prism.cell + reach &&
+           within(glm::dot(apart, prism.u), prism.cells.x) &&
+           within(glm::dot(apart, prism.v), prism.cells.y);
+}
+
+SunDepth sun_depth_in(const SunPrism& prism, const ParticleSet& all) {
+    SunDepth sun;
+    sun.u = prism.u;
+    sun.v = prism.v;
+    sun.w = prism.w;
+    sun.cell = prism.cell;
+    sun.origin = prism.origin + 0.5 * sun.cell * (sun.u + sun.v);
+    sun.nodes = prism.cells + glm::ivec3(0, 0, 1);
+    const std::vector<double> before = depth_before(prism, all);
+    const Lattice lattice = lattice_of(prism);
+    std::vector<float> extinction = extinction_in(all, lattice, 1);
+    add_detail(all, lattice, 1, extinction);
+    sun.depth.resize(before.size() * static_cast<std::size_t>(sun.nodes.z));
+    for (std::size_t i = 0; i < before.size(); ++i) sun.depth[i] = static_cast<float>(before[i]);
+    const auto cell = static_cast<float>(sun.cell);
+    for (std::size_t i = 0; i < extinction.size(); ++i)
+        sun.depth[before.size() + i] = sun.depth[i] + extinction[i] * cell;
+    return sun;
+}
+
+}  // namespace awan

@@ -1,0 +1,30 @@
+// The transport solve of one part of a scene, or of all of it: what transport.h and islands.h are made from.
+#pragma once
+
+#include <functional>
+
+#include "core/light/transport.h"
+
+namespace awan {
+
+// Radiance that reaches a part along `direction` (unit, the way the light goes) in the units of band `band`, where the open
+// sky would send `sky`.
+using Surroundings =
+    std::function<double(std::size_t band, const glm::dvec3& direction, double sky)>;
+
+struct LightPart {
+    const ParticleSet& own;  // the grid goes around these; not empty, with mass
+    const ParticleSet& all;  // and holds what of these lies in it
+    SunDepth sun;
+    double deepest = 0;         // optical depth of the longest line towards the lights
+    Surroundings surroundings;  // empty: the open sky
+    // The solve of the whole scene, of which this is a part; null: this is all. Bands come in its order.
+    const TransportLight* whole = nullptr;
+};
+
+// As transport_light; settings.islands is not looked at.
+Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
+                                     const TransportSettings& settings, int threads,
+                                     const Deadline& deadline);
+
+}  // namespace awan

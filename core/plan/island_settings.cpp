@@ -1,0 +1,67 @@
+#include "core/plan/island_settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace awan {
+namespace {
+
+constexpr double kMargin = 1.1;  // beside the picture, for what is drawn at its edge
+
+bool in_picture(const View& view, const glm::dvec3& low, const glm::dvec3& high) {
+    const double across = kMargin * view.tan_half_fov * view.aspect,
+                 up = kMargin * view.tan_half_fov;
+    bool left = true, right = true, over = true, under = true, behind = true;  // all corners are
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p =
+            glm::dvec3((corner & 1) ? high.x : low.x, (corner & 2) ? high.y : low.y,
+                       (corner & 4) ? high.z : low.z) -
+            view.eye;
+        const double x = glm::dot(p, view.right), y = glm::dot(p, view.up),
+                     z = glm::dot(p, view.forward);
+        left = left && x < -across * z;
+        right = right && x > across * z;
+        over = over && y > up * z;
+        under = under && y < -up * z;
+        behind = behind && z < 0;
+    }
+    return !(left || right || over || under || behind);
+}
+
+int steps_down(int full, double share, int least) {
+    const double steps = std::floor(-2 * std::log2(std::clamp(share, 1e-6, 1.0)) + 1e-9);
+    return std::clamp(static_cast<int>(std::lround(full * std::pow(2.0, -steps / 2))),
+                      std::min(least, full), full);
+}
+
+}  // namespace
+
+std::vector<IslandCells> island_cells(const TransportSettings& settings, const Survey& survey) {
+    std::vector<IslandCells> cells;
+    const View& view = survey.view;
+    for (const Island& island : survey.islands.list) {
+        IslandCells& own = cells.emplace_back();
+        if (island.particles == 0 || !in_picture(view, island.low, island.high)) continue;
+        const glm::dvec3 size = island.high - island.low;
+        const double distance =
+            glm::length(glm::clamp(view.eye, island.low, island.high) - view.eye);
+        const double width = 2 * distance * view.tan_half_fov * std::max(view.aspect, 1.0);
+        const double share =
+            std::sqrt(std::min(1.0, std::max({size.x, size.y, size.z}) / std::max(width, 1e-12)));
+        own.cells = settings.cells == 0 ? 0 : steps_down(settings.cells, share, kLeastIslandCells);
+        own.sun_cells = steps_down(settings.sun_cells, share, kLeastIslandSunCells);
+    }
+    return cells;
+}
+
+TransportSettings whole_settings(const TransportSettings& settings) {
+    TransportSettings whole = settings;
+    whole.islands.clear();
+    whole.cells = std::min(settings.cells, kWholeCells);
+    whole.sun_cells = std::min(2 * settings.sun_cells, kWholeSunCells);
+    return whole;
+}
+
+}  // namespace awan
