@@ -142,7 +142,7 @@ function skyPanel(store) {
     ofGradient(colour(store, { label: "Horizon", pointer: "/sky/horizon" })),
     slider(store, {
       label: "Intensity", pointer: "/sky/intensity", min: 0.02, max: 50, log: true,
-      ...own("intensity", () => (model() === "physical" ? 1 : atOrDefault(store.scene, "/sky/intensity"))),
+      ...own("intensity", () => (model() === "physical" ? 0.55 : atOrDefault(store.scene, "/sky/intensity"))),
     }),
   ];
   return { title: "Sky", pointer: "/sky", fields };
