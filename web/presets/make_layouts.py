@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the presets whose layouts are made by rule, beside this file:  python3 web/presets/make_layouts.py
 
-noon-cumulus, silver-lining, sunset-stratocumulus, cirrus, thunderhead and fog-shafts. The first three take the cubes of
+noon-cumulus, silver-lining, sunset-stratocumulus, cirrus, thunderhead and fog-shafts. The first two take the cubes of
 other presets; the others place cubes at random, the same at every run. sky-of-100 has a script of its own.
 """
 
@@ -139,14 +139,15 @@ PRESETS = {
         "image": {"width": 960, "height": 720, "exposure": -3.2},
     },
     "sunset-stratocumulus": lambda: {
-        "cubes": layout("stratus"),
-        "density": 2.4,
-        "sun": {"elevation": 5, "azimuth": 118, "color": "auto", "intensity": 60},
-        "sky": {"model": "physical", "turbidity": 2.6, "intensity": 0.35},
-        "detail": {"amount": 0.9, "size": 2.2},
-        "haze": {"extinction": 0.001, "height": 0, "scale_height": 2, "g": 0.7},
-        "camera": {"eye": [-1, 2.5, 15], "target": [1, 1.2, 0], "fov": 44},
-        "image": {"width": 960, "height": 540, "exposure": -2.6},
+        "cubes": broken_deck(9, 420, 4, 22, 34, 0.75, 16, 0.62),
+        "density": 1,
+        "sun": {"elevation": 3, "azimuth": 152, "color": "auto", "intensity": 80},
+        "sky": {"model": "physical", "turbidity": 3, "intensity": 0.4},
+        "ground": {"height": 0, "albedo": [0.05, 0.06, 0.07]},
+        "detail": {"amount": 0.8, "size": 1.8},
+        "haze": {"extinction": 0.012, "height": 0, "scale_height": 1.5, "g": 0.7},
+        "camera": {"eye": [0, 1.6, 20], "target": [1.5, 4.6, 0], "fov": 52},
+        "image": {"width": 960, "height": 540, "exposure": -1.9},
     },
     "cirrus": lambda: {
         "cubes": cirrus(),
