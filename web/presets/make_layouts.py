@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the presets whose layouts are made by rule, beside this file:  python3 web/presets/make_layouts.py
 
-noon-cumulus, silver-lining, sunset-stratocumulus, cirrus, thunderhead and fog-shafts. The first three take the cubes of
+noon-cumulus, silver-lining, sunset-stratocumulus, cirrus, thunderhead and fog-shafts. The first two take the cubes of
 other presets; the others place cubes at random, the same at every run. sky-of-100 has a script of its own.
 """
 
@@ -34,25 +34,28 @@ def layout(name):
 
 
 def cirrus():
-    """Hooks of ice: a tuft each, and the streak that falls from it and is left behind by the wind."""
+    """Hooks of ice: a tuft each, and the filaments that fall from it and are left behind by the wind."""
     dice = random.Random(4)
     cubes = []
-    for _ in range(22):
-        x, z = dice.uniform(-17, 13), dice.uniform(-20, 4)
-        y = 9 + dice.uniform(-0.6, 0.6)
-        length, bend = dice.uniform(5, 11), dice.uniform(-0.12, 0.12)
-        heading = dice.uniform(-0.16, 0.16)
-        strength = dice.uniform(0.35, 1)
-        steps = 9
-        for i in range(steps):
-            t = i / (steps - 1)
-            along = length * t
-            cx = x + along * math.cos(heading) - 0.3 * (1 - t)
-            cz = z + along * math.sin(heading) + bend * along * along / length * 2
-            cy = y - 1.3 * t**0.6
-            wide = 0.35 + 0.9 * t
-            cubes.append(cube((cx, cy, cz), (length / steps * 1.6, 0.16 + 0.22 * t, wide), 0.34 + 0.4 * t,
-                              26, strength * (1.15 - t) * 0.9))
+    for _ in range(15):
+        x, z = dice.uniform(-20, 12), dice.uniform(-22, 5)
+        y = 9 + dice.uniform(-0.5, 0.5)
+        length, bend = dice.uniform(6, 13), dice.uniform(-0.1, 0.1)
+        heading = 0.25 + dice.uniform(-0.12, 0.12)
+        strength = dice.uniform(0.5, 1)
+        for _ in range(6):
+            fx, fz = x + dice.uniform(-0.8, 0.8), z + dice.uniform(-0.9, 0.9)
+            own = length * dice.uniform(0.5, 1)
+            turn = heading + dice.uniform(-0.09, 0.09)
+            steps = 7
+            for i in range(steps):
+                t = (i + 0.5) / steps
+                along = own * t
+                cx = fx + along * math.cos(turn)
+                cz = fz + along * math.sin(turn) + bend * along * along / own * 2
+                cy = y + 0.25 * math.exp(-10 * t) - 1.1 * t**0.7
+                cubes.append(cube((cx, cy, cz), (own / steps * 1.5, 0.08 + 0.12 * t, 0.1 + 0.3 * t), 0.2 + 0.28 * t, 8,
+                                  strength * (1.1 - t)))
     return cubes
 
 
@@ -75,15 +78,17 @@ def thunderhead():
     for level in range(9):
         t = level / 8
         lean = 1.5 * t * t
-        wide = 3.4 - 1.5 * t + 0.8 * math.sin(2.2 * level)
-        heap(lean, 1.6 + 6.6 * t, 0.3 * math.sin(level), max(wide, 1.5), 0.95, max(0.82 * wide, 1.4), 17, 0.72, 26)
-    for _ in range(80):  # the anvil
-        t = dice.random()
-        spread = 1.4 + 2.6 * t
-        cx = 0.2 + 8.2 * t - 2.6 * (1 - t) * dice.random()
-        cz = dice.uniform(-1, 1) * spread
-        cy = 9.25 + 0.45 * t + dice.uniform(-0.18, 0.18)
-        cubes.append(cube((cx, cy, cz), (1.9, 0.2 + 0.5 * (1 - t), 1.7), 0.62 - 0.2 * t, 22, 0.75 - 0.62 * t))
+        wide = 3.9 - 1.2 * t + 0.6 * math.sin(2.2 * level)
+        heap(lean, 1.6 + 6.6 * t, 0.3 * math.sin(level), max(wide, 1.5), 0.95, max(0.82 * wide, 1.4), 24, 0.78, 26)
+    for _ in range(150):  # the anvil
+        t = dice.random() ** 0.8
+        angle = dice.uniform(-1, 1) * (0.9 - 0.45 * t) * math.pi
+        out = 4.6 * math.sqrt(dice.random())
+        cx = 1.2 + 7.2 * t * dice.random() + out * math.cos(angle)
+        cz = 0.75 * out * math.sin(angle)
+        far = min(1.0, math.hypot(cx - 1.4, cz) / 9)
+        cy = 9.3 + 0.5 * far + dice.uniform(-0.15, 0.15)
+        cubes.append(cube((cx, cy, cz), (1.8, 0.35 - 0.15 * far, 1.8), 0.75 - 0.2 * far, 24, 1.1 - 0.55 * far))
     heap(1.4, 9.7, 0, 1.5, 0.55, 1.3, 10, 0.6, 24)  # the overshooting top
     for _ in range(16):  # turrets at its feet
         angle = dice.uniform(0, 2 * math.pi)
@@ -115,11 +120,11 @@ CLEAR = {"model": "physical", "turbidity": 2.6}
 PRESETS = {
     "noon-cumulus": lambda: {
         "cubes": layout("cumulus-detailed"),
-        "density": 3.2,
-        "sun": {"elevation": 52, "azimuth": 75, "color": "auto"},
+        "density": 7,
+        "sun": {"elevation": 42, "azimuth": 98, "color": "auto"},
         "sky": CLEAR,
-        "ground": {"height": -11, "albedo": [0.16, 0.19, 0.1]},
-        "detail": {"amount": 0.8, "size": 1.7},
+        "ground": {"height": -11, "albedo": [0.1, 0.11, 0.08]},
+        "detail": {"amount": 0.8, "size": 2},
         "camera": {"eye": [5.6, -5.6, 16.2], "target": [-0.4, 0.4, 0], "fov": 38},
         "image": {"width": 960, "height": 600},
     },
@@ -131,37 +136,38 @@ PRESETS = {
         "ground": {"height": -9, "albedo": [0.14, 0.16, 0.1]},
         "detail": {"amount": 0.9, "size": 1.5},
         "camera": {"eye": [3.2, -1.5, 16.5], "target": [0.6, 3.9, 0], "fov": 44},
-        "image": {"width": 960, "height": 720},
+        "image": {"width": 960, "height": 720, "exposure": -3.2},
     },
     "sunset-stratocumulus": lambda: {
-        "cubes": layout("stratus"),
-        "density": 2.4,
-        "sun": {"elevation": 4, "azimuth": 165, "color": "auto"},
-        "sky": {"model": "physical", "turbidity": 3.5},
-        "detail": {"amount": 0.9, "size": 2.2},
-        "haze": {"extinction": 0.006, "height": 0, "scale_height": 3, "g": 0.7},
-        "camera": {"eye": [0, 3.2, 17], "target": [0, 1.2, 0], "fov": 42},
-        "image": {"width": 960, "height": 540},
+        "cubes": broken_deck(9, 420, 4, 22, 34, 0.75, 16, 0.62),
+        "density": 1,
+        "sun": {"elevation": 3, "azimuth": 152, "color": "auto", "intensity": 80},
+        "sky": {"model": "physical", "turbidity": 3, "intensity": 0.4},
+        "ground": {"height": 0, "albedo": [0.05, 0.06, 0.07]},
+        "detail": {"amount": 0.8, "size": 1.8},
+        "haze": {"extinction": 0.012, "height": 0, "scale_height": 1.5, "g": 0.7},
+        "camera": {"eye": [0, 1.6, 20], "target": [1.5, 4.6, 0], "fov": 52},
+        "image": {"width": 960, "height": 540, "exposure": -1.9},
     },
     "cirrus": lambda: {
         "cubes": cirrus(),
-        "density": 0.55,
+        "density": 2,
         "medium": {"g": 0.8},
-        "sun": {"elevation": 38, "azimuth": 140, "color": "auto"},
+        "sun": {"elevation": 48, "azimuth": 60, "color": "auto"},
         "sky": {"model": "physical", "turbidity": 2.2},
-        "detail": {"amount": 1, "size": 3},
-        "camera": {"eye": [0, 0, 16], "target": [0, 8.2, -6], "fov": 58},
-        "image": {"width": 960, "height": 600},
+        "detail": {"amount": 0.8, "size": 2},
+        "camera": {"eye": [0, 0, 12], "target": [0, 8.4, -4], "fov": 58},
+        "image": {"width": 960, "height": 600, "exposure": -2},
     },
     "thunderhead": lambda: {
         "cubes": thunderhead(),
-        "density": 5,
-        "sun": {"elevation": 24, "azimuth": 62, "color": "auto"},
+        "density": 7,
+        "sun": {"elevation": 22, "azimuth": 66, "color": "auto"},
         "sky": {"model": "physical", "turbidity": 3},
         "ground": {"height": -1.2, "albedo": [0.12, 0.14, 0.08]},
         "detail": {"amount": 0.8, "size": 1.4},
         "haze": {"extinction": 0.012, "height": -1.2, "scale_height": 2.2},
-        "camera": {"eye": [2.5, 0.2, 27], "target": [2.2, 5.1, 0], "fov": 36},
+        "camera": {"eye": [3.5, 0.3, 25], "target": [3.0, 4.9, 0], "fov": 38},
         "image": {"width": 960, "height": 640},
     },
     "fog-shafts": lambda: {
@@ -173,7 +179,7 @@ PRESETS = {
         "detail": {"amount": 0.8, "size": 1.8},
         "haze": {"extinction": 0.055, "height": 0, "scale_height": 2.6, "g": 0.55},
         "camera": {"eye": [0, 0.9, 17], "target": [0, 3.1, 0], "fov": 56},
-        "image": {"width": 960, "height": 540},
+        "image": {"width": 960, "height": 540, "exposure": -3},
     },
 }
 
