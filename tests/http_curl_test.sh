@@ -106,8 +106,9 @@ import json, sys
 answer = json.load(sys.stdin)
 assert answer["reference"]["width"] == 16, answer
 times = [rung["time_ms"] for rung in answer["rungs"]]
-assert len(times) >= 8 and times == sorted(times), answer
-assert not answer["left_out"], answer' || fail "accuracy as JSON"
+left_out = answer["left_out"]  # on a busy machine, for want of time
+assert times and times == sorted(times) and len(times) + len(left_out) == 8, answer
+assert all("that were left" in rung["reason"] for rung in left_out), answer' || fail "accuracy as JSON"
 contains "accuracy is not kept" 'Cache-Control: no-store' "$(cat "$work/head")"
 curl -s -H "$json" -H 'Accept: image/png' -d "$scene" \
     "$url/v1/accuracy?theme=dark&rungs=harris,transport-16&samples=16&size=16&runs=2" -o "$work/plot.png"

@@ -452,7 +452,7 @@ TEST(ImageFile, AnAnswerOfTheUsualSizeIsEncodedInMilliseconds) {
             std::chrono::steady_clock::now() - start;
         best = std::min(best, ms.count());
     }
-    EXPECT_LT(best, 60);  // 12 on a quiet core
+    EXPECT_LT(best, 400);  // 12 on a quiet core: for an encoder gone astray, not for a busy machine
 }
 #endif
 

@@ -208,7 +208,7 @@ TEST(PlanToJson, IsFiniteJsonWithTheFieldsThatScriptsRead) {
     Plan plan;
     for (int i = 0; i < kEffectCount; ++i)
         plan.effects[static_cast<std::size_t>(i)] = {static_cast<Effect>(i), i % 2 == 0, i < 5,
-                                                     "because \"3 > 2\""};
+                                                     "because \"3 > 2\"", 0.25};
     plan.rung = "harris";
     plan.rung_reason = "cheapest under 50%";
     for (const Rung& rung : ladder()) plan.forecasts.push_back({&rung, 0.25, 12.5, 4096});
@@ -228,7 +228,8 @@ TEST(PlanToJson, IsFiniteJsonWithTheFieldsThatScriptsRead) {
     EXPECT_EQ(answer["effects"][0], json({{"name", "self_shadow"},
                                           {"on", true},
                                           {"available", true},
-                                          {"reason", "because \"3 > 2\""}}));
+                                          {"reason", "because \"3 > 2\""},
+                                          {"error_left_out", 0.25}}));
     EXPECT_EQ(answer["rung"], "harris");
     EXPECT_EQ(answer["rung_reason"], "cheapest under 50%");
     EXPECT_EQ(answer["predicted"], json({{"error", 0.25}, {"time_ms", 12.5}}));

@@ -47,8 +47,9 @@ inline glm::dvec3 radiance_bound(const SceneDraft& draft) {
     const glm::dvec3 sky = brightest(outside.sky);
     glm::dvec3 most =
         outside.sun * (peak_of(draft.medium) + kDiffuse) / (4 * std::numbers::pi) + sky;
-    // Light from the ground: Lambertian under the sun and the sky.
-    if (draft.ground) most += draft.ground->albedo * (outside.sun / std::numbers::pi + sky);
+    // Light from the ground: Lambertian under the sun and what is overhead, be it sky or cloud. What goes to and fro between
+    // ground and clouds is in kDiffuse: together they are no more than that conservative half space.
+    if (draft.ground) most += draft.ground->albedo * (outside.sun / std::numbers::pi + most);
     // Haze scatters once what comes from all of these.
     if (draft.haze) {
         const Medium air{1, draft.haze->g, PhaseFunction::kHenyeyGreenstein};

@@ -41,7 +41,7 @@ double predicted_bytes(const Rung& rung, const Scene& scene, const Survey& surve
             return 1e6 + 160 * particles + 8 * pairs / 128;
         case Method::kMarch:
             if (!survey.islands.list.empty())
-                return island_bytes(island_work(transport_settings(rung), survey),
+                return island_bytes(island_work(transport_settings(rung), scene, survey),
                                     scene->sky.none ? 1 : 4, particles, kVectors, threads);
             return std::pow(rung.cells, 3) * 64 * kVectors *
                        std::min(1.0, figures[5] / std::max(std::pow(rung.cells, 3), 1.0)) +

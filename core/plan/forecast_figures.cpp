@@ -4,11 +4,13 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 #include "core/plan/island_settings.h"
 #include "core/plan/transport_settings.h"
 #include "core/scene/outside.h"
+#include "core/survey/projection.h"
 
 namespace awan {
 namespace {
@@ -71,15 +73,59 @@ glm::dvec3 island_size(const Island& island) {
     return glm::max(island.high - island.low - fringe, glm::dvec3(1e-12));
 }
 
+// Half the extent along `axis` (unit) of the ellipsoid that fits a box: clouds leave a box's corners empty.
+double half_extent(const glm::dvec3& size, const glm::dvec3& axis) {
+    return 0.5 * glm::length(size * axis);
+}
+
+// Of the box that holds an island, turned to the sun (SunDepth's axes).
+struct SunAxes {
+    glm::dvec3 u, v, w;
+};
+SunAxes sun_axes(const Scene& scene) {
+    const glm::dvec3 w = -sun_direction(scene->sun);
+    const SideAxes side = side_axes(w);
+    return {side.u, side.v, w};
+}
+glm::dvec3 turned_size(const glm::dvec3& size, const SunAxes& axes) {
+    return 2.0 * glm::dvec3(half_extent(size, axes.u), half_extent(size, axes.v),
+                            half_extent(size, axes.w));
+}
+
+// Of the box that holds all islands with matter, turned to the sun.
+glm::dvec3 turned_size_of_all(const Islands& islands, const SunAxes& axes) {
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (const Island& island : islands.list) {
+        if (island.particles == 0) continue;
+        const glm::dvec3 middle = 0.5 * (island.low + island.high);
+        const glm::dvec3 at(glm::dot(middle, axes.u), glm::dot(middle, axes.v),
+                            glm::dot(middle, axes.w));
+        const glm::dvec3 half = 0.5 * turned_size(island_size(island), axes);
+        low = glm::min(low, at - half);
+        high = glm::max(high, at + half);
+    }
+    return glm::max(high - low, glm::dvec3(1e-12));
+}
+
+// Of a SunDepth of a box of this (turned) size: a layer of nodes more than cells.
+double nodes_in(const glm::dvec3& size, int count) {
+    if (count == 0) return 0;
+    const double longest = std::max({size.x, size.y, size.z, 1e-12});
+    return cells_in(size, count) * (1 + longest / (count * std::max(size.z, longest / count)));
+}
+
 }  // namespace
 
-IslandWork island_work(const TransportSettings& settings, const Survey& survey) {
+IslandWork island_work(const TransportSettings& settings, const Scene& scene,
+                       const Survey& survey) {
+    if (survey.islands.list.empty()) return {};
     const TransportSettings whole = whole_settings(settings);
     IslandWork work;
     work.cells = cells_in(survey.bounds.max - survey.bounds.min, whole.cells);
     work.largest = work.cells;
     work.updates = updates(survey, whole.sun_cells) + updates(survey, 3 * whole.cells);
-    work.nodes = cells_in(survey.bounds.max - survey.bounds.min, whole.sun_cells);
+    const SunAxes axes = sun_axes(scene);
+    work.nodes = nodes_in(turned_size_of_all(survey.islands, axes), whole.sun_cells);
     double area = 0, sum = 0;
     const std::vector<IslandCells> cells = island_cells(settings, survey);
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -92,8 +138,7 @@ IslandWork island_work(const TransportSettings& settings, const Survey& survey) 
         work.largest = std::max(work.largest, own);
         work.updates += updates(longest, island.s_sums, cells[i].sun_cells) +
                         updates(longest, island.s_sums, 3 * cells[i].cells);
-        // The sun's lattice is turned: about a half more.
-        work.nodes += 1.5 * cells_in(size, cells[i].sun_cells);
+        work.nodes += nodes_in(turned_size(size, axes), cells[i].sun_cells);
         const double distance =
             glm::length(0.5 * (island.low + island.high) - survey.view.eye) + longest;
         const double seen = longest / distance * (longest / distance);
@@ -113,7 +158,7 @@ ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& s
     if (rung.cells > 0) {
         const double cell = survey.islands.list.empty()
                                 ? longest_side(survey) / rung.cells
-                                : island_work(transport_settings(rung), survey).cell;
+                                : island_work(transport_settings(rung), scene, survey).cell;
         cell_depth =
             std::clamp(survey.max_extinction * (1 - scene->medium.albedo * f) * cell, 0.0, 1e6);
         coarseness = std::clamp(std::log2(std::max(cell, 1e-12) / mean_s(survey)), -4.0, 4.0);
@@ -165,7 +210,7 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
     if (rung.method == Method::kMarch) {
         const TransportSettings settings = transport_settings(rung);
         const bool one = survey.islands.list.empty();
-        const IslandWork islands = one ? IslandWork{} : island_work(settings, survey);
+        const IslandWork islands = island_work(settings, scene, survey);
         const double cells =
             one ? cells_in(survey.bounds.max - survey.bounds.min, rung.cells) : islands.cells;
         double bands = (scene->sun.intensity > 0 ? 1 : 0) + (scene->sky.none ? 0

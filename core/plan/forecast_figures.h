@@ -19,7 +19,7 @@ struct IslandWork {
     double updates = 0;  // cell updates of all lattices
     double cell = 0;     // mean side of a cell, weighted by the area in the picture, scene units
 };
-IslandWork island_work(const TransportSettings& settings, const Survey& survey);
+IslandWork island_work(const TransportSettings& settings, const Scene& scene, const Survey& survey);
 
 inline constexpr std::size_t kErrorFigureCount = 22;
 using ErrorFigures = std::array<double, kErrorFigureCount>;
