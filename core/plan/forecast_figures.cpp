@@ -13,6 +13,14 @@
 namespace awan {
 namespace {
 
+// What is deeper or coarser than this looks alike: figures beyond what was measured would only run away.
+constexpr double kMostDepth = 300, kMostCellDepth = 60;
+
+bool has_detail(const Scene& scene) {
+    return scene->detail && scene->detail->amount > 0 &&
+           scene->effects[static_cast<int>(Effect::kDetail)] != Switch::kOff;
+}
+
 double longest_side(const Survey& survey) {
     const glm::dvec3 size = survey.bounds.max - survey.bounds.min;
     return std::max({size.x, size.y, size.z, 1e-12});
@@ -111,8 +119,9 @@ ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& s
         coarseness = std::clamp(std::log2(std::max(cell, 1e-12) / mean_s(survey)), -4.0, 4.0);
     }
     const double into_sun = std::max(survey.sun_cosine, 0.0), backlit = into_sun * into_sun;
-    const double thin = std::log(depth / (1 + depth)), thick = std::log1p(depth);
-    const double cells = std::log1p(cell_depth), forward = std::abs(g);
+    const double thin = std::log(depth / (1 + depth)),
+                 thick = std::log1p(std::min(depth, kMostDepth));
+    const double cells = std::log1p(std::min(cell_depth, kMostCellDepth)), forward = std::abs(g);
     return {1,
             thin,
             thick,
@@ -130,7 +139,11 @@ ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& s
             thick * backlit,
             thick * thick,
             cells * cells,
-            thin * thin};
+            thin * thin,
+            has_detail(scene) ? scene->detail->amount : 0,
+            survey.ground.light / (1 + survey.ground.light),
+            -std::expm1(-survey.haze.depth_to_clouds),
+            survey.islands.list.empty() ? 0.0 : 1.0};
 }
 
 TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& survey,
@@ -138,18 +151,28 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
     const double pixels = static_cast<double>(scene->image.width) * scene->image.height;
     const double covered = pixels * survey.covered;
     const auto particles = static_cast<double>(survey.particles);
-    TimeFigures figures{1,      covered, particles, pixels * survey.particles_per_pixel,
-                        pixels, 0,       0,         0};
+    TimeFigures figures{1, covered, particles, pixels * survey.particles_per_pixel, pixels, 0, 0, 0,
+                        0, 0,       0};
+    if (has_detail(scene)) {
+        // As long a way as the cloud's mean side, in steps of a fifth of a bump (core/draw/march.cpp).
+        const glm::dvec3 size = survey.bounds.max - survey.bounds.min;
+        const double way = std::cbrt(std::max(size.x * size.y * size.z, 0.0));
+        const double step = 0.2 * scene->detail->size * survey.detail.radius;
+        figures[8] = covered * std::min(way / std::max(step, 1e-12), 2048.0);
+        figures[10] = 1;
+    }
+    if (scene->haze && scene->haze->extinction > 0) figures[9] = pixels;
     if (rung.method == Method::kMarch) {
         const TransportSettings settings = transport_settings(rung);
         const bool one = survey.islands.list.empty();
         const IslandWork islands = one ? IslandWork{} : island_work(settings, survey);
         const double cells =
             one ? cells_in(survey.bounds.max - survey.bounds.min, rung.cells) : islands.cells;
-        const double bands = (scene->sun.intensity > 0 ? 1 : 0) + (scene->sky.none ? 0
-                                                                   : scene->sky.physical
-                                                                       ? 3  // a colour channel each
-                                                                       : 2);
+        double bands = (scene->sun.intensity > 0 ? 1 : 0) + (scene->sky.none ? 0
+                                                             : scene->sky.physical
+                                                                 ? 3  // a colour channel each
+                                                                 : 2);
+        if (survey.ground.light > 0) bands += 2;  // from the ground, and back once more
         const double harmonics = scene->medium.g == 0 ? 0.5 : 1;  // of the cost of 16
         // Sweeps that the solve takes: few in thin matter, three times as many at depth 30.
         const double sweeps = 1 + 0.7 * std::log1p(std::min(survey.optical_depth_sun, 1e3));

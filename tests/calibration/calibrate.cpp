@@ -53,6 +53,8 @@ struct Reference {
 Reference reference_of(const Scene& scene, const Planned& planned, const Options& options) {
     Reference reference;
     TruthOptions truth;
+    truth.aerial_perspective = planned.plan.on(Effect::kAerialPerspective);
+    truth.light_shafts = planned.plan.on(Effect::kLightShafts);
     truth.threads = options.threads;
     truth.samples = options.noise < 1 ? 16 : 2;
     for (int round = 0; round < (options.noise < 1 ? 3 : 1); ++round) {
@@ -77,7 +79,10 @@ void measure(const Options& options, int index, Device& device, std::FILE* out) 
     const auto numbered =
         calibration::numbered_scene(options.set, index, options.width, options.height);
     const Scene scene = must(validate(numbered.draft));
-    const Planned planned = must(plan_scene(scene, options.threads, {}));
+    // As the truth sees it: with its detail.
+    SceneDraft named = numbered.draft;
+    named.accuracy.rung = "truth";
+    const Planned planned = must(plan_scene(must(validate(named)), options.threads, {}));
     const Reference reference = reference_of(scene, planned, options);
     for (const Rung& rung : ladder()) {
         if (rung.method == Method::kPaths) continue;
@@ -139,7 +144,8 @@ int main(int argc, char** argv) {
     app.add_option("--width", options.width);
     app.add_option("--height", options.height);
     app.add_option("--threads", options.threads);
-    app.add_option("--noise", options.noise, "of a pixel of the truth that is wanted; 1 and more: only times count");
+    app.add_option("--noise", options.noise,
+                   "of a pixel of the truth that is wanted; 1 and more: only times count");
     app.add_option("--seconds", options.seconds, "that a truth may take");
     app.add_option("--runs", options.runs);
     app.add_option("-o,--output", options.output);

@@ -111,6 +111,26 @@ void place_lights(Dice& dice, SceneDraft& draft) {
     draft.sky.none = dice.pick(4) == 0;
 }
 
+// What sets named "effects..." have beside the others: daylight, ground, haze and detail.
+void add_effects(Dice& dice, SceneDraft& draft, const Bounds& bounds, double mean_radius) {
+    const double height = bounds.max.y - bounds.min.y + mean_radius;
+    if (dice.pick(3) > 0) {
+        draft.sky.none = false;
+        draft.sky.physical = true;
+        draft.sky.intensity = kPhysicalSkyIntensity;
+        draft.sky.turbidity = dice.between(2, 6);
+        draft.sun.elevation = dice.between(2, 80);
+    }
+    if (dice.pick(2) == 0) draft.sun.auto_color = draft.sun.elevation > 1;
+    if (dice.pick(5) < 2)
+        draft.ground =
+            Ground{bounds.min.y - height * dice.between(.2, 2), glm::dvec3(dice.between(.05, .8))};
+    if (dice.pick(2) == 0) draft.detail = Detail{dice.between(.3, 1), dice.between(.8, 2.5)};
+    if (dice.pick(4) == 0)
+        draft.haze = Haze{dice.log_between(.002, .1) / height, bounds.min.y - height,
+                          height * dice.between(.5, 3), glm::dvec3(1), dice.between(0, .8)};
+}
+
 bool place_camera(Dice& dice, SceneDraft& draft, const Bounds& bounds) {
     const glm::dvec3 middle = 0.5 * (bounds.min + bounds.max), size = bounds.max - bounds.min;
     const int kind = dice.pick(8);
@@ -158,8 +178,11 @@ NumberedScene numbered_scene(const std::string& set, int index, int width, int h
     draft.density = 1;
     const Planned first = planned(draft);
     if (place_camera(dice, draft, first.survey.bounds)) scene.kind += " inside";
+    const bool effects = set.rfind("effects", 0) == 0;
+    if (effects)
+        add_effects(dice, draft, first.survey.bounds, std::max(first.survey.detail.radius, 1e-3));
     // The depth that is wanted, from some side.
-    const double depth = dice.log_between(.02, 100);
+    const double depth = effects ? dice.log_between(.1, 1000) : dice.log_between(.02, 100);
     const Survey& survey = first.survey;
     const double at_one = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
     draft.density = std::clamp(depth / at_one, 1e-6, 1e5);
