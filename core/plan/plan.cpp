@@ -11,7 +11,8 @@ namespace awan {
 namespace {
 
 constexpr double kPatience_ms = 20e3;  // longer paths than these are not chosen, only taken by name
-constexpr double kTruthNoise = 0.05;   // of a pixel, when rung truth is asked for by name
+constexpr double kKnee = 2.5;
+constexpr double kTruthNoise = 0.05;  // of a pixel, when rung truth is asked for by name
 
 // Forward-scattered light travels with the light pass of self_shadow: one does not run without the
 // other.
@@ -89,6 +90,17 @@ Choice cheapest_within(double error, const std::vector<RungForecast>& candidates
     if (patient)
         return {*cheapest, "the cheapest with a predicted error of at most " + percent(error)};
     std::string reason = "none is predicted to stay under " + percent(error);
+    if (!cheapest && error >= kDefaultError) {
+        // No more than a picture at all was asked for: not ten times the time for a little less of a large error.
+        const RungForecast* knee = best;
+        for (const RungForecast& candidate : candidates)
+            if (candidate.rung->method != Method::kPaths &&
+                candidate.error <= kKnee * best->error && candidate.time_ms < knee->time_ms)
+                knee = &candidate;
+        if (knee != best)
+            return {*knee, reason + "; this is the cheapest within 2.5 times of the closest, " +
+                               best->rung->name};
+    }
     if (cheapest)
         reason += " but truth, which would take " + milliseconds(cheapest->time_ms) +
                   ": ask for it by name";

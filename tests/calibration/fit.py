@@ -10,7 +10,7 @@ import math
 import sys
 
 RIDGE = 2.0  # pull of coefficients towards 0, in rows
-QUANTILE = 0.98  # share of the fitted scenes that must stay under the forecast
+QUANTILE = 0.95  # share of the fitted scenes that must stay under the forecast
 TIME_QUANTILE = 0.7  # share of the timed renders that must take at most their forecast
 FLOOR = 0.003  # smallest error that the references resolve
 
@@ -98,7 +98,8 @@ def error_model(rows):
         kept.append(figures(row, "e_"))
         # Where the noise hides the error, it is taken as large as half of what would have been seen.
         targets.append(math.log(max(error, 0.5 * noise, FLOOR)))
-    weights = [1.0] * len(kept)
+    # What the noise hides says little.
+    weights = [1 / (1 + 4 * (float(r["error_noise"]) / math.exp(t)) ** 2) for r, t in zip(rows, targets)]
     coefficients = ridge(kept, targets, weights)
     residuals = [t - sum(c * f for c, f in zip(coefficients, r)) for r, t in zip(kept, targets)]
     coefficients[0] += quantile(residuals, QUANTILE)
