@@ -67,12 +67,15 @@ double scatter_threshold(double g) {
     return kScatterDepthIsotropic + t * (kScatterDepthForward - kScatterDepthIsotropic);
 }
 
+constexpr int kSkySteps =
+    12;  // a figure to a percent; the finest would take longer than all else of a plan
+
 // What shines on the cloud.
 struct Lights {
     Outside outside;
-    bool sun, sky;
-    double sun_light, sky_light;  // mean radiance from all sides, luminance
-    double depth;                 // largest optical depth of the cloud towards them
+    bool sun = false, sky = false;
+    double sun_light = 0, sky_light = 0;  // mean radiance from all sides, luminance
+    double depth = 0;                     // largest optical depth of the cloud towards them
 };
 
 Lights lights_of(const Scene& scene, const Survey& survey) {
@@ -81,9 +84,8 @@ Lights lights_of(const Scene& scene, const Survey& survey) {
     lights.sun_light = luminance(lights.outside.sun) / (4 * std::numbers::pi);
     lights.sun = lights.outside.sun != glm::dvec3(0);
     lights.sky = lights.outside.sky.shines;
-    lights.sky_light = 0;
     if (lights.sky) {
-        const SkyMeans means = means_of(lights.outside.sky);
+        const SkyMeans means = means_of(lights.outside.sky, kSkySteps);
         lights.sky_light = 0.5 * luminance(means.above + means.below);
     }
     lights.depth = std::max(lights.sun ? survey.optical_depth_sun : 0.0,
@@ -146,23 +148,7 @@ Criterion detail(const Scene& scene, const Survey& survey) {
                  left_out);
 }
 
-}  // namespace
-
-double detail_pixels(const Scene& scene, const Survey& survey) {
-    const Detail asked = scene->detail.value_or(Detail{});
-    const glm::dvec3 nearest = glm::clamp(survey.view.eye, survey.bounds.min, survey.bounds.max);
-    const double distance = glm::length(nearest - survey.view.eye);
-    const double bump = asked.size * survey.detail.radius;
-    if (!(distance > bump)) return std::numeric_limits<double>::infinity();
-    return bump / distance * scene->image.height / (2 * survey.view.tan_half_fov);
-}
-
-Criterion criterion(Effect effect, const Scene& scene, const Survey& survey) {
-    if (effect == Effect::kAerialPerspective || effect == Effect::kLightShafts)
-        return haze(effect, scene, survey);  // seen with and without clouds
-    if (survey.particles == 0 || !(survey.total_mass > 0))
-        return {false, 0, "there is no matter in the scene"};
-    const Lights lights = lights_of(scene, survey);
+Criterion of_matter(Effect effect, const Scene& scene, const Survey& survey, const Lights& lights) {
     const bool lit = lights.sun || lights.sky;
     switch (effect) {
         case Effect::kSelfShadow:
@@ -196,6 +182,38 @@ Criterion criterion(Effect effect, const Scene& scene, const Survey& survey) {
         default:
             return {false, 0, "textures are not in this version"};
     }
+}
+
+}  // namespace
+
+double detail_pixels(const Scene& scene, const Survey& survey) {
+    const Detail asked = scene->detail.value_or(Detail{});
+    const glm::dvec3 nearest = glm::clamp(survey.view.eye, survey.bounds.min, survey.bounds.max);
+    const double distance = glm::length(nearest - survey.view.eye);
+    const double bump = asked.size * survey.detail.radius;
+    if (!(distance > bump)) return std::numeric_limits<double>::infinity();
+    return bump / distance * scene->image.height / (2 * survey.view.tan_half_fov);
+}
+
+std::array<Criterion, kEffectCount> criteria(const Scene& scene, const Survey& survey) {
+    std::array<Criterion, kEffectCount> all;
+    const bool empty = survey.particles == 0 || !(survey.total_mass > 0);
+    const Lights lights = empty ? Lights{} : lights_of(scene, survey);
+    for (int i = 0; i < kEffectCount; ++i) {
+        const auto effect = static_cast<Effect>(i);
+        Criterion& one = all[static_cast<std::size_t>(i)];
+        if (effect == Effect::kAerialPerspective || effect == Effect::kLightShafts)
+            one = haze(effect, scene, survey);  // seen with and without clouds
+        else if (empty)
+            one = {false, 0, "there is no matter in the scene"};
+        else
+            one = of_matter(effect, scene, survey, lights);
+    }
+    return all;
+}
+
+Criterion criterion(Effect effect, const Scene& scene, const Survey& survey) {
+    return criteria(scene, survey)[static_cast<std::size_t>(effect)];
 }
 
 }  // namespace awan
