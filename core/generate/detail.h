@@ -40,7 +40,7 @@ struct DetailFigures {
     glm::dvec3 origin{0};   // anywhere in the matter
 };
 
-// amount: 0..1, of edge / extinction; size: of bumps / radius. keep is 1. About 40 ms of one core.
+// amount: 0..1, of edge / extinction; size: of bumps / radius. keep is 1. About 200 ms of one core.
 DetailField make_detail(const DetailFigures& figures, double amount, double size,
                         std::uint64_t seed, int threads);
 

@@ -63,12 +63,15 @@ double scatter_threshold(double g) {
     return kScatterDepthIsotropic + t * (kScatterDepthForward - kScatterDepthIsotropic);
 }
 
+constexpr int kSkySteps =
+    12;  // a figure to a percent; the finest would take longer than all else of a plan
+
 // What shines on the cloud.
 struct Lights {
     Outside outside;
-    bool sun, sky;
-    double sun_light, sky_light;  // mean radiance from all sides, luminance
-    double depth;                 // largest optical depth of the cloud towards them
+    bool sun = false, sky = false;
+    double sun_light = 0, sky_light = 0;  // mean radiance from all sides, luminance
+    double depth = 0;                     // largest optical depth of the cloud towards them
 
     double all() const { return std::max(sun_light + sky_light, 1e-300); }
 };
@@ -79,9 +82,8 @@ Lights lights_of(const Scene& scene, const Survey& survey) {
     lights.sun_light = luminance(lights.outside.sun) / (4 * std::numbers::pi);
     lights.sun = lights.outside.sun != glm::dvec3(0);
     lights.sky = lights.outside.sky.shines;
-    lights.sky_light = 0;
     if (lights.sky) {
-        const SkyMeans means = means_of(lights.outside.sky);
+        const SkyMeans means = means_of(lights.outside.sky, kSkySteps);
         lights.sky_light = 0.5 * luminance(means.above + means.below);
     }
     lights.depth = std::max(lights.sun ? survey.optical_depth_sun : 0.0,
@@ -142,14 +144,13 @@ double phase_in_view(const Haze& haze, const Lights& lights, const View& view) {
     return (1 - haze.g * haze.g) / (base * std::sqrt(base));
 }
 
-Criterion haze(Effect effect, const Scene& scene, const Survey& survey) {
+Criterion haze(Effect effect, const Scene& scene, const Survey& survey, const Lights& lights) {
     if (!scene->haze || !(scene->haze->extinction > 0)) return {false, 0, "the scene has no haze"};
     if (effect == Effect::kLightShafts)
         return above("the clouds' shadows in the haze, over a typical pixel,", survey.haze.shaded,
                      kShare, 0.4 * survey.haze.shaded);  // of the whole picture; measured
     // Thin haze shows where it glows: towards the sun, over a typical pixel.
     const double depth = std::max(survey.haze.depth_to_clouds, survey.haze.depth_behind);
-    const Lights lights = lights_of(scene, survey);
     const double glow =
         luminance(scene->haze->albedo) *
         (lights.sun_light * phase_in_view(*scene->haze, lights, survey.view) + lights.sky_light) /
@@ -167,23 +168,7 @@ Criterion detail(const Scene& scene, const Survey& survey) {
                  left_out);
 }
 
-}  // namespace
-
-double detail_pixels(const Scene& scene, const Survey& survey) {
-    const Detail asked = scene->detail.value_or(Detail{});
-    const glm::dvec3 nearest = glm::clamp(survey.view.eye, survey.bounds.min, survey.bounds.max);
-    const double distance = glm::length(nearest - survey.view.eye);
-    const double bump = asked.size * survey.detail.radius;
-    if (!(distance > bump)) return std::numeric_limits<double>::infinity();
-    return bump / distance * scene->image.height / (2 * survey.view.tan_half_fov);
-}
-
-Criterion criterion(Effect effect, const Scene& scene, const Survey& survey) {
-    if (effect == Effect::kAerialPerspective || effect == Effect::kLightShafts)
-        return haze(effect, scene, survey);  // seen with and without clouds
-    if (survey.particles == 0 || !(survey.total_mass > 0))
-        return {false, 0, "there is no matter in the scene"};
-    const Lights lights = lights_of(scene, survey);
+Criterion of_matter(Effect effect, const Scene& scene, const Survey& survey, const Lights& lights) {
     const bool lit = lights.sun || lights.sky;
     switch (effect) {
         case Effect::kSelfShadow:
@@ -217,6 +202,38 @@ Criterion criterion(Effect effect, const Scene& scene, const Survey& survey) {
         default:
             return {false, 0, "textures are not in this version"};
     }
+}
+
+}  // namespace
+
+double detail_pixels(const Scene& scene, const Survey& survey) {
+    const Detail asked = scene->detail.value_or(Detail{});
+    const glm::dvec3 nearest = glm::clamp(survey.view.eye, survey.bounds.min, survey.bounds.max);
+    const double distance = glm::length(nearest - survey.view.eye);
+    const double bump = asked.size * survey.detail.radius;
+    if (!(distance > bump)) return std::numeric_limits<double>::infinity();
+    return bump / distance * scene->image.height / (2 * survey.view.tan_half_fov);
+}
+
+std::array<Criterion, kEffectCount> criteria(const Scene& scene, const Survey& survey) {
+    std::array<Criterion, kEffectCount> all;
+    const bool empty = survey.particles == 0 || !(survey.total_mass > 0);
+    const Lights lights = lights_of(scene, survey);
+    for (int i = 0; i < kEffectCount; ++i) {
+        const auto effect = static_cast<Effect>(i);
+        Criterion& one = all[static_cast<std::size_t>(i)];
+        if (effect == Effect::kAerialPerspective || effect == Effect::kLightShafts)
+            one = haze(effect, scene, survey, lights);  // seen with and without clouds
+        else if (empty)
+            one = {false, 0, "there is no matter in the scene"};
+        else
+            one = of_matter(effect, scene, survey, lights);
+    }
+    return all;
+}
+
+Criterion criterion(Effect effect, const Scene& scene, const Survey& survey) {
+    return criteria(scene, survey)[static_cast<std::size_t>(effect)];
 }
 
 }  // namespace awan

@@ -1,6 +1,7 @@
 // Whether a scene calls for an effect, by figures of its survey: the only place with the thresholds.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "core/scene/scene.h"
@@ -17,7 +18,9 @@ struct Criterion {
     std::string reason;  // one phrase, with figure and threshold where there is one
 };
 
-// Precondition: not Effect::kTexture, which is not in this version.
+// In the order of Effect.
+std::array<Criterion, kEffectCount> criteria(const Scene& scene, const Survey& survey);
+// One of them.
 Criterion criterion(Effect effect, const Scene& scene, const Survey& survey);
 
 inline constexpr double kLeastBump =

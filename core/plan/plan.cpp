@@ -203,6 +203,7 @@ void fit_effects_to_rung(Plan& plan) {
 
 Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSpeed& speed) {
     Plan plan;
+    const std::array<Criterion, kEffectCount> own_of = criteria(scene, survey);
     for (int i = 0; i < kEffectCount; ++i) {
         const auto effect = static_cast<Effect>(i);
         EffectDecision& decision = plan.effects[static_cast<std::size_t>(i)];
@@ -212,7 +213,7 @@ Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSp
             decision.reason = "textures are not in this version";
             continue;
         }
-        const Criterion own = criterion(effect, scene, survey);
+        const Criterion& own = own_of[static_cast<std::size_t>(i)];
         decision.left_out = own.left_out;
         switch (scene->effects[i]) {
             case Switch::kAuto:

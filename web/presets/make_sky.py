@@ -1,99 +1,109 @@
 #!/usr/bin/env python3
-"""Writes sky-of-100.json: a hundred clouds of 200,000 particles, from the layouts of humilis-field and congestus.
+"""Writes sky-of-100.json: a field of a hundred cumuli of 200,000 particles, seen from among their tops.
 
     web/presets/make_sky.py > web/presets/sky-of-100.json
 
-Bases stand at one height; many clouds are small and few are large; no two overlap much. The same bytes on every run.
+Bases stand at one height; no two overlap. A cloud is a floor of turrets with
+others piled on it, smaller the higher they stand. The same bytes on every run.
 """
 import json
 import math
-import pathlib
 import random
 
 CLOUDS = 100
 PARTICLES = 200_000
-HERE = pathlib.Path(__file__).parent
+EYE = [0, 3.4, 27]
+GROUND = -8
 
 
-def layouts(name):
-    scene = json.loads((HERE / f"{name}.json").read_text())
-    return [cloud["cubes"] for cloud in scene.get("clouds", [scene])]
+def turrets(dice, radius, height):
+    """Cubes of a cloud of this half width and height, its base at y = 0."""
+    wide, deep = radius, radius * dice.uniform(0.55, 0.9)
+    cubes = []
 
+    def add(x, z, foot, size, tall):
+        cubes.append({"size": [size, tall, size], "center": [x, foot + tall / 2, z]})
 
-def grown(cube):
-    """Few turrets stand for many: larger, and lower to meet what the smaller ones would have joined them to."""
-    x, y, z = cube["center"]
-    return {"size": [1.4 * v for v in cube["size"]], "center": [x, 0.85 * y, z]}
-
-
-def touch(a, b):
-    return all(abs(p - q) < 0.6 * (s + t) for p, q, s, t in zip(a["center"], b["center"], a["size"], b["size"]))
-
-
-def within(a, b):
-    return math.dist(a["center"], b["center"]) < 0.3 * max(max(a["size"]), b["size"][1])
-
-
-def spread_out(cubes, count):
-    """The largest cubes that stand neither within each other nor apart, once each is grown."""
-    flat = min(cubes[:1], key=lambda c: c["center"][1])
-    rest = [grown(c) for c in sorted(cubes, key=lambda c: -math.prod(c["size"]))[:12 * count] if c is not flat]
-    kept = [flat]
-    while len(kept) < count:
-        free = [c for c in rest if any(touch(c, k) for k in kept) and all(not within(c, k) for k in kept)]
-        if not free:
-            break
-        kept.append(free[0])
-    return kept
-
-
-def wide(cubes):
-    return max(max(abs(c["center"][a]) + c["size"][a] / 2 for c in cubes) for a in (0, 2))
+    ring = 11
+    for i in range(ring):
+        turn = 2 * math.pi * (i + dice.uniform(-0.3, 0.3)) / ring
+        out, size = dice.uniform(0.5, 0.78), radius * dice.uniform(0.32, 0.52)
+        add(wide * out * math.cos(turn), deep * out * math.sin(turn), 0, size, 0.5 * size)
+    add(0, 0, 0, 0.9 * radius, 0.4 * radius)
+    # Piles, the first in the middle and the highest.
+    for pile in range(dice.randrange(2, 5)):
+        turn, out = dice.uniform(0, 2 * math.pi), dice.uniform(0.3, 0.55) if pile else 0.15
+        x, z = wide * out * math.cos(turn), deep * out * math.sin(turn)
+        top = height * (dice.uniform(0.35, 0.85) if pile else 1)
+        foot, size = 0.0, radius * dice.uniform(0.45, 0.62)
+        for _ in range(5):
+            if foot + 0.8 * size > top + 0.2 * radius:
+                break
+            for _ in range(3):
+                aside = 0.42 * size
+                add(x + aside * dice.uniform(-1, 1), z + aside * dice.uniform(-1, 1), foot + 0.12 * size * dice.random(),
+                    size * dice.uniform(0.6, 1), 0.75 * size)
+            foot += 0.5 * size
+            size *= dice.uniform(0.72, 0.92)
+    return cubes
 
 
 def rounded(cubes, particles):
     """With `particles` shared by volume."""
     volumes = [math.prod(c["size"]) ** 0.8 for c in cubes]
     return [{"particles": max(4, round(particles * volume / sum(volumes))), "size": [round(v, 2) for v in c["size"]],
-             "center": [round(v, 2) for v in c["center"]],
-             "radius": round(0.5 * min(c["size"]) if c is not cubes[0] else 0.9 * c["size"][1], 2)}
+             "center": [round(v, 2) for v in c["center"]], "radius": round(0.3 * c["size"][1], 3)}
             for c, volume in zip(cubes, volumes)]
+
+
+def rows(dice):
+    """Distance, depth and cells (middle, width) of rows that fill the view: clouds in cells of their own stand apart, so
+    each can have light of its own (core/survey/islands.h)."""
+    found, near = [], 13
+    while near < 130:
+        depth = 8.5 + 0.065 * near
+        found.append((near + depth / 2, depth))
+        near += depth
+    wide = [1.36 * far + 6 for far, _ in found]
+    counts = [max(1, round(CLOUDS * w / sum(wide))) for w in wide]
+    counts[-1] += CLOUDS - sum(counts)
+    for (far, depth), width, count in zip(found, wide, counts):
+        shares = [dice.uniform(0.55, 1.6) for _ in range(count)]
+        left, cells = -width / 2, []
+        for share in shares:
+            own = width * share / sum(shares)
+            cells.append((left + own / 2, own))
+            left += own
+        yield far, depth, cells
 
 
 def main():
     dice = random.Random(100)
-    humilis = sorted({json.dumps(c) for c in layouts("humilis-field")})
-    small = [spread_out(json.loads(c), 5) for c in humilis]
-    towers = spread_out(layouts("congestus")[0], 20)
-    clouds, places = [], []
-    sizes = sorted((dice.paretovariate(1.6) for _ in range(CLOUDS)), reverse=True)
-    for index, size in enumerate(sizes):
-        tower = index % 14 == 4
-        cubes = towers if tower else small[dice.randrange(len(small))]
-        # Half the width of the cloud in the scene.
-        radius = (1.7 if tower else 1.3) * min(size, 4.5) ** 0.7
-        for _ in range(10_000):
-            z = dice.uniform(-110, 6)
-            x = dice.uniform(-1, 1) * (16 + 0.8 * (14 - z))
-            if all(math.hypot(x - u, z - v) > 1.2 * (radius + r) for u, v, r in places):
-                break
-        places.append((x, z, radius))
-        clouds.append((cubes, radius / wide(cubes), x, z, radius))
-    weight = sum(radius ** 1.5 for *_, radius in clouds)
-    document = {"clouds": [], "density": 0.3, "seed": 100,
-                "medium": {"g": 0.6, "albedo": 0.999},
-                "sky": {"zenith": [0.09, 0.25, 0.72], "horizon": [0.44, 0.67, 0.95], "intensity": 1.7},
-                "sun": {"elevation": 34, "azimuth": 110, "intensity": 40},
-                "camera": {"eye": [0, -2.2, 22], "target": [0, 5, -14], "fov": 40},
-                "image": {"width": 1200, "height": 675, "exposure": -1.2}}
-    for number, (cubes, scale, x, z, radius) in enumerate(clouds):
+    clouds = []
+    for far, depth, cells in rows(dice):
+        for middle, width in cells:
+            radius = min(0.4 * width * dice.uniform(0.6, 1), 0.38 * depth, 4.8)
+            x = middle + (width / 2 - 1.25 * radius) * dice.uniform(-1, 1)
+            z = EYE[2] - far + (depth / 2 - 1.25 * radius) * dice.uniform(-1, 1)
+            height = radius * (dice.uniform(1, 1.4) if dice.random() < 0.2 else dice.uniform(0.4, 0.8))
+            clouds.append((turrets(dice, radius, height), x, z, radius))
+    weight = sum(radius ** 1.2 for *_, radius in clouds)
+    document = {"clouds": [], "density": 4, "seed": 100,
+                "medium": {"g": 0.8, "albedo": 0.9995},
+                "sun": {"elevation": 30, "azimuth": 96, "color": "auto"},
+                "sky": {"model": "physical", "turbidity": 2.6},
+                "ground": {"height": GROUND, "albedo": [0.06, 0.085, 0.045]},
+                "haze": {"extinction": 0.006, "height": GROUND, "scale_height": 14},
+                "detail": {"amount": 0.7, "size": 1.6},
+                "camera": {"eye": EYE, "target": [0, 3.0, -10], "fov": 36},
+                "image": {"width": 1200, "height": 675}}
+    for number, (cubes, x, z, radius) in enumerate(clouds):
         document["clouds"].append({
-            "model": "cubes", "cubes": rounded(cubes, PARTICLES * radius ** 1.5 / weight),
-            "translate": [round(x, 2), 0, round(z, 2)], "scale": round(scale, 3),
-            "rotate_y": dice.randrange(360), "seed": 1000 + number})
+            "model": "cubes", "cubes": rounded(cubes, PARTICLES * radius ** 1.2 / weight),
+            "translate": [round(x, 2), 0, round(z, 2)], "rotate_y": dice.randrange(360), "seed": 1000 + number})
     # The rounding of particles goes to the largest cube.
     rest = PARTICLES - sum(c["particles"] for cloud in document["clouds"] for c in cloud["cubes"])
-    document["clouds"][0]["cubes"][0]["particles"] += rest
+    document["clouds"][0]["cubes"][9]["particles"] += rest
     lines = ",\n".join("  " + json.dumps(c, separators=(",", ":")) for c in document.pop("clouds"))
     others = ",\n".join(f' "{k}": {json.dumps(v)}' for k, v in document.items())
     print(f'{{"clouds": [\n{lines}\n ],\n{others}\n}}')
