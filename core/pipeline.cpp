@@ -33,9 +33,10 @@ Status render_splats(const Scene& scene, const Planned& planned, const Tools& to
         return light(scene, planned.particles, planned.plan, *tools.device, deadline);
     });
     if (!lighting.ok()) return lighting.error();
+    rendered.times.effects.add(lighting->took);
     auto image = timed(rendered.times.draw_ms, [&] {
         return draw(scene, planned.particles, planned.survey.view, planned.plan, *lighting,
-                    *tools.device, deadline);
+                    *tools.device, deadline, &rendered.times.effects);
     });
     if (!image.ok()) return image.error();
     rendered.image = *std::move(image);
@@ -68,12 +69,13 @@ Status render_march(const Scene& scene, const Planned& planned, const Tools& too
         return kept_or_solved(scene, planned, tools, deadline, rendered.light_was_kept);
     });
     if (!light.ok()) return light.error();
+    if (!rendered.light_was_kept) rendered.times.effects.add((*light)->took);
     auto image = timed(rendered.times.draw_ms, [&] {
         MarchSettings settings;
         settings.aerial_perspective = planned.plan.on(Effect::kAerialPerspective);
         settings.light_shafts = planned.plan.on(Effect::kLightShafts);
         return march(scene, planned.particles, planned.survey.view, **light, settings,
-                     tools.threads, deadline);
+                     tools.threads, deadline, &rendered.times.effects);
     });
     if (!image.ok()) return image.error();
     rendered.image = *std::move(image);
@@ -99,8 +101,8 @@ Status render_paths(const Scene& scene, const Planned& planned, const Tools& too
 
 }  // namespace
 
-Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& deadline,
-                           const MachineSpeed& speed) {
+Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadline,
+                          const MachineSpeed& speed) {
     Planned planned;
     auto particles =
         timed(planned.times.generate_ms, [&] { return generate(scene, threads, deadline); });
@@ -113,8 +115,18 @@ Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& dead
     planned.plan = plan(scene, planned.survey, threads, speed);
     if (planned.plan.predicted.rung->method == Method::kMarch)
         planned.plan.transport.islands = island_cells(planned.plan.transport, planned.survey);
-    if (planned.plan.on(Effect::kDetail))
-        planned.particles.detail = detail_of(scene, planned.survey, threads);
+    return planned;
+}
+
+Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& deadline,
+                           const MachineSpeed& speed) {
+    auto planned = plan_only(scene, threads, deadline, speed);
+    if (planned.ok() && planned->plan.on(Effect::kDetail)) {
+        EffectTimes& effects = planned->times.effects;
+        planned->particles.detail = timed_for(
+            effects, Effect::kDetail, [&] { return detail_of(scene, planned->survey, threads); });
+        planned->times.survey_ms += effects.of(Effect::kDetail);
+    }
     return planned;
 }
 
@@ -135,6 +147,8 @@ Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools
             break;
     }
     if (failed) return *failed;
+    for (const EffectDecision& decision : planned.plan.effects)
+        if (!decision.on) rendered.times.effects.of(decision.effect) = 0;
     rendered.survey = std::move(planned.survey);
     rendered.survey.volume.extinction = {};
     rendered.plan = std::move(planned.plan);

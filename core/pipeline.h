@@ -5,6 +5,7 @@
 
 #include "core/deadline.h"
 #include "core/draw/image.h"
+#include "core/effect_times.h"
 #include "core/generate/particle_set.h"
 #include "core/gl/device.h"
 #include "core/light/light_cache.h"
@@ -16,6 +17,7 @@ namespace awan {
 
 struct StageTimes {
     double generate_ms = 0, survey_ms = 0, light_ms = 0, draw_ms = 0;
+    EffectTimes effects;  // parts of the above; of effects that are on
 };
 
 struct Planned {
@@ -44,6 +46,10 @@ struct Tools {
 };
 
 // Generates, surveys and plans. threads >= 1.
+Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadline,
+                          const MachineSpeed& speed = {});
+
+// The same, ready for render_planned: with the particles' detail where it is on.
 Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& deadline,
                            const MachineSpeed& speed = {});
 

@@ -112,7 +112,7 @@ int run_particles(const ParticlesCommand& command) {
 int run_plan(const PlanCommand& command) {
     auto scene = read_valid_scene(command.scene);
     if (!scene) return report_error(command.scene, scene.error());
-    auto planned = plan_scene(*scene, command.threads, Deadline{}, measure_speed());
+    auto planned = plan_only(*scene, command.threads, Deadline{}, measure_speed());
     if (!planned) return report_error(command.scene, planned.error());
     if (const Status failed =
             write_output(command.output, plan_to_json(planned->survey, planned->plan)))

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <span>
+#include <vector>
 
 #include "core/formats/awn.h"
 #include "core/formats/image_file.h"
@@ -134,7 +135,7 @@ Response answer_plan(Service::State& state, const Request& request, const Scene&
         return not_modified(etag, true);
     const WorkBudget::Lease lease = state.budget.take(work_bytes(*scene, false));
     if (!lease) return busy(state, request, "other requests use the memory this one needs");
-    auto planned = plan_scene(scene, state.options.threads, request.deadline, state.options.speed);
+    auto planned = plan_only(scene, state.options.threads, request.deadline, state.options.speed);
     if (!planned) return fail(planned.error(), request);
     state.metrics.stage_done("generate", planned->times.generate_ms);
     state.metrics.stage_done("survey", planned->times.survey_ms);
@@ -151,13 +152,19 @@ struct Timing {
     double encode_ms = 0;
 };
 
+// The stages, in order, then those effects whose share of them can be told apart.
 std::string report(Metrics& metrics, const Timing& timing) {
-    const std::pair<const char*, double> stages[] = {
+    std::vector<std::pair<const char*, double>> entries = {
         {"queue", timing.queue_ms},          {"generate", timing.stages.generate_ms},
         {"survey", timing.stages.survey_ms}, {"light", timing.stages.light_ms},
         {"draw", timing.stages.draw_ms},     {"encode", timing.encode_ms}};
-    for (const auto& [name, ms] : stages) metrics.stage_done(name, ms);
-    return server_timing(stages);
+    for (const auto& [name, ms] : entries) metrics.stage_done(name, ms);
+    for (int i = 0; i < kEffectCount; ++i) {
+        const auto effect = static_cast<Effect>(i);
+        const double ms = timing.stages.effects.of(effect);
+        if (ms > 0) entries.emplace_back(effect_name(effect), ms);
+    }
+    return server_timing(entries);
 }
 
 std::string effects_on(const Plan& plan) {

@@ -105,7 +105,6 @@ void add_surroundings(std::vector<Row>& rows) {
         draft.image.width = distance < 100 ? 64 : 8;
         rows.push_back({"detail at " + std::to_string(distance), Effect::kDetail, draft});
     }
-    rows.push_back({"detail, not asked for", Effect::kDetail, cloud(0.3)});
 }
 
 std::vector<Row> table() {
@@ -120,28 +119,29 @@ Rendered render_with(const Row& row, Switch to) {
     effect(draft, row.effect) = to;
     draft.accuracy.rung = to == Switch::kOff ? row.without : row.with;
     // Where rungs decide, additive stands for a cloud without either of them.
-    if (row.effect == Effect::kSelfShadow && to == Switch::kOff) draft.accuracy.rung = "harris";
+    if (row.effect == Effect::kSelfShadow) {
+        draft.accuracy.rung = "harris";
+        effect(draft, Effect::kMultipleScattering) = Switch::kOff;  // it travels with the other
+    }
     if (row.effect == Effect::kViewExtinction) draft.accuracy.rung = "harris";
     return test::render(draft, 2);
 }
 
-// rms difference over the pixels that show cloud (all, where the sky is behind), over the mean of a.
+// rms difference over the pixels that show cloud (all, where the sky is behind), over the rms of a: a cloud whose rim is ten
+// times as bright as the rest counts as what it is.
 double difference(const Image& a, const Image& b) {
     double squares = 0, sum = 0, most = 0;
-    std::size_t count = 0;
     for (std::size_t p = 3; p < a.pixels.size(); p += 4) most = std::max(most, double{a.pixels[p]});
     for (std::size_t p = 0; p < a.pixels.size(); p += 4) {
         if (double{a.pixels[p + 3]} < 0.05 * most) continue;
-        ++count;
         for (std::size_t c = 0; c < 3; ++c) {
             const double d = double{a.pixels[p + c]} - double{b.pixels[p + c]};
             squares += d * d;
-            sum += double{a.pixels[p + c]};
+            sum += double{a.pixels[p + c]} * double{a.pixels[p + c]};
         }
     }
     if (!(sum > 0)) return 0;
-    const double n = 3.0 * static_cast<double>(count);
-    return std::sqrt(squares / n) / (sum / n);
+    return std::sqrt(squares / sum);
 }
 
 // Half as much again as the 1% that thresholds stand for: they are rounded, and the pixels few.

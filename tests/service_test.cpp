@@ -170,6 +170,22 @@ TEST_F(ServiceTest, RendersAreDescribedByTheirHeaders) {
     }
 }
 
+// The fake renderer's lights and pictures take none; detail is made before.
+TEST_F(ServiceTest, TimesOfEffectsComeAfterTheStages) {
+    const std::string detailed =
+        R"({"cubes":[{"particles":20,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],"detail":{"amount":0.5},)"
+        R"("effects":{"detail":true},"image":{"width":16,"height":8},"accuracy":{"rung":"transport-16"}})";
+    const Response with = post("/v1/render", detailed);
+    ASSERT_EQ(with.status, 200) << with.body;
+    const std::string timing(with.header("Server-Timing"));
+    EXPECT_NE(timing.find(", detail;dur=", timing.find("encode;dur=")), std::string::npos)
+        << timing;
+    for (const Response& response : {with, post("/v1/render")})
+        EXPECT_EQ(response.header("Server-Timing").find("_"), std::string_view::npos)
+            << "no effect took time that did not run";
+    EXPECT_EQ(post("/v1/render").header("Server-Timing").find("detail"), std::string_view::npos);
+}
+
 TEST_F(ServiceTest, AcceptChoosesTheImageAndElseTheDocument) {
     const std::string exr_scene = R"({"cubes":[],"image":{"width":4,"height":4,"format":"exr"}})";
     const auto type = [&](const std::string& scene, const Headers& headers) {

@@ -23,16 +23,20 @@ export function createFigures(store) {
   function picture({ particles, rung, error, timeMs, effects, timing, roundTripMs }, width, height) {
     if (particles !== null) byId("particles").textContent = Number(particles).toLocaleString("en");
     if (rung !== null) byId("rung").textContent = rung;
-    if (effects !== null) byId("effects").textContent = effects.map(words).join(", ") || "none";
+    // Effects are parts of the stages.
+    const ofEffects = new Map(timing.filter(({ name }) => effects?.includes(name)).map(({ name, ms }) => [name, ms]));
+    const ofStages = timing.filter(({ name }) => !ofEffects.has(name));
+    const effect = (name) => words(name) + (ofEffects.has(name) ? ` (${milliseconds(ofEffects.get(name))})` : "");
+    if (effects !== null) byId("effects").textContent = effects.map(effect).join(", ") || "none";
     byId("pixels").textContent = `${width} × ${height}`;
     byId("total").textContent = milliseconds(roundTripMs);
     byId("error").textContent = error === null ? "–" : percent(Number(error));
     const took = timing.filter(({ name }) => ["generate", "survey", "light", "draw"].includes(name)).reduce((sum, { ms }) => sum + ms, 0);
     byId("time").textContent = timeMs === null ? milliseconds(took) : `${milliseconds(took)} of ${milliseconds(Number(timeMs))}`;
 
-    const inside = timing.reduce((sum, { ms }) => sum + ms, 0);
+    const inside = ofStages.reduce((sum, { ms }) => sum + ms, 0);
     // What the service did not account for: the way there and back.
-    const parts = [...timing, { name: "network", ms: Math.max(0, roundTripMs - inside) }].filter(({ ms }) => ms > 0);
+    const parts = [...ofStages, { name: "network", ms: Math.max(0, roundTripMs - inside) }].filter(({ ms }) => ms > 0);
     byId("timing-bar").replaceChildren(...parts.map(({ name, ms }) => {
       const piece = el("span", { class: `part ${name}` });
       piece.style.flexGrow = String(ms);

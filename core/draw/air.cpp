@@ -18,8 +18,7 @@ PictureRays picture_rays(const View& view, int width, int height) {
             height};
 }
 
-std::optional<Air> make_air(const Scene& scene, const View& view, const SunDepth* shade,
-                            int threads) {
+std::optional<Air> make_air(const Scene& scene, const View& view) {
     if (!scene->haze || !(scene->haze->extinction > 0)) return std::nullopt;
     Air air;
     air.haze = *scene->haze;
@@ -43,9 +42,12 @@ std::optional<Air> make_air(const Scene& scene, const View& view, const SunDepth
     medium.g = air.haze.g;
     medium.phase = PhaseFunction::kHenyeyGreenstein;
     air.phase = {medium, {}};
-    if (shade != nullptr && air.sun != glm::dvec3(0))
-        air.shadows = air_shadows(air.picture, air.haze, air.ground, *shade, threads);
     return air;
+}
+
+void shade_air(const SunDepth& sun, int threads, Air& air) {
+    if (air.sun != glm::dvec3(0))
+        air.shadows = air_shadows(air.picture, air.haze, air.ground, sun, threads);
 }
 
 AirBefore air_before(const Air& air, const HazeRay& ray, double x, double y, double t) {

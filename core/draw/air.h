@@ -29,9 +29,10 @@ struct Air {
 
 PictureRays picture_rays(const View& view, int width, int height);
 
-// None when the scene has no haze. shade: of light_shafts, or null. Radiance of the haze is 0 where the sun is under a ground.
-std::optional<Air> make_air(const Scene& scene, const View& view, const SunDepth* shade,
-                            int threads);
+// None when the scene has no haze. Radiance of the haze is 0 where the sun is under a ground.
+std::optional<Air> make_air(const Scene& scene, const View& view);
+// With the clouds' shadows in it.
+void shade_air(const SunDepth& sun, int threads, Air& air);
 
 // Of the way from the eye to distance t along the ray through pixel coordinates (x, y).
 struct AirBefore {

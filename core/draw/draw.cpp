@@ -70,16 +70,21 @@ void take_region(const gl::Buffer& from, const gl::TileRegion& region, std::vect
 
 Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View& view,
                    const Plan& plan, const Lighting& lighting, Device& device,
-                   const Deadline& deadline) {
+                   const Deadline& deadline, EffectTimes* times) {
+    EffectTimes took;
     Image image{
         scene->image.width, scene->image.height, scene->image.background == Background::kSky, {}};
     image.pixels.resize(4 * image.pixel_count());
     std::optional<Air> air;
     if (plan.on(Effect::kAerialPerspective)) {
-        SunDepth sun;
-        if (scene->haze && plan.on(Effect::kLightShafts))
-            sun = sun_depth(particles, sun_direction(scene->sun), kShadowCells, 1);
-        air = make_air(scene, view, &sun, 1);
+        auto start = Deadline::Clock::now();
+        air = make_air(scene, view);
+        took.of(Effect::kAerialPerspective) = ms_since(start);
+        start = Deadline::Clock::now();
+        if (air && plan.on(Effect::kLightShafts)) {
+            shade_air(sun_depth(particles, sun_direction(scene->sun), kShadowCells, 1), 1, *air);
+            took.of(Effect::kLightShafts) = ms_since(start);
+        }
     }
     const SplatList list =
         make_splats(scene, particles, view, plan, lighting, air ? &*air : nullptr);
@@ -130,10 +135,13 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
         Backdrop behind;
         if (image.opaque)
             behind = make_backdrop(scene, view, image.width, image.height, lighting.ground, 1);
+        const auto start = Deadline::Clock::now();
         put_air_behind(*air, image.opaque ? &behind : nullptr, image);
+        took.of(Effect::kAerialPerspective) += ms_since(start);
     } else if (backdrop) {
         lay_under(image, make_backdrop(scene, view, image.width, image.height, lighting.ground, 1));
     }
+    if (times != nullptr) times->add(took);
     return image;
 }
 

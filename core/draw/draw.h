@@ -2,16 +2,17 @@
 #pragma once
 
 #include "core/draw/image.h"
+#include "core/effect_times.h"
 #include "core/light/light.h"
 
 namespace awan {
 
 // Particles blended per pixel by the compute pass splat.glsl, in float32, over the sky or over
 // nothing; the same picture again for the same input on one renderer. Time and memory between two
-// looks at the deadline are bounded. Errors: kOverDeadline, kCancelled, kInternal; kTooLarge when
+// looks at the deadline are bounded. times: what it took is added to them; may be null. Errors: kOverDeadline, kCancelled, kInternal; kTooLarge when
 // the renderer has no memory.
 Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View& view,
                    const Plan& plan, const Lighting& lighting, Device& device,
-                   const Deadline& deadline);
+                   const Deadline& deadline, EffectTimes* times = nullptr);
 
 }  // namespace awan

@@ -102,7 +102,8 @@ void chords_of(const MarchScene& scene, double& least, double& most) {
 
 Result<Image> march(const Scene& scene, const ParticleSet& particles, const View& view,
                     const TransportLight& light, const MarchSettings& settings, int threads,
-                    const Deadline& deadline) {
+                    const Deadline& deadline, EffectTimes* times) {
+    EffectTimes took;
     if (auto error = deadline.over()) return *error;
     const bool behind = scene->image.background == Background::kSky;
     Image image{scene->image.width, scene->image.height, behind, {}};
@@ -152,8 +153,16 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     }
 
     std::optional<Air> air;
-    if (settings.aerial_perspective)
-        air = make_air(scene, view, settings.light_shafts ? &light.sun : nullptr, threads);
+    if (settings.aerial_perspective) {
+        auto start = Deadline::Clock::now();
+        air = make_air(scene, view);
+        took.of(Effect::kAerialPerspective) = ms_since(start);
+        start = Deadline::Clock::now();
+        if (air && settings.light_shafts) {
+            shade_air(light.sun, threads, *air);
+            took.of(Effect::kLightShafts) = ms_since(start);
+        }
+    }
     if (air) march.air = &*air;
 
     Rooms rooms;
@@ -170,6 +179,7 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
                    });
     if (late)
         if (auto error = deadline.over()) return *error;
+    if (times != nullptr) times->add(took);
     return image;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/draw/image.h"
+#include "core/effect_times.h"
 #include "core/light/transport.h"
 
 namespace awan {
@@ -12,9 +13,9 @@ struct MarchSettings {
     bool light_shafts = true;        // and the clouds' shadows in it
 };
 
-// Threads do not show in the result. Errors: kOverDeadline, kCancelled.
+// Threads do not show in the result. times: what it took is added to them; may be null. Errors: kOverDeadline, kCancelled.
 Result<Image> march(const Scene& scene, const ParticleSet& particles, const View& view,
                     const TransportLight& light, const MarchSettings& settings, int threads,
-                    const Deadline& deadline);
+                    const Deadline& deadline, EffectTimes* times = nullptr);
 
 }  // namespace awan

@@ -402,6 +402,8 @@ class BlockMarch {
         const DetailField& field = *scene_.detail;
         detail_.field = &field;
         detail_.reference = static_cast<float>(reference_);
+        detail_.far = static_cast<float>(
+            std::min(field.bump * scene_.height / (2 * scene_.view.tan_half_fov), 1e30));
         const glm::dvec3 middle = to_scene(scene_.view, frame_.forward);
         const glm::dvec3 start =
             field.to_tile * (scene_.view.eye + reference_ * middle - field.origin);

@@ -18,6 +18,7 @@ struct DetailRays {
     float start[3] = {};                 // in 0..kDetailSide
     float right[3] = {}, up[3] = {}, middle[3] = {};
     float reference = 0;  // distance of the block's reference
+    float far = 1e30f;    // distance at which the largest bumps are a pixel wide
 };
 
 // n at voxels p.
@@ -86,13 +87,18 @@ AWAN_INLINE void add_detail(const DetailRays& rays, const Chunk& chunk, Tile& ti
     for (int k = tile.first; k <= tile.last; ++k) {
         const Floats u = tile.profile[k] * per_whole;
         const Ints thin = static_cast<Ints>(u < 1.0f) & static_cast<Ints>(1e-6f < u);
-        Floats detailed = tile.profile[k] * field.keep;
+        const float t = chunk.from + (static_cast<float>(k) + 0.5f) * chunk.step;
+        // Bumps below a pixel would be seen as noise: from two pixels down to one they go over into smooth matter.
+        const float seen = rays.far / (rays.reference + t) - 1.0f;
+        const float sharp = seen < 0.0f ? 0.0f : seen > 1.0f ? 1.0f : seen;
+        const float keep = 1.0f + sharp * (field.keep - 1.0f);
+        Floats detailed = tile.profile[k] * keep;
         if (simd::any(thin)) {
-            const float t = chunk.from + (static_cast<float>(k) + 0.5f) * chunk.step;
             const Floats p[3] = {start[0] + t * slope[0], start[1] + t * slope[1],
                                  start[2] + t * slope[2]};
             const Floats lump = lumps(simd::max(u, Floats{}), bumps_at(field.words.data(), p));
-            detailed = u < 1.0f ? (whole * field.keep) * lump : detailed;
+            const Floats gathered = (whole * keep) * lump;
+            detailed = u < 1.0f ? detailed + sharp * (gathered - detailed) : detailed;
         }
         tile.profile[k] = detailed;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -24,10 +25,17 @@ constexpr std::array kOctaves = {Octave{kDetailBumps, 0.58F}, Octave{11, 0.28F},
 constexpr int kWaves = 10;
 constexpr double kWarp = 0.32;  // of a largest bump
 
-// A divergence-free displacement with the tile's period: the curl of a sum of waves.
+constexpr auto kSide = static_cast<std::size_t>(kDetailSide);
+
+// A divergence-free displacement with the tile's period: the curl of a sum of waves, at the voxels. Waves fit the tile, so a
+// voxel's phase is the sum of three out of kSide.
 class Warp {
   public:
     explicit Warp(std::uint64_t key) {
+        for (std::size_t i = 0; i < kSide; ++i) {
+            const double angle = 2 * std::numbers::pi * static_cast<double>(i) / kDetailSide;
+            turn_[i] = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+        }
         for (int i = 0; i < kWaves; ++i) {
             const auto number = [&](std::uint64_t which, double from, double to) {
                 const auto bits = static_cast<std::uint32_t>(
@@ -40,8 +48,9 @@ class Warp {
                 k[axis] = std::floor(number(static_cast<std::uint64_t>(axis), -7, 8));
             if (k == glm::dvec3(0)) k.x = 3;
             const glm::dvec3 a(number(3, -1, 1), number(4, -1, 1), number(5, -1, 1));
-            wave.k = glm::vec3(2 * std::numbers::pi * k);
-            wave.phase = static_cast<float>(number(6, 0, 2 * std::numbers::pi));
+            wave.k = glm::ivec3(k);
+            const double phase = number(6, 0, 2 * std::numbers::pi);
+            wave.start = {static_cast<float>(std::cos(phase)), static_cast<float>(std::sin(phase))};
             const glm::dvec3 swing = glm::cross(k, a);
             // Each the same in size: together about kWarp of a bump (rms).
             const double length = std::max(glm::length(swing), 1e-9);
@@ -49,63 +58,94 @@ class Warp {
                 glm::vec3(swing / length * (kWarp / kDetailBumps * std::sqrt(2.0 / kWaves)));
         }
     }
-    // p: in tiles.
-    glm::vec3 operator()(const glm::vec3& p) const {
-        glm::vec3 sum(0);
-        for (const Wave& wave : waves_)
-            sum += wave.swing * std::cos(glm::dot(wave.k, p) + wave.phase);
-        return sum;
+    // At the voxels of a row along x, in tiles.
+    void row(std::size_t y, std::size_t z, std::array<glm::vec3, kSide>& out) const {
+        out.fill(glm::vec3(0));
+        for (const Wave& wave : waves_) {
+            const Turn first = both(wave.start, both(turn(wave.k.y, y), turn(wave.k.z, z)));
+            for (std::size_t x = 0; x < kSide; ++x)
+                out[x] += wave.swing * both(first, turn(wave.k.x, x)).cos;
+        }
     }
 
   private:
-    struct Wave {
-        glm::vec3 k{0}, swing{0};
-        float phase = 0;
+    struct Turn {
+        float cos = 1, sin = 0;
     };
+    struct Wave {
+        glm::ivec3 k{0};
+        glm::vec3 swing{0};
+        Turn start;  // its phase
+    };
+    static Turn both(const Turn& a, const Turn& b) {
+        return {a.cos * b.cos - a.sin * b.sin, a.sin * b.cos + a.cos * b.sin};
+    }
+    // Of wave number k at voxel i.
+    const Turn& turn(int k, std::size_t i) const {
+        return turn_[static_cast<std::size_t>(k + 8 * kDetailSide) * i % kSide];
+    }
     std::array<Wave, kWaves> waves_;
+    std::array<Turn, kSide> turn_;
 };
+
+using Float4 = float __attribute__((vector_size(16)));
 
 // One point in each cell of a periodic grid; bumps about them.
 class Bumps {
   public:
-    Bumps(int cells, std::uint64_t key) : cells_(cells) {
+    Bumps(int cells, std::uint64_t key) : cells_(cells), row_(static_cast<std::size_t>(cells + 2)) {
         const auto n = static_cast<std::size_t>(cells);
-        points_.resize(n * n * n);
-        for (std::size_t i = 0; i < points_.size(); ++i)
-            for (int axis = 0; axis < 3; ++axis)
-                points_[i][axis] = static_cast<float>(unit_open(static_cast<std::uint32_t>(
-                    keyed(keyed(key, i), static_cast<std::uint64_t>(axis)) >> 32)));
+        const auto of_cell = [&](std::size_t i, std::size_t axis) {
+            return static_cast<float>(
+                unit_open(static_cast<std::uint32_t>(keyed(keyed(key, i), axis) >> 32)));
+        };
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            points_[axis].resize(row_ * row_ * row_ + 1);
+            for (std::size_t z = 0, at = 0; z < row_; ++z)
+                for (std::size_t y = 0; y < row_; ++y)
+                    for (std::size_t x = 0; x < row_; ++x, ++at) {
+                        const auto wrapped = [n](std::size_t i) { return (i + n - 1) % n; };
+                        points_[axis][at] =
+                            of_cell((wrapped(z) * n + wrapped(y)) * n + wrapped(x), axis);
+                    }
+        }
     }
     // 1 at a point, down by the square of the distance (in cells) to the nearest.
     float operator()(const glm::vec3& p) const {
         const glm::vec3 at = p * static_cast<float>(cells_);
         const glm::vec3 floor = glm::vec3(std::floor(at.x), std::floor(at.y), std::floor(at.z));
         const glm::vec3 in = at - floor;
-        const glm::ivec3 cell(floor);
-        float nearest = 4;
-        for (int k = -1; k <= 1; ++k)
-            for (int j = -1; j <= 1; ++j)
-                for (int i = -1; i <= 1; ++i) {
-                    const glm::vec3 apart =
-                        point(cell + glm::ivec3(i, j, k)) + glm::vec3(i, j, k) - in;
-                    nearest = std::min(nearest, glm::dot(apart, apart));
-                }
-        return 1 - nearest;
+        const auto wrapped = [&](float cell) {
+            const int i = static_cast<int>(cell) % cells_;
+            return static_cast<std::size_t>(i < 0 ? i + cells_ : i);
+        };
+        const std::size_t corner =
+            (wrapped(floor.z) * row_ + wrapped(floor.y)) * row_ + wrapped(floor.x);
+        // Three neighbours along x at a time; the fourth is too far away to count.
+        const Float4 aside = Float4{-1, 0, 1, 9} - in.x;
+        Float4 nearest = {4, 4, 4, 4};
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t j = 0; j < 3; ++j) {
+                const std::size_t i = corner + (k * row_ + j) * row_;
+                const Float4 x = four(points_[0], i) + aside;
+                const Float4 y = four(points_[1], i) + (static_cast<float>(j) - 1 - in.y);
+                const Float4 z = four(points_[2], i) + (static_cast<float>(k) - 1 - in.z);
+                const Float4 apart = x * x + y * y + z * z;
+                nearest = apart < nearest ? apart : nearest;
+            }
+        return 1 - std::min(nearest[0], std::min(nearest[1], nearest[2]));
     }
 
   private:
-    const glm::vec3& point(const glm::ivec3& cell) const {
-        const auto wrapped = [&](int i) {
-            return static_cast<std::size_t>(((i % cells_) + cells_) % cells_);
-        };
-        const auto n = static_cast<std::size_t>(cells_);
-        return points_[(wrapped(cell.z) * n + wrapped(cell.y)) * n + wrapped(cell.x)];
+    static Float4 four(const std::vector<float>& from, std::size_t i) {
+        Float4 values;
+        std::memcpy(&values, &from[i], sizeof values);
+        return values;
     }
     int cells_;
-    std::vector<glm::vec3> points_;
+    std::size_t row_;  // with one more cell on each side
+    std::array<std::vector<float>, 3> points_;
 };
-
-constexpr auto kSide = static_cast<std::size_t>(kDetailSide);
 
 // By rank: the bytes are uniform, which makes the shares of space exact.
 std::vector<std::uint8_t> ranks(const std::vector<float>& values) {
@@ -170,14 +210,16 @@ DetailField make_detail(const DetailFigures& figures, double amount, double size
         octaves.emplace_back(kOctaves[i].cells, keyed(key, i));
     std::vector<float> values(kSide * kSide * kSide);
     parallel_for(threads, kSide, [&](std::size_t z) {
-        for (std::size_t i = z * kSide * kSide; i < (z + 1) * kSide * kSide; ++i) {
-            const glm::vec3 p =
-                glm::vec3(i % kSide, i / kSide % kSide, z) / static_cast<float>(kSide);
-            const glm::vec3 at = p + warp(p);
-            float sum = 0;
-            for (std::size_t o = 0; o < kOctaves.size(); ++o)
-                sum += kOctaves[o].share * octaves[o](at);
-            values[i] = sum;
+        std::array<glm::vec3, kSide> moved;
+        for (std::size_t y = 0; y < kSide; ++y) {
+            warp.row(y, z, moved);
+            for (std::size_t x = 0; x < kSide; ++x) {
+                const glm::vec3 at = moved[x] + glm::vec3(x, y, z) / static_cast<float>(kSide);
+                float sum = 0;
+                for (std::size_t o = 0; o < kOctaves.size(); ++o)
+                    sum += kOctaves[o].share * octaves[o](at);
+                values[(z * kSide + y) * kSide + x] = sum;
+            }
         }
     });
     field.words = packed(ranks(values));

@@ -75,16 +75,15 @@ Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& p
     const glm::dvec3 towards_sun = sun_direction(scene->sun);
     const TransportSettings coarse = whole_settings(settings);
     const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
-    auto whole = light_of_part(scene,
-                               {particles,
-                                particles,
-                                sun_depth(particles, towards_sun, coarse.sun_cells, threads),
-                                deepest,
-                                {},
-                                nullptr},
+    EffectTimes took;
+    SunDepth sun = timed_for(took, Effect::kSelfShadow, [&] {
+        return sun_depth(particles, towards_sun, coarse.sun_cells, threads);
+    });
+    auto whole = light_of_part(scene, {particles, particles, std::move(sun), deepest, {}, nullptr},
                                coarse, threads, deadline);
     if (!whole.ok()) return whole.error();
     TransportLight& light = *whole;
+    light.took.add(took);
     light.regions = survey.islands;
     light.islands.resize(settings.islands.size());
 
@@ -99,6 +98,8 @@ Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& p
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return settings.islands[a].cells > settings.islands[b].cells;
     });
+    const auto start = Deadline::Clock::now();
+    std::vector<double> own_ms(sets.size());  // of the thread that had it
     std::mutex mutex;
     std::optional<Error> failed;
     const int inner = sets.size() < 2 * static_cast<std::size_t>(threads) ? threads : 1;
@@ -106,6 +107,7 @@ Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& p
         const std::size_t i = order[turn];
         const IslandCells& cells = settings.islands[i];
         LightIsland& island = light.islands[i];
+        const auto own_start = Deadline::Clock::now();
         const Island& box = survey.islands.list[i];
         island.low = box.low;
         island.high = box.high;
@@ -115,8 +117,11 @@ Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& p
         const ParticleSet all = with_others(sets, survey.islands.list, i, prism);
         TransportSettings own = coarse;
         own.cells = cells.cells;
+        EffectTimes own_took;
+        SunDepth own_sun =
+            timed_for(own_took, Effect::kSelfShadow, [&] { return sun_depth_in(prism, all); });
         auto solved = light_of_part(scene,
-                                    {sets[i], all, sun_depth_in(prism, all), box.depth,
+                                    {sets[i], all, std::move(own_sun), box.depth,
                                      surroundings_of(scene, neighbours, i, light), &light},
                                     own, inner, deadline);
         if (!solved.ok()) {
@@ -125,9 +130,15 @@ Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& p
             return;
         }
         island.light = *std::move(solved);
+        island.light.took.add(own_took);
         island.lit = true;
+        own_ms[i] = ms_since(own_start);
     });
     if (failed) return *failed;
+    // Side by side they took less than one after the other.
+    const double all_ms = std::accumulate(own_ms.begin(), own_ms.end(), 0.0);
+    const double share = all_ms > 0 ? std::min(1.0, ms_since(start) / all_ms) : 0;
+    for (const LightIsland& island : light.islands) light.took.add(island.light.took, share);
     for (const LightIsland& island : light.islands) {
         light.sweeps += island.light.sweeps;
         light.residual = std::max(light.residual, island.light.residual);

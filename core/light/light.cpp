@@ -177,7 +177,8 @@ GroundLight ground_under(const Scene& scene, const ParticleSet& particles, const
 Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const Plan& plan,
                        Device& device, const Deadline& deadline) {
     Lighting lighting;
-    lighting.ground = ground_under(scene, particles, plan);
+    lighting.ground = timed_for(lighting.took, Effect::kGroundShadow,
+                                [&] { return ground_under(scene, particles, plan); });
     if (!plan.on(Effect::kSelfShadow) || particles.size() == 0) return lighting;
     const auto gain = [&](double half_angle) {
         return plan.on(Effect::kMultipleScattering)
@@ -187,8 +188,10 @@ Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const P
     const glm::vec4 full(0, 0, 0, 1), none(0);
     lighting.particles.assign(particles.size(), {full, none, full, full});
     if (outside_of(scene).sun != glm::dvec3(0)) {
-        auto sun = one_light(particles, {sun_direction(scene->sun), gain(kSunGathering), false},
+        auto sun = timed_for(lighting.took, Effect::kSelfShadow, [&] {
+            return one_light(particles, {sun_direction(scene->sun), gain(kSunGathering), false},
                              device, deadline);
+        });
         if (!sun.ok()) return sun.error();
         for (std::size_t i = 0; i < particles.size(); ++i) {
             lighting.particles[i].direct = (*sun)[2 * i];
@@ -196,7 +199,10 @@ Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const P
         }
     }
     if (plan.on(Effect::kSkyLight) || lighting.ground.into_cloud) {
-        auto sky = one_light(particles, {{0, 1, 0}, gain(kSkyGathering), true}, device, deadline);
+        const Effect from = plan.on(Effect::kSkyLight) ? Effect::kSkyLight : Effect::kGroundLight;
+        auto sky = timed_for(lighting.took, from, [&] {
+            return one_light(particles, {{0, 1, 0}, gain(kSkyGathering), true}, device, deadline);
+        });
         if (!sky.ok()) return sky.error();
         for (std::size_t i = 0; i < particles.size(); ++i) {
             lighting.particles[i].from_above = (*sky)[2 * i];

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/deadline.h"
+#include "core/effect_times.h"
 #include "core/gl/device.h"
 #include "core/light/ground_light.h"
 #include "core/plan/plan.h"
@@ -28,6 +29,7 @@ struct Lighting {
     // 1, scattered 0.
     std::vector<ParticleLight> particles;
     GroundLight ground;  // of a scene that has one, its `shadow` only, as the plan's effects say
+    EffectTimes took;    // of the passes
 };
 
 // Half angles within which forward-scattered light counts as going on, radians. The sources leave them open: the sun's is

@@ -336,15 +336,14 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
         return light_in_islands(scene, particles, survey, settings, threads, deadline);
     // Of the lights' lines only: the eye's would tie the light to a camera.
     const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
-    return light_of_part(
-        scene,
-        {particles,
-         particles,
-         sun_depth(particles, sun_direction(scene->sun), settings.sun_cells, threads),
-         deepest,
-         {},
-         nullptr},
-        settings, threads, deadline);
+    EffectTimes took;
+    SunDepth sun = timed_for(took, Effect::kSelfShadow, [&] {
+        return sun_depth(particles, sun_direction(scene->sun), settings.sun_cells, threads);
+    });
+    auto light = light_of_part(scene, {particles, particles, std::move(sun), deepest, {}, nullptr},
+                               settings, threads, deadline);
+    if (light.ok()) light->took.add(took);
+    return light;
 }
 
 Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
@@ -362,8 +361,11 @@ Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
     light.ground.into_cloud = own_ground && settings.ground;
     const bool shade_ground = own_ground && settings.ground_shadow;
     if (settings.cells == 0) {
-        if (shade_ground)
+        if (shade_ground) {
+            const auto start = Deadline::Clock::now();
             cast_shadow(light.sun, scene->medium.albedo, 0, scene->medium.g, threads, light.ground);
+            light.took.of(Effect::kGroundShadow) = ms_since(start);
+        }
         if (!particles.color.empty()) color_only(scene, part, threads, light);
         return light;
     }
@@ -387,7 +389,11 @@ Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
     fine_lattice.cell = coarse.cell / sub;
     fine_lattice.cells = coarse.cells * sub;
     std::vector<float> fine = extinction_in(particles, fine_lattice, threads);
-    add_detail(particles, fine_lattice, threads, fine);
+    if (particles.detail) {
+        const auto start = Deadline::Clock::now();
+        add_detail(particles, fine_lattice, threads, fine);
+        light.took.of(Effect::kDetail) += ms_since(start);
+    }
     const std::vector<float> mean = block_means(fine, coarse.cells, sub);
     light.origin = coarse.origin;
     light.cell = coarse.cell;
@@ -401,7 +407,9 @@ Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
     const std::vector<Shine> parts = parts_of(outside, physical, colored, settings.sky);
     std::vector<float> beam;
     if (std::any_of(parts.begin(), parts.end(), [](const Shine& shine) { return shine.beam; }))
-        beam = beam_source(coarse, fine_lattice, fine, sub, light.sun, kept, threads, deadline);
+        beam = timed_for(light.took, Effect::kMultipleScattering, [&] {
+            return beam_source(coarse, fine_lattice, fine, sub, light.sun, kept, threads, deadline);
+        });
 
     Matter matter;
     matter.grid.cells = coarse.cells;
@@ -457,7 +465,9 @@ Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
         return band;
     };
     for (const Shine& shine : parts) {
-        auto band = solved(shine);
+        auto band =
+            timed_for(light.took, shine.beam ? Effect::kMultipleScattering : Effect::kSkyLight,
+                      [&] { return solved(shine); });
         if (!band.ok()) return band.error();
         light.bands.push_back(*std::move(band));
     }
@@ -466,12 +476,14 @@ Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
             Shine shine;
             shine.from_ground = &part.whole->bands[b];
             shine.color = shine.from_ground->color;
-            auto band = solved(shine);
+            auto band = timed_for(light.took, Effect::kGroundLight, [&] { return solved(shine); });
             if (!band.ok()) return band.error();
             light.bands.push_back(*std::move(band));
         }
     if (!own_ground || !(settings.ground || settings.ground_shadow)) return light;
 
+    // The solves are ground_light's, the rest is what the cloud sends down.
+    const auto start = Deadline::Clock::now();
     if (shade_ground) cast_shadow(light.sun, albedo, f, g, threads, light.ground);
     std::vector<float> depth(mean.size());
     for (std::size_t i = 0; i < mean.size(); ++i)
@@ -483,11 +495,14 @@ Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
         shine.color = glm::vec3(0);
         shine.color[channel] = 1;
         shine.from_below = inflow;
-        return solved(shine);
+        return timed_for(light.took, Effect::kGroundLight, [&] { return solved(shine); });
     };
     if (Status failed = ground_and_cloud(outside.sky, depth, kept, single, colored, settings,
                                          from_below, threads, light))
         return *failed;
+    if (shade_ground)
+        light.took.of(Effect::kGroundShadow) +=
+            ms_since(start) - light.took.of(Effect::kGroundLight);
     return light;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/deadline.h"
+#include "core/effect_times.h"
 #include "core/generate/particle_set.h"
 #include "core/light/ground_light.h"
 #include "core/plan/transport_settings.h"
@@ -68,6 +69,7 @@ struct TransportLight {
     GroundLight ground;   // of a scene that has one; as TransportSettings asked
     int sweeps = 0;       // transport sweeps it took, all bands
     double residual = 0;  // of the solve, relative; largest of the bands
+    EffectTimes took;     // of the solve's parts; says nothing of the light
 
     // Of a scene that falls apart, the parts that are seen, more finely; all above is then of the whole, coarsely, and good
     // where no finer light is (core/light/islands.h).

@@ -21,12 +21,8 @@ constexpr double kViewDepth = 0.03;
 constexpr double kScatterDepthIsotropic = 0.04;  // g = 0
 constexpr double kScatterDepthForward = 0.02;    // |g| >= .5; linear in between
 
-constexpr double kShare =
-    0.01;  // of the light, of a pixel: what a share below this does is not seen
-constexpr double kHazeDepth =
-    0.01;                       // what haze takes from a pixel or adds to it goes with its depth
-constexpr double kTint = 0.01;  // of a channel from grey
-constexpr double kBumpPixels = 1.5;  // smaller bumps are blurred by the pixels themselves
+constexpr double kShare = 0.01;  // of the light, of a pixel
+constexpr double kTint = 0.01;   // of a channel from grey
 
 // What the picture loses without an effect, measured by the largest optical depth (PHYSICS: bias of exact solutions
 // without self-shadow, view extinction, and scattering at its worst).
@@ -73,6 +69,8 @@ struct Lights {
     bool sun, sky;
     double sun_light, sky_light;  // mean radiance from all sides, luminance
     double depth;                 // largest optical depth of the cloud towards them
+
+    double all() const { return std::max(sun_light + sky_light, 1e-300); }
 };
 
 Lights lights_of(const Scene& scene, const Survey& survey) {
@@ -104,11 +102,17 @@ Criterion ground_light(const Scene& scene, const Survey& survey) {
                  survey.ground.light / (1 + survey.ground.light));
 }
 
-Criterion ground_shadow(const Scene& scene, const Survey& survey) {
+Criterion ground_shadow(const Scene& scene, const Survey& survey, const Lights& lights) {
     if (!scene->ground) return {false, 0, "the scene has no ground"};
     if (!(survey.ground.seen > 0)) return {false, 0, "the ground is not in view"};
-    return above("the largest share of the ground's light that the clouds take in view,",
-                 survey.ground.shade, kShare, survey.ground.shade);
+    // A black ground has none to lose.
+    const double up = std::max(lights.outside.to_sun.y, 0.0);
+    const double shines =
+        luminance(scene->ground->albedo) *
+        (up * luminance(lights.outside.sun) / std::numbers::pi + lights.sky_light);
+    const double share = survey.ground.shade * std::min(1.0, shines / lights.all());
+    return above("what the clouds take of the ground's light in view, over a typical pixel,", share,
+                 kShare, share * survey.ground.seen);
 }
 
 Criterion sun_color(const Scene& scene, const Lights& lights) {
@@ -126,23 +130,40 @@ Criterion sun_color(const Scene& scene, const Lights& lights) {
     return above(what.data(), tint, kTint, std::sqrt(glm::dot(off, off) / 3));
 }
 
+// Largest of the haze's phase function, mean 1, that the picture sees.
+double phase_in_view(const Haze& haze, const Lights& lights, const View& view) {
+    const double corner = std::atan(view.tan_half_fov * std::hypot(1.0, view.aspect));
+    const double off =
+        std::acos(std::clamp(glm::dot(view.forward, lights.outside.to_sun), -1.0, 1.0));
+    const double nearest = std::max(off - corner, 0.0),
+                 farthest = std::min(off + corner, std::numbers::pi);
+    const double cosine = std::cos(haze.g >= 0 ? nearest : farthest);
+    const double base = std::max(1 + haze.g * haze.g - 2 * haze.g * cosine, 1e-9);
+    return (1 - haze.g * haze.g) / (base * std::sqrt(base));
+}
+
 Criterion haze(Effect effect, const Scene& scene, const Survey& survey) {
     if (!scene->haze || !(scene->haze->extinction > 0)) return {false, 0, "the scene has no haze"};
     if (effect == Effect::kLightShafts)
         return above("the clouds' shadows in the haze, over a typical pixel,", survey.haze.shaded,
-                     kShare, survey.haze.shaded);
+                     kShare, 0.4 * survey.haze.shaded);  // of the whole picture; measured
+    // Thin haze shows where it glows: towards the sun, over a typical pixel.
     const double depth = std::max(survey.haze.depth_to_clouds, survey.haze.depth_behind);
-    return above("the haze's largest optical depth in view,", depth, kHazeDepth,
-                 -std::expm1(-depth));
+    const Lights lights = lights_of(scene, survey);
+    const double glow =
+        luminance(scene->haze->albedo) *
+        (lights.sun_light * phase_in_view(*scene->haze, lights, survey.view) + lights.sky_light) /
+        lights.all();
+    const double veil = -std::expm1(-depth) * std::max(1.0, glow);
+    return above("the haze's largest share of a pixel in view,", veil, kShare, std::min(veil, 1.0));
 }
 
 Criterion detail(const Scene& scene, const Survey& survey) {
     if (!scene->detail) return {false, 0, "the scene asks for none"};
     if (!(scene->detail->amount > 0)) return {false, 0, "the scene asks for an amount of 0"};
-    // Where matter is gathered a pixel has it or has it not; behind many lumps it is what it was.
-    const double lumps = std::max(1.0, survey.mean_depth_eye);
-    const double left_out = 0.5 * scene->detail->amount / std::sqrt(lumps);
-    return above("its largest bumps in pixels,", detail_pixels(scene, survey), kBumpPixels,
+    // Where matter is gathered a pixel has it or has it not. Measured on table 4.4.
+    const double left_out = 0.55 * scene->detail->amount;
+    return above("its largest bumps in pixels,", detail_pixels(scene, survey), kLeastBump,
                  left_out);
 }
 
@@ -184,7 +205,7 @@ Criterion criterion(Effect effect, const Scene& scene, const Survey& survey) {
         case Effect::kGroundLight:
             return ground_light(scene, survey);
         case Effect::kGroundShadow:
-            return ground_shadow(scene, survey);
+            return ground_shadow(scene, survey, lights);
         case Effect::kSunColor:
             return sun_color(scene, lights);
         case Effect::kDetail:

@@ -20,6 +20,8 @@ struct Criterion {
 // Precondition: not Effect::kTexture, which is not in this version.
 Criterion criterion(Effect effect, const Scene& scene, const Survey& survey);
 
+inline constexpr double kLeastBump =
+    1;  // pixels; smaller bumps are faded out (core/draw/march_detail.h)
 // Size of detail's largest bumps in the picture, pixels, where the cloud is nearest; infinite from within.
 double detail_pixels(const Scene& scene, const Survey& survey);
 

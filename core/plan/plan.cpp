@@ -29,6 +29,14 @@ void join_scattering_to_shadow(Plan& plan, const Scene& scene) {
     }
 }
 
+// Bumps below a pixel are no detail, even where it is asked for.
+void leave_out_unseen_detail(Plan& plan, const Scene& scene, const Survey& survey) {
+    EffectDecision& detail = plan.effects[static_cast<std::size_t>(Effect::kDetail)];
+    if (!detail.on || detail_pixels(scene, survey) > kLeastBump) return;
+    detail.on = false;
+    detail.reason += ": nothing of it could be seen";
+}
+
 // Shadows are seen in haze that is drawn.
 void join_shafts_to_haze(Plan& plan) {
     EffectDecision& shafts = plan.effects[static_cast<std::size_t>(Effect::kLightShafts)];
@@ -209,6 +217,7 @@ Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSp
                 break;
         }
     }
+    leave_out_unseen_detail(plan, scene, survey);
     join_scattering_to_shadow(plan, scene);
     join_shafts_to_haze(plan);
     choose_rung(scene, survey, threads, speed, plan);

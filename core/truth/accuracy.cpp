@@ -13,6 +13,7 @@
 #include "core/light/sun_depth.h"
 #include "core/plan/ladder.h"
 #include "core/scene/validate.h"
+#include "core/survey/detail_of.h"
 #include "core/truth/accuracy_pictures.h"
 
 namespace awan {
@@ -352,7 +353,15 @@ Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOption
     const View view = resolve_view((*small)->camera, (*small)->image, planned->survey.bounds);
     Reference reference{{}, *small, view, {}, {}, ground_below(scene, *planned)};
 
-    // The reference.
+    // The reference, with the detail that its size shows.
+    SceneDraft as_truth = **small;
+    as_truth.accuracy = {{}, {}, "truth"};
+    auto truth_scene = validate(as_truth);
+    if (!truth_scene) return truth_scene.error();
+    const bool detailed =
+        plan(*truth_scene, planned->survey, options.threads, options.speed).on(Effect::kDetail);
+    planned->particles.detail =
+        detailed ? detail_of(scene, planned->survey, options.threads) : nullptr;
     TruthOptions truth_options;
     truth_options.samples = shape->samples;
     truth_options.threads = options.threads;

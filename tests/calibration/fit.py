@@ -158,13 +158,13 @@ struct TimeModel {
     def rest(r):
         return float(r["time_ms"]) - float(r["light_ms"]) - float(r["draw_ms"])
     print("// Generate, survey and plan.")
-    table("kPrepareTime", "TimeModel", timed(("transport", "harris"), rest, (0, 2, 3)))
-    table("kAdditiveTime", "TimeModel", timed(("additive",), field("draw_ms"), (0, 2, 3, 4)))
+    table("kPrepareTime", "TimeModel", timed(("transport", "harris"), rest, (0, 2, 3, 10)))
+    table("kAdditiveTime", "TimeModel", timed(("additive",), field("draw_ms"), (0, 2, 3, 4, 9)))
     table("kHarrisLightTime", "TimeModel", timed(("harris",), field("light_ms"), (0, 2)))
-    table("kHarrisDrawTime", "TimeModel", timed(("harris",), field("draw_ms"), (0, 2, 3, 4)))
-    table("kMarchLightTime", "TimeModel", timed(("transport", "single"), field("light_ms"), (0, 2, 5, 6)))
-    table("kMarchDrawTime", "TimeModel", timed(("transport", "single"), field("draw_ms"), (0, 1, 2, 3, 4)))
-    table("kPathTime", "TimeModel", timed(("truth",), field("draw_ms"), (0, 2, 4, 7)))
+    table("kHarrisDrawTime", "TimeModel", timed(("harris",), field("draw_ms"), (0, 2, 3, 4, 9)))
+    table("kMarchLightTime", "TimeModel", timed(("transport", "single"), field("light_ms"), (0, 2, 5, 6, 10)))
+    table("kMarchDrawTime", "TimeModel", timed(("transport", "single"), field("draw_ms"), (0, 1, 2, 3, 4, 8, 9)))
+    table("kPathTime", "TimeModel", timed(("truth",), field("draw_ms"), (0, 2, 4, 7, 9)))
     print("""
 }  // namespace awan""")
 

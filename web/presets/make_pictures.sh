@@ -4,10 +4,10 @@
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 awan=$here/../../build/release/awan
-names=(congestus cumulus-detailed humilis-field stratus creature cumulus)
+names=(noon-cumulus silver-lining sunset-stratocumulus cirrus thunderhead fog-shafts sky-of-100 congestus creature)
 mkdir -p "$here/pictures"
 cd "$here/pictures"
 for name in "${names[@]}"; do
-    "$awan" render "../$name.json" --width 480 --height 320 -o "$name.png"
+    "$awan" render "../$name.json" --width 640 --height 400 -o "$name.png"
 done
-oiiotool "${names[@]/%/.png}" --mosaic:pad=6 3x2 --resize 980x0 -o contact-sheet.png
+oiiotool "${names[@]/%/.png}" --mosaic:pad=6 3x3 --resize 1280x0 -o contact-sheet.png

@@ -1,0 +1,190 @@
+// Laws of detail: it keeps the mass, it is seeded, its two compilers agree, and transport and truth see the same.
+#include "core/generate/detail.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/draw/march.h"
+#include "core/light/sun_depth.h"
+#include "core/survey/detail_of.h"
+#include "core/survey/lattice.h"
+#include "core/survey/lattice_detail.h"
+#include "core/truth/error_measures.h"
+#include "core/truth/matter.h"
+#include "core/truth/path_tracer.h"
+#include "tests/scenes.h"
+
+namespace awan {
+namespace {
+
+DetailField field_of(double amount, std::uint64_t seed = 1, int threads = 2) {
+    return make_detail({2, 1, {0, 0, 0}}, amount, 1, seed, threads);
+}
+
+// A few thousand points that share no lattice with the tile.
+glm::dvec3 scattered_point(int i) {
+    const double golden = 0.618033988749895, root2 = 0.414213562373095, root3 = 0.732050807568877;
+    return 40.0 *
+           glm::dvec3(std::fmod(i * golden, 1), std::fmod(i * root2, 1), std::fmod(i * root3, 1));
+}
+
+TEST(Detail, ItsBumpsAreUniform) {
+    const DetailField field = field_of(0.7);
+    constexpr int kPoints = 20000, kBins = 10;
+    std::array<int, kBins> bins{};
+    for (int i = 0; i < kPoints; ++i) {
+        const auto n = static_cast<double>(bumps_at(field, scattered_point(i)));
+        ASSERT_GE(n, 0);
+        ASSERT_LE(n, 1);
+        ++bins[static_cast<std::size_t>(std::min(n * kBins, kBins - 1.0))];
+    }
+    // Interpolation between voxels moves the extremes inward: a quarter of the outermost bins.
+    for (const int count : bins) EXPECT_NEAR(count, kPoints / kBins, 0.3 * kPoints / kBins);
+}
+
+TEST(Detail, MeanOverTheBumpsIsTheSmoothExtinction) {
+    DetailField field = field_of(0.8);
+    const auto edge = static_cast<double>(field.edge);
+    for (const double u : {0.02, 0.1, 0.25, 0.4, 0.6, 0.8, 0.95, 1.5}) {
+        double sum = 0;
+        constexpr int kSteps = 4000;
+        for (int i = 0; i < kSteps; ++i)
+            sum += static_cast<double>(detailed(field, static_cast<float>(u * edge),
+                                                (static_cast<float>(i) + 0.5F) / kSteps));
+        EXPECT_NEAR(sum / kSteps, u * edge * kept_by_detail(field, u * edge), 2e-3 * edge) << u;
+        if (u > 0.25) {
+            EXPECT_DOUBLE_EQ(kept_by_detail(field, u * edge), 1) << u;
+        }
+    }
+}
+
+TEST(Detail, NothingIsAboveItsBound) {
+    const DetailField field = field_of(0.9);
+    for (double most = 1e-4; most < 50; most *= 1.7) {
+        const double bound = most_detailed(field, most);
+        for (int i = 1; i <= 40; ++i)
+            for (int j = 0; j <= 20; ++j)
+                EXPECT_LE(static_cast<double>(detailed(field, static_cast<float>(most * i / 40),
+                                                       static_cast<float>(j) / 20)),
+                          bound);
+    }
+}
+
+TEST(Detail, IsContinuousFiniteAndZeroWhereThereIsNothing) {
+    const DetailField field = field_of(1);
+    EXPECT_EQ(detailed(field, 0, 1), 0);
+    for (int j = 0; j <= 10; ++j) {
+        const float n = static_cast<float>(j) / 10;
+        float before = 0;
+        for (int i = 1; i <= 4000; ++i) {
+            const float now = detailed(field, field.edge * static_cast<float>(i) / 2000, n);
+            EXPECT_LT(std::abs(now - before), 0.02F * field.edge);
+            before = now;
+        }
+    }
+    for (const glm::dvec3& far :
+         {glm::dvec3(1e9, -1e9, 1e9), glm::dvec3(-1e-300), glm::dvec3(1e300)})
+        EXPECT_TRUE(std::isfinite(bumps_at(field, far)));
+}
+
+TEST(Detail, DependsOnTheSeedAndNotOnThreads) {
+    const DetailField one = field_of(0.7, 5, 1), many = field_of(0.7, 5, 7),
+                      other = field_of(0.7, 6);
+    EXPECT_EQ(one.words, many.words);
+    EXPECT_NE(one.words, other.words);
+}
+
+// Table 4.4 with detail.
+struct Detailed {
+    Scene scene;
+    Planned planned;
+};
+Detailed detailed_cloud(double amount, const char* rung, int side = 64) {
+    SceneDraft draft = test::table_4_4();
+    draft.density = 0.5;
+    draft.detail = Detail{amount, 1.2};
+    draft.sky.none = true;
+    draft.medium.g = 0.5;
+    draft.image.width = side;
+    draft.image.height = side;
+    draft.image.background = Background::kTransparent;
+    draft.accuracy.rung = rung;
+    const Scene scene = test::valid(draft);
+    auto planned = plan_scene(scene, 2, {});
+    EXPECT_TRUE(planned.ok());
+    return {scene, *std::move(planned)};
+}
+
+TEST(Detail, KeepsTheMassOfACloud) {
+    for (const double amount : {0.3, 0.7, 1.0}) {
+        const Detailed cloud = detailed_cloud(amount, "transport-16");
+        ASSERT_TRUE(cloud.planned.particles.detail);
+        const Lattice lattice = lattice_around_matter(cloud.planned.particles, {1, 0, 0}, {0, 1, 0},
+                                                      {0, 0, 1}, 1e-3, 128, 2);
+        std::vector<float> cells = extinction_in(cloud.planned.particles, lattice, 2);
+        double before = 0, after = 0;
+        for (const float cell : cells) before += static_cast<double>(cell);
+        add_detail(cloud.planned.particles, lattice, 2, cells);
+        for (const float cell : cells) after += static_cast<double>(cell);
+        // One realisation of a few hundred bumps, `keep` from a coarse volume.
+        EXPECT_NEAR(after / before, 1, 0.04) << amount;
+    }
+}
+
+TEST(Detail, MarchAndTruthSeeTheSameDepth) {
+    const Detailed cloud = detailed_cloud(0.8, "single");
+    Tools tools;
+    tools.threads = 2;
+    const auto marched = render_scene(cloud.scene, tools, {});
+    TruthOptions options;
+    options.samples = 2;
+    options.threads = 2;
+    const auto truth = trace_truth(cloud.scene, cloud.planned.particles, cloud.planned.survey.view,
+                                   options, {}, {});
+    ASSERT_TRUE(marched.ok() && truth.ok());
+    double off = 0, sum = 0;
+    for (std::size_t p = 3; p < marched->image.pixels.size(); p += 4) {
+        const double a = double{marched->image.pixels[p]}, b = double{truth->half_a.pixels[p]};
+        off += (a - b) * (a - b);
+        sum += b * b;
+    }
+    // Steps of a fifth of a bump at silhouettes.
+    EXPECT_LT(std::sqrt(off / sum), 0.03);
+}
+
+TEST(Detail, TransportIsNearTheTruth) {
+    const Detailed cloud = detailed_cloud(0.8, "transport-32", 48);
+    Tools tools;
+    tools.threads = 2;
+    const auto rendered = render_scene(cloud.scene, tools, {});
+    TruthOptions options;
+    options.samples = 96;
+    options.threads = 2;
+    const auto truth = trace_truth(cloud.scene, cloud.planned.particles, cloud.planned.survey.view,
+                                   options, {}, {});
+    ASSERT_TRUE(rendered.ok() && truth.ok());
+    const PictureError error = picture_error(rendered->image, *truth);
+    std::printf("transport-32 with detail: nrmse %.3f +- %.3f, bias %.3f\n", error.nrmse,
+                error.nrmse_noise, error.bias);
+    EXPECT_LT(error.nrmse, 0.08 + 2 * error.nrmse_noise);
+    EXPECT_LT(std::abs(error.bias), 0.04 + 2 * error.bias_noise);
+    // It matters: without it the picture is another.
+    SceneDraft smooth = *cloud.scene;
+    smooth.effects[static_cast<int>(Effect::kDetail)] = Switch::kOff;
+    const auto without = render_scene(test::valid(smooth), tools, {});
+    ASSERT_TRUE(without.ok());
+    EXPECT_GT(picture_error(without->image, *truth).nrmse, 3 * error.nrmse);
+}
+
+TEST(Detail, IsTheSameForAllNumbersOfThreads) {
+    const Detailed cloud = detailed_cloud(0.8, "transport-16", 40);
+    Tools one, many;
+    many.threads = 5;
+    const auto a = render_scene(cloud.scene, one, {}), b = render_scene(cloud.scene, many, {});
+    ASSERT_TRUE(a.ok() && b.ok());
+    EXPECT_EQ(a->image.pixels, b->image.pixels);
+}
+
+}  // namespace
+}  // namespace awan
