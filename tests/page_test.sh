@@ -35,7 +35,7 @@ if [ -z "$ready" ]; then
     fail "the server did not become ready"
 fi
 
-if ! timeout 180 node "$here/page.mjs" "http://127.0.0.1:$port" "$scratch"; then
+if ! timeout 540 node "$here/page.mjs" "http://127.0.0.1:$port" "$scratch"; then
     tail -n 40 "$scratch/server.log" >&2
     exit 1
 fi

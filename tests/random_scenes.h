@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <initializer_list>
 #include <numbers>
@@ -212,6 +213,27 @@ inline void random_surroundings(Dice& dice, const Whereabouts& where, RandomScen
     }
 }
 
+// Apart, so that there may be islands (core/survey/islands.h): particles and cubes go to some of 27 places, near or far. Last of
+// all; what was made for one place (camera, ground, haze) stays there.
+inline void scatter(Dice& dice, const Whereabouts& where, SceneDraft& draft) {
+    const double apart =
+        where.size * (dice.chance(0.2) ? dice.log_between(1, 1e4) : dice.between(2, 12));
+    const bool level = dice.chance(0.5);
+    const int places = 2 + dice.below(26);
+    const auto place = [&] {
+        const int i = dice.below(places) * 5 % 27;
+        return apart * glm::dvec3(i % 3 - 1, level ? 0 : i / 9 - 1, i / 3 % 3 - 1);
+    };
+    for (Cloud& cloud : draft.clouds) {
+        for (glm::dvec3& at : cloud.ready.positions) at += place();
+        for (Cube& cube : cloud.cubes) cube.center += place();
+        const double most = 0.005 * limits::kMaxCoordinate;  // before scale, beside `middle`
+        for (glm::dvec3& at : cloud.ready.positions) at = glm::clamp(at, -most, most);
+        for (Cube& cube : cloud.cubes) cube.center = glm::clamp(cube.center, -most, most);
+    }
+    if (dice.chance(0.5)) draft.camera.automatic = true;
+}
+
 inline RandomScene random_scene(std::uint64_t seed) {
     Dice dice(seed);
     RandomScene random;
@@ -273,6 +295,7 @@ inline RandomScene random_scene(std::uint64_t seed) {
         if (dice.chance(0.15))
             draft.effects[static_cast<int>(effect)] = dice.chance(0.5) ? Switch::kOff : Switch::kOn;
     random_surroundings(dice, where, random);
+    if (dice.chance(0.15)) scatter(dice, where, draft);
     return random;
 }
 

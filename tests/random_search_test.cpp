@@ -49,7 +49,7 @@ Rendered render(const Scene& scene, int threads) {
 TEST(RandomSearch, EverySceneKeepsTheLaws) {
     const std::uint64_t first = from_environment("AWAN_SEARCH_SEED", kFirstSeed);
     const std::uint64_t count = from_environment("AWAN_SEARCH_COUNT", kCount);
-    int failed = 0;
+    int failed = 0, apart = 0;
     std::map<std::string, std::pair<int, double>> spent;  // by rung: scenes, seconds
     for (std::uint64_t seed = first; seed < first + count && failed < 20; ++seed) {
         const RandomScene random = test::random_scene(seed);
@@ -66,6 +66,7 @@ TEST(RandomSearch, EverySceneKeepsTheLaws) {
         if (::testing::Test::HasFatalFailure()) return;
         test::expect_figures(rendered);
         test::expect_within_bounds(random.draft, rendered);
+        apart += rendered.survey.islands.list.empty() ? 0 : 1;
         auto& [scenes, seconds] = spent[rendered.plan.rung];
         ++scenes;
         seconds += took;
@@ -77,6 +78,10 @@ TEST(RandomSearch, EverySceneKeepsTheLaws) {
     for (const auto& [rung, sum] : spent)
         std::printf("%-13s %5d scenes, %7.1f ms each\n", rung.c_str(), sum.first,
                     1e3 * sum.second / sum.first);
+    std::printf("%d scenes of several islands\n", apart);
+    if (count >= kCount) {
+        EXPECT_GT(apart, 0);
+    }
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     std::printf("most memory: %ld MiB\n", usage.ru_maxrss >> 10);
