@@ -25,12 +25,12 @@ struct TimeModel {
     TimeFigures coefficient;
 };
 // Generate, survey and plan.
-inline constexpr TimeModel kPrepareTime = {{4.85117, 0, 0.00338225, 7.66718e-07, 0, 0, 0, 0, 0, 0, 105.259}};
-inline constexpr TimeModel kAdditiveTime = {{0.215865, 0, 0.0044202, 1.96891e-06, 5.25528e-05, 0, 0, 0, 0, 5.09407e-05, 0}};
-inline constexpr TimeModel kHarrisLightTime = {{1.62746, 0, 0.0257787, 0, 0, 0, 0, 0, 0, 0, 0}};
-inline constexpr TimeModel kHarrisDrawTime = {{0.529611, 0, 0.00643643, 2.23003e-06, 4.86236e-05, 0, 0, 0, 0, 5.51498e-06, 0}};
-inline constexpr TimeModel kMarchLightTime = {{1.33539, 0, 0.000994512, 0, 0, 0.0041944, 5.23618e-07, 0, 0, 0, 26.648}};
-inline constexpr TimeModel kMarchDrawTime = {{17.4879, 0.000819024, 0, 3.5508e-06, 0.000153961, 0, 0, 0, 3.99446e-05, 0.000575353, 0}};
-inline constexpr TimeModel kPathTime = {{83.3994, 0, 0.0175855, 0, 0.0112723, 0, 0, 0.00154639, 0, 0.00787429, 0}};
+inline constexpr TimeModel kPrepareTime = {{5.31389, 0, 0.00475237, 5.71011e-07, 0, 0, 0, 0, 0, 0, 82.2002}};
+inline constexpr TimeModel kAdditiveTime = {{0.183952, 0, 0.00431395, 2.03743e-06, 5.95797e-05, 0, 0, 0, 0, 0.000135716, 0}};
+inline constexpr TimeModel kHarrisLightTime = {{3.24224, 0, 0.0211936, 0, 0, 0, 0, 0, 0, 0, 0}};
+inline constexpr TimeModel kHarrisDrawTime = {{0.385357, 0, 0.00543768, 1.53177e-06, 6.74882e-05, 0, 0, 0, 0, 0.000230138, 0}};
+inline constexpr TimeModel kMarchLightTime = {{0.727997, 0, 0.00146654, 0, 0, 0.00390448, 5.00809e-07, 0, 0, 0, 36.1384}};
+inline constexpr TimeModel kMarchDrawTime = {{19.8712, 0.000937638, 0, 4.39446e-06, 0.000138208, 0, 0, 0, 4.64135e-05, 0.000876269, 0}};
+inline constexpr TimeModel kPathTime = {{91.7186, 0, 0.0429349, 0, 0.0111907, 0, 0, 0.0011443, 0, 0.00579892, 0}};
 
 }  // namespace awan
