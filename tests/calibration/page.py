@@ -67,9 +67,9 @@ def scenes(rows):
     print("|---" * (6 + len(RUNGS)) + "|")
     by_scene = {}
     for row in rows:
-        by_scene.setdefault(int(row["index"]), {})[row["rung"]] = row
-    for index in sorted(by_scene):
-        mine = by_scene[index]
+        by_scene.setdefault((row["set"], int(row["index"])), {})[row["rung"]] = row
+    for key in sorted(by_scene):
+        mine, index = by_scene[key], f"{key[0]} {key[1]}"
         any_row = next(iter(mine.values()))
         cells = []
         for rung in RUNGS:
