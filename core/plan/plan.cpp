@@ -133,9 +133,11 @@ double thin_error(const Plan& plan, const Scene& scene, const Survey& survey, bo
     const auto left_out = [&](Effect effect) {
         return plan.effects[static_cast<std::size_t>(effect)].left_out;
     };
-    return 0.7 * (left_out(Effect::kSelfShadow) + left_out(Effect::kMultipleScattering) +
-                  left_out(Effect::kViewExtinction)) +
-           (scene->sky.physical ? 0.6 : 0.2) * left_out(Effect::kSkyLight);
+    const double sum =
+        0.7 * (left_out(Effect::kSelfShadow) + left_out(Effect::kMultipleScattering) +
+               left_out(Effect::kViewExtinction)) +
+        (scene->sky.physical ? 0.6 : 0.2) * left_out(Effect::kSkyLight);
+    return std::max(sum, 0.01);  // nothing smaller was measured
 }
 
 // Error of what the scene calls for and splats cannot show.
