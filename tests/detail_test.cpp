@@ -116,6 +116,14 @@ Detailed detailed_cloud(double amount, const char* rung, int side = 64) {
     return {scene, *std::move(planned)};
 }
 
+Result<TruthImage> traced(const Detailed& cloud, std::uint32_t samples) {
+    TruthOptions options;
+    options.samples = samples;
+    options.threads = 2;
+    return trace_truth(cloud.scene, cloud.planned.particles, cloud.planned.survey.view, options, {},
+                       {});
+}
+
 TEST(Detail, KeepsTheMassOfACloud) {
     for (const double amount : {0.3, 0.7, 1.0}) {
         const Detailed cloud = detailed_cloud(amount, "transport-16");
@@ -137,11 +145,7 @@ TEST(Detail, MarchAndTruthSeeTheSameDepth) {
     Tools tools;
     tools.threads = 2;
     const auto marched = render_scene(cloud.scene, tools, {});
-    TruthOptions options;
-    options.samples = 2;
-    options.threads = 2;
-    const auto truth = trace_truth(cloud.scene, cloud.planned.particles, cloud.planned.survey.view,
-                                   options, {}, {});
+    const auto truth = traced(cloud, 2);
     ASSERT_TRUE(marched.ok() && truth.ok());
     double off = 0, sum = 0;
     for (std::size_t p = 3; p < marched->image.pixels.size(); p += 4) {
@@ -158,11 +162,7 @@ TEST(Detail, TransportIsNearTheTruth) {
     Tools tools;
     tools.threads = 2;
     const auto rendered = render_scene(cloud.scene, tools, {});
-    TruthOptions options;
-    options.samples = 96;
-    options.threads = 2;
-    const auto truth = trace_truth(cloud.scene, cloud.planned.particles, cloud.planned.survey.view,
-                                   options, {}, {});
+    const auto truth = traced(cloud, 96);
     ASSERT_TRUE(rendered.ok() && truth.ok());
     const PictureError error = picture_error(rendered->image, *truth);
     std::printf("transport-32 with detail: nrmse %.3f +- %.3f, bias %.3f\n", error.nrmse,

@@ -157,7 +157,7 @@ TEST(Islands, ShadowsOfOthersAreInTheDepthFromTheSun) {
                           {},
                           {}};
     const SunDepth sun =
-        sun_depth_in(sun_prism(own, sun_direction(stage.scene->sun), 24), stage.particles);
+        sun_depth_in(sun_lattice(own, sun_direction(stage.scene->sun), 24, 1), stage.particles);
     for (const glm::dvec3 p : {glm::dvec3(0, 0, 0), {0.7, 0.5, -0.4}, {0, -2.5, 0}, {-1, 1, 1}}) {
         const double exact = test::line_depth(stage.particles, p, {0, 1, 0}, 0);
         EXPECT_NEAR(depth_at(sun, p), exact, 0.02 * exact + 0.01);

@@ -4,13 +4,11 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "core/generate/gaussian.h"
 #include "core/parallel.h"
+#include "core/survey/ground_view.h"
 
 namespace awan {
 namespace {
-
-constexpr double kReach = 4;  // of s: no matter beyond
 
 bool above_ground(const Scene& scene, const View& view) {
     return scene->ground && view.eye.y > scene->ground->height;
@@ -64,11 +62,7 @@ void lay_under(Image& picture, const Backdrop& backdrop) {
 }
 
 bool matter_below_ground(const Scene& scene, const View& view, const ParticleSet& particles) {
-    if (!above_ground(scene, view)) return false;
-    for (std::size_t i = 0; i < particles.size(); ++i)
-        if (particles.center[i].y - kReach * gaussian_s(particles, i) < scene->ground->height)
-            return true;
-    return false;
+    return above_ground(scene, view) && reaches_below(particles, scene->ground->height);
 }
 
 }  // namespace awan

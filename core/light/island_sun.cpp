@@ -5,21 +5,12 @@
 #include <glm/geometric.hpp>
 
 #include "core/generate/gaussian.h"
-#include "core/light/sun_depth.h"
 #include "core/survey/gauss.h"
-#include "core/survey/lattice.h"
-#include "core/survey/lattice_detail.h"
-#include "core/survey/projection.h"
 
 namespace awan {
 namespace {
 
-constexpr double kLeftOut = 0.01;  // as in sun_depth
-constexpr double kReach = 4;       // in s
-
-Lattice lattice_of(const SunPrism& prism) {
-    return {prism.origin, prism.u, prism.v, prism.w, prism.cell, prism.cells};
-}
+constexpr double kReach = 4;  // in s
 
 // Shares of a Gaussian in the columns from `first` on; what the cut at kReach leaves is not put back: 6e-5 of it.
 void shares(double center, double s, double cell, int first, int last, std::vector<double>& to) {
@@ -33,7 +24,7 @@ void shares(double center, double s, double cell, int first, int last, std::vect
 }
 
 // Optical depth of what lies before the prism, at the middle of each of its columns' faces: means over columns.
-std::vector<double> depth_before(const SunPrism& prism, const ParticleSet& all) {
+std::vector<double> depth_before(const Lattice& prism, const ParticleSet& all) {
     const auto nx = static_cast<std::size_t>(prism.cells.x);
     std::vector<double> depth(nx * static_cast<std::size_t>(prism.cells.y)), x, y;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -67,14 +58,7 @@ std::vector<double> depth_before(const SunPrism& prism, const ParticleSet& all) 
 
 }  // namespace
 
-SunPrism sun_prism(const ParticleSet& own, const glm::dvec3& towards_sun, int cells) {
-    const SideAxes side = side_axes(-towards_sun);
-    const Lattice lattice =
-        lattice_around_matter(own, side.u, side.v, -towards_sun, kLeftOut, cells, 1, kMaxSunWork);
-    return {side.u, side.v, -towards_sun, lattice.origin, lattice.cell, lattice.cells};
-}
-
-bool shades(const SunPrism& prism, const glm::dvec3& center, double reach) {
+bool shades(const Lattice& prism, const glm::dvec3& center, double reach) {
     const glm::dvec3 apart = center - prism.origin;
     const auto within = [&](double at, int cells) {
         return at > -reach && at < cells * prism.cell + reach;
@@ -84,24 +68,9 @@ bool shades(const SunPrism& prism, const glm::dvec3& center, double reach) {
            within(glm::dot(apart, prism.v), prism.cells.y);
 }
 
-SunDepth sun_depth_in(const SunPrism& prism, const ParticleSet& all) {
-    SunDepth sun;
-    sun.u = prism.u;
-    sun.v = prism.v;
-    sun.w = prism.w;
-    sun.cell = prism.cell;
-    sun.origin = prism.origin + 0.5 * sun.cell * (sun.u + sun.v);
-    sun.nodes = prism.cells + glm::ivec3(0, 0, 1);
+SunDepth sun_depth_in(const Lattice& prism, const ParticleSet& all) {
     const std::vector<double> before = depth_before(prism, all);
-    const Lattice lattice = lattice_of(prism);
-    std::vector<float> extinction = extinction_in(all, lattice, 1);
-    add_detail(all, lattice, 1, extinction);
-    sun.depth.resize(before.size() * static_cast<std::size_t>(sun.nodes.z));
-    for (std::size_t i = 0; i < before.size(); ++i) sun.depth[i] = static_cast<float>(before[i]);
-    const auto cell = static_cast<float>(sun.cell);
-    for (std::size_t i = 0; i < extinction.size(); ++i)
-        sun.depth[before.size() + i] = sun.depth[i] + extinction[i] * cell;
-    return sun;
+    return sun_depth_on(prism, all, std::vector<float>(before.begin(), before.end()), 1);
 }
 
 }  // namespace awan

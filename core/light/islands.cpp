@@ -42,7 +42,7 @@ bool touches(const Island& box, const glm::dvec3& low, const glm::dvec3& high) {
 
 // An island's particles and those of others that shade it or reach into its box.
 ParticleSet with_others(const std::vector<ParticleSet>& sets, const std::vector<Island>& boxes,
-                        std::size_t self, const SunPrism& prism) {
+                        std::size_t self, const Lattice& prism) {
     ParticleSet all = sets[self];
     const Island& own = boxes[self];
     for (std::size_t j = 0; j < sets.size(); ++j) {
@@ -113,7 +113,7 @@ Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& p
         island.high = box.high;
         if (cells.sun_cells == 0 || !(mass_of(sets[i]) > 0)) return;
         island.mean_s = box.s_sums[1] / box.s_sums[0];
-        const SunPrism prism = sun_prism(sets[i], towards_sun, cells.sun_cells);
+        const Lattice prism = sun_lattice(sets[i], towards_sun, cells.sun_cells, 1);
         const ParticleSet all = with_others(sets, survey.islands.list, i, prism);
         TransportSettings own = coarse;
         own.cells = cells.cells;

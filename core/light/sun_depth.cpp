@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
-#include "core/survey/lattice.h"
 #include "core/survey/lattice_detail.h"
 #include "core/survey/projection.h"
 
@@ -18,22 +18,34 @@ constexpr double kLeftOut = 0.01;  // optical depth of what the lattice may leav
 
 SunDepth sun_depth(const ParticleSet& particles, const glm::dvec3& towards_sun, int cells,
                    int threads) {
+    const Lattice lattice = sun_lattice(particles, towards_sun, cells, threads);
+    const auto columns =
+        static_cast<std::size_t>(lattice.cells.x) * static_cast<std::size_t>(lattice.cells.y);
+    return sun_depth_on(lattice, particles, std::vector<float>(columns), threads);
+}
+
+Lattice sun_lattice(const ParticleSet& particles, const glm::dvec3& towards_sun, int cells,
+                    int threads) {
+    const SideAxes side = side_axes(-towards_sun);
+    return lattice_around_matter(particles, side.u, side.v, -towards_sun, kLeftOut, cells, threads,
+                                 kMaxSunWork);
+}
+
+SunDepth sun_depth_on(const Lattice& lattice, const ParticleSet& particles,
+                      std::vector<float> entry, int threads) {
     SunDepth sun;
-    sun.w = -towards_sun;
-    const SideAxes side = side_axes(sun.w);
-    sun.u = side.u;
-    sun.v = side.v;
-    const Lattice lattice = lattice_around_matter(particles, sun.u, sun.v, sun.w, kLeftOut, cells,
-                                                  threads, kMaxSunWork);
-    std::vector<float> extinction = extinction_in(particles, lattice, threads);
-    add_detail(particles, lattice, threads, extinction);
+    sun.u = lattice.u;
+    sun.v = lattice.v;
+    sun.w = lattice.w;
     sun.cell = lattice.cell;
     // Nodes stand in the middle of the columns and on the faces between their cells.
     sun.origin = lattice.origin + 0.5 * sun.cell * (sun.u + sun.v);
     sun.nodes = lattice.cells + glm::ivec3(0, 0, 1);
-    const std::size_t layer =
-        static_cast<std::size_t>(sun.nodes.x) * static_cast<std::size_t>(sun.nodes.y);
-    sun.depth.assign(layer * static_cast<std::size_t>(sun.nodes.z), 0.F);
+    std::vector<float> extinction = extinction_in(particles, lattice, threads);
+    add_detail(particles, lattice, threads, extinction);
+    const std::size_t layer = entry.size();
+    sun.depth = std::move(entry);
+    sun.depth.resize(layer * static_cast<std::size_t>(sun.nodes.z));
     const auto cell = static_cast<float>(sun.cell);
     for (std::size_t i = 0; i < extinction.size(); ++i)
         sun.depth[layer + i] = sun.depth[i] + extinction[i] * cell;

@@ -45,12 +45,17 @@ double depth_through(const DensityVolume& volume, const glm::dvec3& from, const 
 
 }  // namespace
 
+bool reaches_below(const ParticleSet& particles, double height) {
+    for (std::size_t i = 0; i < particles.size(); ++i)
+        if (particles.center[i].y - kReach * gaussian_s(particles, i) < height) return true;
+    return false;
+}
+
 GroundView ground_view(const Scene& scene, const ParticleSet& particles, const Survey& survey) {
     GroundView ground;
     if (!scene->ground || !(survey.bounds.max.y > scene->ground->height)) return ground;
     const double height = scene->ground->height;
-    for (std::size_t i = 0; i < particles.size() && !ground.matter_below; ++i)
-        ground.matter_below = particles.center[i].y - kReach * gaussian_s(particles, i) < height;
+    ground.matter_below = reaches_below(particles, height);
 
     const Outside outside = outside_of(scene);
     const SkyMeans sky = means_of(outside.sky);
