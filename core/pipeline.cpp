@@ -1,5 +1,6 @@
 #include "core/pipeline.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/draw/draw.h"
@@ -7,6 +8,7 @@
 #include "core/generate/generate.h"
 #include "core/light/light.h"
 #include "core/light/transport.h"
+#include "core/looks/looks.h"
 #include "core/plan/island_settings.h"
 #include "core/survey/detail_of.h"
 #include "core/truth/path_tracer.h"
@@ -48,7 +50,8 @@ using SharedLight = std::shared_ptr<const TransportLight>;
 Result<SharedLight> kept_or_solved(const Scene& scene, const Planned& planned, const Tools& tools,
                                    const Deadline& deadline, bool& was_kept) {
     const TransportSettings& settings = planned.plan.transport;
-    const std::string key = tools.lights ? light_key(scene, settings) : std::string();
+    const std::string key =
+        tools.lights ? light_key(scene, settings, planned.particles.variant) : std::string();
     if (tools.lights)
         if (SharedLight light = tools.lights->find(key)) {
             was_kept = true;
@@ -99,13 +102,25 @@ Status render_paths(const Scene& scene, const Planned& planned, const Tools& too
     return std::nullopt;
 }
 
+// By the rules of another system.
+Status render_look(const Scene& scene, const Planned& planned, const Tools& tools,
+                   const Deadline& deadline, Rendered& rendered) {
+    auto image = timed(rendered.times.draw_ms, [&] {
+        return draw_look(scene, planned.survey.view, tools.threads, deadline);
+    });
+    if (!image.ok()) return image.error();
+    rendered.image = *std::move(image);
+    return std::nullopt;
+}
+
 }  // namespace
 
 Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadline,
                           const MachineSpeed& speed) {
     Planned planned;
-    auto particles =
-        timed(planned.times.generate_ms, [&] { return generate(scene, threads, deadline); });
+    auto particles = timed(planned.times.generate_ms, [&] {
+        return generate(scene, threads, deadline, scene->look != Look::kPhysical);
+    });
     if (!particles.ok()) return particles.error();
     planned.particles = *std::move(particles);
     auto surveyed = timed(planned.times.survey_ms,
@@ -113,6 +128,11 @@ Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadl
     if (!surveyed.ok()) return surveyed.error();
     planned.survey = *std::move(surveyed);
     planned.plan = plan(scene, planned.survey, threads, speed);
+    // What procedural clouds take is known only by running them.
+    if (std::any_of(scene->clouds.begin(), scene->clouds.end(), is_procedural)) {
+        planned.plan.predicted.time_ms += planned.times.generate_ms;
+        for (RungForecast& one : planned.plan.forecasts) one.time_ms += planned.times.generate_ms;
+    }
     if (planned.plan.predicted.rung->method == Method::kMarch)
         planned.plan.transport.islands = island_cells(planned.plan.transport, planned.survey);
     return planned;
@@ -144,6 +164,9 @@ Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools
             break;
         case Method::kPaths:
             failed = render_paths(scene, planned, tools, deadline, rendered);
+            break;
+        case Method::kLook:
+            failed = render_look(scene, planned, tools, deadline, rendered);
             break;
     }
     if (failed) return *failed;

@@ -1,6 +1,11 @@
 #include "server/json_fields.h"
 
 #include <climits>
+#include <cmath>
+#include <limits>
+
+#include "core/scene/limits.h"
+#include "server/json_models.h"
 
 namespace awan {
 namespace {
@@ -36,10 +41,10 @@ WordOutcome choose_fill(std::string_view name, auto set) {
 }
 
 WordOutcome choose_model(State& s, std::string_view name) {
-    for (const std::string_view later : {"automaton", "spheres", "implicit", "ellipsoids"})
-        if (name == later) return WordOutcome::kUnsupported;
-    static constexpr Word<CloudModel> kModels[] = {{"cubes", CloudModel::kCubes},
-                                                   {"particles", CloudModel::kParticles}};
+    static constexpr Word<CloudModel> kModels[] = {
+        {"cubes", CloudModel::kCubes},         {"particles", CloudModel::kParticles},
+        {"automaton", CloudModel::kAutomaton}, {"spheres", CloudModel::kSpheres},
+        {"implicit", CloudModel::kImplicit},   {"ellipsoids", CloudModel::kEllipsoids}};
     return choose(name, kModels, [&](CloudModel model) { s.cloud->model = model; });
 }
 
@@ -98,6 +103,36 @@ constexpr Field kSceneFields[] = {
      .word = [](State&, std::string_view v) { return taken_if(v == "auto"); },
      .object = ObjectKind::kEffects},
     {.name = "accuracy", .wanted = "an object", .object = ObjectKind::kAccuracy},
+    {.name = "look",
+     .wanted = R"(one of "physical", "ostroushko", "gardner")",
+     .word =
+         [](State& s, std::string_view v) {
+             static constexpr Word<Look> kLooks[] = {{"physical", Look::kPhysical},
+                                                     {"ostroushko", Look::kOstroushko},
+                                                     {"gardner", Look::kGardner}};
+             return choose(v, kLooks, [&](Look look) { s.draft.look = look; });
+         }},
+    {.name = "time",
+     .wanted = "a number (seconds)",
+     .number = [](State& s, double v) { s.draft.time = v; }},
+    {.name = "sequence",
+     .wanted = R"(an object or "none")",
+     .word = [](State&, std::string_view v) { return taken_if(v == "none"); },
+     .object = ObjectKind::kSequence},
+};
+
+constexpr Field kSequenceFields[] = {
+    {.name = "from",
+     .wanted = "a number (seconds)",
+     .number = [](State& s, double v) { s.draft.sequence->from = v; }},
+    {.name = "to",
+     .wanted = "a number (seconds)",
+     .required = true,
+     .number = [](State& s, double v) { s.draft.sequence->to = v; }},
+    {.name = "frames",
+     .wanted = "an integer >= 1",
+     .required = true,
+     .integer = [](State& s, std::uint64_t v) { s.draft.sequence->frames = v; }},
 };
 
 constexpr Field kCubeFields[] = {
@@ -131,17 +166,23 @@ constexpr Field kCubeFields[] = {
 
 constexpr Field kCloudFields[] = {
     {.name = "model",
-     .wanted = R"("cubes" or "particles")",
-     .word = choose_model,
-     .unsupported = R"(this model is not in this version; "cubes" and "particles" are)"},
+     .wanted = R"(one of "cubes", "particles", "automaton", "spheres", "implicit", "ellipsoids")",
+     .word = choose_model},
     {.name = "cubes", .wanted = "a list of cubes", .list = ListKind::kCubes},
     {.name = "positions", .wanted = "a list of [x, y, z]", .list = ListKind::kPositions},
     {.name = "radii", .wanted = "a list of numbers > 0", .list = ListKind::kRadii},
     {.name = "densities", .wanted = "a list of numbers >= 0", .list = ListKind::kDensities},
     {.name = "colors", .wanted = "a list of [r, g, b]", .list = ListKind::kColors},
+    {.name = "automaton", .wanted = "an object", .object = ObjectKind::kAutomaton},
+    {.name = "spheres", .wanted = "an object", .object = ObjectKind::kSpheres},
+    {.name = "implicit", .wanted = "an object", .object = ObjectKind::kImplicit},
+    {.name = "ellipsoids", .wanted = "an object", .object = ObjectKind::kEllipsoids},
     {.name = "translate",
      .wanted = kVectorWanted,
      .vector = [](State& s) { return &s.cloud->translate; }},
+    {.name = "velocity",
+     .wanted = "[x, y, z]: three numbers (units a second)",
+     .vector = [](State& s) { return &s.cloud->velocity; }},
     {.name = "scale",
      .wanted = "a number > 0",
      .number = [](State& s, double v) { s.cloud->scale = v; }},
@@ -342,6 +383,14 @@ constexpr Field kAccuracyFields[] = {
          }},
 };
 
+// Out of float32's range becomes infinite, which validate() refuses.
+float to_float(double value) {
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    if (std::abs(value) <= kLargest) return static_cast<float>(value);
+    return std::copysign(std::numeric_limits<float>::infinity(),
+                         static_cast<float>(value > 0) - 0.5f);
+}
+
 }  // namespace
 
 std::span<const Field> fields_of(ObjectKind kind) {
@@ -370,6 +419,16 @@ std::span<const Field> fields_of(ObjectKind kind) {
             return kImageFields;
         case ObjectKind::kAccuracy:
             return kAccuracyFields;
+        case ObjectKind::kSequence:
+            return kSequenceFields;
+        case ObjectKind::kAutomaton:
+            return automaton_fields();
+        case ObjectKind::kSpheres:
+            return spheres_fields();
+        case ObjectKind::kImplicit:
+            return implicit_fields();
+        case ObjectKind::kEllipsoids:
+            return ellipsoids_fields();
         case ObjectKind::kEffects:  // named by effect_name()
         case ObjectKind::kNone:
             return {};
@@ -396,6 +455,50 @@ const Field& field_at(ObjectKind kind, int index) {
 std::string_view field_name(ObjectKind kind, int index) {
     if (kind == ObjectKind::kEffects) return effect_name(static_cast<Effect>(index));
     return field_at(kind, index).name;
+}
+
+const List& list_at(ListKind kind) {
+    constexpr const char* kWantedVector = kVectorWanted;
+    static constexpr List kNoList{.wanted = "nothing", .most = 0};
+    static constexpr List kCubes{
+        .wanted = "an object", .most = limits::kMaxCubes, .object = ObjectKind::kCube};
+    static constexpr List kClouds{
+        .wanted = "an object", .most = limits::kMaxClouds, .object = ObjectKind::kCloud};
+    static constexpr List kPositions{
+        .wanted = kWantedVector,
+        .most = limits::kMaxParticles,
+        .row = [](State& s, const glm::dvec3& v) { s.cloud->ready.positions.push_back(v); }};
+    static constexpr List kRadii{
+        .wanted = "a number", .most = limits::kMaxParticles, .number = [](State& s, double v) {
+            s.cloud->ready.radii.push_back(to_float(v));
+        }};
+    static constexpr List kDensities{
+        .wanted = "a number", .most = limits::kMaxParticles, .number = [](State& s, double v) {
+            s.cloud->ready.densities.push_back(to_float(v));
+        }};
+    static constexpr List kColors{.wanted = kColorWanted,
+                                  .most = limits::kMaxParticles,
+                                  .row = [](State& s, const glm::dvec3& v) {
+                                      s.cloud->ready.colors.emplace_back(
+                                          to_float(v.x), to_float(v.y), to_float(v.z));
+                                  }};
+    switch (kind) {
+        case ListKind::kCubes:
+            return kCubes;
+        case ListKind::kClouds:
+            return kClouds;
+        case ListKind::kPositions:
+            return kPositions;
+        case ListKind::kRadii:
+            return kRadii;
+        case ListKind::kDensities:
+            return kDensities;
+        case ListKind::kColors:
+            return kColors;
+        case ListKind::kNone:
+            break;
+    }
+    return kNoList;
 }
 
 }  // namespace awan

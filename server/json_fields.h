@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +30,11 @@ enum class ObjectKind : std::uint8_t {
     kImage,
     kEffects,
     kAccuracy,
+    kSequence,
+    kAutomaton,
+    kSpheres,
+    kImplicit,
+    kEllipsoids,
 };
 
 // Lists whose length is not fixed.
@@ -50,6 +56,11 @@ struct DraftInProgress {
     Cloud* cloud = nullptr;
     Cube* cube = nullptr;
     Effect effect = Effect::kSelfShadow;
+    // Of the cloud that is being read, made new when its object begins and given to it when it ends.
+    std::shared_ptr<AutomatonCloud> automaton;
+    std::shared_ptr<SpheresCloud> spheres;
+    std::shared_ptr<ImplicitCloud> implicit;
+    std::shared_ptr<EllipsoidsCloud> ellipsoids;
 
     // An element for the object of that kind that begins here; an object that is not an element
     // leaves a mark that it was given.
@@ -71,6 +82,16 @@ struct Field {
     ListKind list = ListKind::kNone;
     const char* unsupported = nullptr;  // the message for WordOutcome::kUnsupported
 };
+
+// What the elements of a list may be: one of the three.
+struct List {
+    const char* wanted;  // completes "must be ..."
+    std::uint64_t most;  // elements
+    ObjectKind object = ObjectKind::kNone;
+    void (*number)(DraftInProgress&, double) = nullptr;
+    void (*row)(DraftInProgress&, const glm::dvec3&) = nullptr;  // [x, y, z]
+};
+const List& list_at(ListKind kind);
 
 // At most 32 fields an object: those seen are bits of a word.
 std::span<const Field> fields_of(ObjectKind kind);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/formats/numbers.h"
@@ -35,39 +34,6 @@ struct Frame {
     std::size_t index = 0;   // of the element being read, in the other types
     glm::dvec3* vector = nullptr;
 };
-
-std::size_t limit_of(ListKind list) {
-    switch (list) {
-        case ListKind::kCubes:
-            return limits::kMaxCubes;
-        case ListKind::kClouds:
-            return limits::kMaxClouds;
-        default:
-            return limits::kMaxParticles;
-    }
-}
-
-const char* wanted_element(ListKind list) {
-    switch (list) {
-        case ListKind::kCubes:
-        case ListKind::kClouds:
-            return "an object";
-        case ListKind::kPositions:
-            return "[x, y, z]: three numbers";
-        case ListKind::kColors:
-            return "[r, g, b]: three numbers";
-        default:
-            return "a number";
-    }
-}
-
-// Out of float32's range becomes infinite, which validate() refuses.
-float to_float(double value) {
-    constexpr double kLargest = std::numeric_limits<float>::max();
-    if (std::abs(value) <= kLargest) return static_cast<float>(value);
-    return std::copysign(std::numeric_limits<float>::infinity(),
-                         static_cast<float>(value > 0) - 0.5f);
-}
 
 // RFC 6901. A name that is long or not plain is left out: the pointer is then the object's.
 std::string escaped_name(std::string_view name) {
@@ -159,10 +125,8 @@ class SceneReader {
             kind = ObjectKind::kScene;
         else if (const Field* const field = open_field())
             kind = field->object;
-        else if (top().list == ListKind::kCubes)
-            kind = ObjectKind::kCube;
-        else if (top().list == ListKind::kClouds)
-            kind = ObjectKind::kCloud;
+        else
+            kind = list_at(top().list).object;
         if (kind == ObjectKind::kNone) return wrong_type("an object");
         if (!has_room()) return false;
         state.begin(kind);
@@ -209,9 +173,7 @@ class SceneReader {
             if (pushed) read_ahead();
             return pushed;
         }
-        const ListKind list = top().list;
-        if (list != ListKind::kPositions && list != ListKind::kColors)
-            return wrong_type("an array");
+        if (list_at(top().list).row == nullptr) return wrong_type("an array");
         if (!has_room()) return false;
         return push({.type = Frame::Type::kRow, .vector = &row_});
     }
@@ -226,7 +188,7 @@ class SceneReader {
         }
         const bool is_row = frame.type == Frame::Type::kRow;
         pop();
-        if (is_row) take_row(top().list, row_);
+        if (is_row) list_at(top().list).row(state, row_);
         return true;
     }
 
@@ -271,7 +233,7 @@ class SceneReader {
         if (frames_.empty()) return "must be an object, the scene";
         if (const Field* const field = open_field()) return std::string("must be ") + field->wanted;
         return std::string("must be ") +
-               (top().type == Frame::Type::kList ? wanted_element(top().list) : "a number");
+               (top().type == Frame::Type::kList ? list_at(top().list).wanted : "a number");
     }
 
     bool wrong_type(const char* what) { return fail(wanted() + ", not " + what); }
@@ -307,10 +269,10 @@ class SceneReader {
             case Frame::Type::kList:
                 break;
         }
-        if (frame.list != ListKind::kRadii && frame.list != ListKind::kDensities)
-            return wrong_type("a number");
+        const List& list = list_at(frame.list);
+        if (list.number == nullptr) return wrong_type("a number");
         if (!has_room()) return false;
-        take_number(frame.list, value);
+        list.number(state, value);
         ++frame.index;
         return true;
     }
@@ -318,20 +280,14 @@ class SceneReader {
     // The regular part of a list of numbers that begins here (json_runs.h).
     void read_ahead() {
         Frame& frame = top();
-        const ListKind list = frame.list;
-        if (list == ListKind::kRadii || list == ListKind::kDensities)
-            frame.index = take_run<1>(text, limit_of(list), [&](const std::array<double, 1>& v) {
-                take_number(list, v[0]);
+        const List& list = list_at(frame.list);
+        if (list.number != nullptr)
+            frame.index = take_run<1>(
+                text, list.most, [&](const std::array<double, 1>& v) { list.number(state, v[0]); });
+        if (list.row != nullptr)
+            frame.index = take_run<3>(text, list.most, [&](const std::array<double, 3>& v) {
+                list.row(state, {v[0], v[1], v[2]});
             });
-        if (list == ListKind::kPositions || list == ListKind::kColors)
-            frame.index = take_run<3>(text, limit_of(list), [&](const std::array<double, 3>& v) {
-                take_row(list, {v[0], v[1], v[2]});
-            });
-    }
-
-    void take_number(ListKind list, double value) {
-        ReadyParticles& ready = state.cloud->ready;
-        (list == ListKind::kRadii ? ready.radii : ready.densities).push_back(to_float(value));
     }
 
     bool too_long() {
@@ -339,19 +295,11 @@ class SceneReader {
         return fail(wanted() + ", not more");
     }
 
-    void take_row(ListKind list, const glm::dvec3& row) {
-        ReadyParticles& ready = state.cloud->ready;
-        if (list == ListKind::kPositions)
-            ready.positions.push_back(row);
-        else
-            ready.colors.emplace_back(to_float(row.x), to_float(row.y), to_float(row.z));
-    }
-
     // Whether the open list may have one more element. validate() counts over all clouds; this
     // keeps a hostile text from filling memory before it gets there.
     bool has_room() {
         if (frames_.empty() || top().type != Frame::Type::kList) return true;
-        const std::size_t most = limit_of(top().list);
+        const std::uint64_t most = list_at(top().list).most;
         if (top().index < most) return true;
         return fail("at most " + std::to_string(most) + " elements are allowed");
     }

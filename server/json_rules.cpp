@@ -1,4 +1,8 @@
 // Rules between the fields of one object of a scene document, beyond the rows of json_fields.cpp.
+#include "core/scene/automaton.h"
+#include "core/scene/ellipsoids.h"
+#include "core/scene/implicit.h"
+#include "core/scene/spheres.h"
 #include "server/json_fields.h"
 
 namespace awan {
@@ -12,18 +16,34 @@ bool has(ObjectKind kind, std::uint32_t seen, std::string_view name) {
     return (seen >> find_field(kind, name) & 1u) != 0;
 }
 
+// The fields of each model; the first is needed, for ready particles the first two.
+struct OfModel {
+    CloudModel model;
+    const char* name;
+    std::initializer_list<std::string_view> fields;
+    std::size_t needed;
+};
+
 Status check_cloud(std::uint32_t seen, const Cloud& cloud) {
-    const bool is_cubes = cloud.model == CloudModel::kCubes;
-    const char* const model = is_cubes ? "cubes" : "particles";
-    for (const std::string_view name : {"cubes", "positions", "radii", "densities", "colors"})
-        if (has(ObjectKind::kCloud, seen, name) && (name == "cubes") != is_cubes)
-            return invalid("/" + std::string(name),
-                           std::string("does not belong to a cloud of model \"") + model + "\"");
-    const char* const needed[2][2] = {{"positions", "radii"}, {"cubes", "cubes"}};
-    for (const char* const name : needed[is_cubes])
-        if (!has(ObjectKind::kCloud, seen, name))
-            return invalid(
-                "", std::string("a cloud of model \"") + model + "\" needs \"" + name + "\"");
+    static const OfModel kModels[] = {
+        {CloudModel::kCubes, "cubes", {"cubes"}, 1},
+        {CloudModel::kParticles, "particles", {"positions", "radii", "densities", "colors"}, 2},
+        {CloudModel::kAutomaton, "automaton", {"automaton"}, 1},
+        {CloudModel::kSpheres, "spheres", {"spheres"}, 1},
+        {CloudModel::kImplicit, "implicit", {"implicit"}, 1},
+        {CloudModel::kEllipsoids, "ellipsoids", {"ellipsoids"}, 1}};
+    const std::string own = kModels[static_cast<std::size_t>(cloud.model)].name;
+    for (const OfModel& one : kModels)
+        if (one.model != cloud.model)
+            for (const std::string_view name : one.fields)
+                if (has(ObjectKind::kCloud, seen, name))
+                    return invalid("/" + std::string(name),
+                                   "does not belong to a cloud of model \"" + own + "\"");
+    const OfModel& model = kModels[static_cast<std::size_t>(cloud.model)];
+    for (std::size_t i = 0; i < model.needed; ++i)
+        if (!has(ObjectKind::kCloud, seen, model.fields.begin()[i]))
+            return invalid("", "a cloud of model \"" + own + "\" needs \"" +
+                                   std::string(model.fields.begin()[i]) + "\"");
     return std::nullopt;
 }
 
@@ -49,6 +69,21 @@ void DraftInProgress::begin(ObjectKind kind) {
         case ObjectKind::kCamera:
             draft.camera.automatic = false;
             break;
+        case ObjectKind::kSequence:
+            draft.sequence.emplace();
+            break;
+        case ObjectKind::kAutomaton:
+            automaton = std::make_shared<AutomatonCloud>();
+            break;
+        case ObjectKind::kSpheres:
+            spheres = std::make_shared<SpheresCloud>();
+            break;
+        case ObjectKind::kImplicit:
+            implicit = std::make_shared<ImplicitCloud>();
+            break;
+        case ObjectKind::kEllipsoids:
+            ellipsoids = std::make_shared<EllipsoidsCloud>();
+            break;
         default:
             break;
     }
@@ -71,6 +106,10 @@ void complete(ObjectKind kind, std::uint32_t seen, DraftInProgress& state) {
     Sky& sky = state.draft.sky;
     if (kind == ObjectKind::kSky && sky.physical && !has(kind, seen, "intensity"))
         sky.intensity = kPhysicalSkyIntensity;
+    if (kind == ObjectKind::kAutomaton) state.cloud->automaton = std::move(state.automaton);
+    if (kind == ObjectKind::kSpheres) state.cloud->spheres = std::move(state.spheres);
+    if (kind == ObjectKind::kImplicit) state.cloud->implicit = std::move(state.implicit);
+    if (kind == ObjectKind::kEllipsoids) state.cloud->ellipsoids = std::move(state.ellipsoids);
 }
 
 Status check_together(ObjectKind kind, std::uint32_t seen, const DraftInProgress& state) {

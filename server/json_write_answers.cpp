@@ -38,6 +38,7 @@ void survey_object(const Survey& survey, std::string& out) {
     member("max", survey.max_projected_px, out);
     out += '}';
     member("eye_inside", survey.eye_inside, out);
+    member("model_error", survey.model_error, out);
     name("volume", out);
     const glm::ivec3& cells = survey.volume.cells;
     out += "{\"cells\":[" + std::to_string(cells.x) + ',' + std::to_string(cells.y) + ',' +

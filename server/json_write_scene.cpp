@@ -1,62 +1,11 @@
 // SceneDraft -> a document for people to go on with: a cube a line, defaults left out.
 #include "server/json.h"
+#include "server/json_models.h"
+#include "server/json_object_text.h"
 #include "server/json_text.h"
 
 namespace awan {
 namespace {
-
-// One object of the document, members in order. Objects below the top stand on one line.
-class ObjectText {
-  public:
-    ObjectText(std::string& out, const char* between, const char* end)
-        : out_(out), between_(between), end_(end) {
-        out_ += '{';
-    }
-    explicit ObjectText(std::string& out) : ObjectText(out, " ", " }") {}
-
-    // Names a member; the caller appends its value.
-    std::string& name(const char* field) {
-        if (!empty_) out_ += ',';
-        empty_ = false;
-        out_ += between_;
-        out_ += '"';
-        out_ += field;
-        out_ += "\": ";
-        return out_;
-    }
-    void number(const char* field, double value) { append_json_number(value, name(field)); }
-    void integer(const char* field, std::uint64_t value) { name(field) += std::to_string(value); }
-    void vector(const char* field, const glm::dvec3& v) { append_json_vector(v, name(field)); }
-    void text(const char* field, std::string_view value) { append_json_string(value, name(field)); }
-
-    // Only when it is not the default.
-    void number(const char* field, double value, double standard) {
-        if (value != standard) number(field, value);
-    }
-    void vector(const char* field, const glm::dvec3& v, const glm::dvec3& standard) {
-        if (v != standard) vector(field, v);
-    }
-
-    bool empty() const { return empty_; }
-    void end() { out_ += empty_ ? "}" : end_; }
-
-  private:
-    std::string& out_;
-    const char* between_;
-    const char* end_;
-    bool empty_ = true;
-};
-
-// A member that is an object; left out when `fill_in` finds nothing to say.
-template <typename FillIn>
-void object(ObjectText& parent, const char* field, FillIn fill_in) {
-    std::string text;
-    ObjectText inner(text);
-    fill_in(inner);
-    if (inner.empty()) return;
-    inner.end();
-    parent.name(field) += text;
-}
 
 const char* fill_name(Fill fill) {
     switch (fill) {
@@ -88,29 +37,20 @@ void cube_list(const std::vector<Cube>& cubes, const char* indent, std::string& 
     out += cubes.empty() ? "]" : "\n" + std::string(indent).substr(2) + "]";
 }
 
-template <typename T, typename Append>
-void list(ObjectText& parent, const char* field, const std::vector<T>& values, Append append) {
-    std::string& out = parent.name(field);
-    out += '[';
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (i > 0) out += ',';
-        append(values[i], out);
-    }
-    out += ']';
-}
-
 void ready_lists(ObjectText& text, const ReadyParticles& ready) {
     const auto number = [](float value, std::string& out) { append_json_number(value, out); };
     const auto vector = [](const auto& value, std::string& out) { append_json_vector(value, out); };
-    list(text, "positions", ready.positions, vector);
-    list(text, "radii", ready.radii, number);
-    if (!ready.densities.empty()) list(text, "densities", ready.densities, number);
-    if (!ready.colors.empty()) list(text, "colors", ready.colors, vector);
+    write_list(text, "positions", ready.positions, vector);
+    write_list(text, "radii", ready.radii, number);
+    if (!ready.densities.empty()) write_list(text, "densities", ready.densities, number);
+    if (!ready.colors.empty()) write_list(text, "colors", ready.colors, vector);
 }
 
 void cloud_object(const Cloud& cloud, std::string& out) {
     ObjectText text(out);
-    if (cloud.model == CloudModel::kParticles) {
+    if (is_procedural(cloud)) {
+        write_model(cloud, text);
+    } else if (cloud.model == CloudModel::kParticles) {
         text.text("model", "particles");
         ready_lists(text, cloud.ready);
     } else {
@@ -120,6 +60,7 @@ void cloud_object(const Cloud& cloud, std::string& out) {
     text.vector("translate", cloud.translate, standard.translate);
     text.number("scale", cloud.scale, standard.scale);
     text.number("rotate_y", cloud.rotate_y, standard.rotate_y);
+    text.vector("velocity", cloud.velocity, standard.velocity);
     if (cloud.fill) text.text("fill", fill_name(*cloud.fill));
     if (cloud.density) text.number("density", *cloud.density);
     if (cloud.seed) text.integer("seed", *cloud.seed);
@@ -129,7 +70,8 @@ void cloud_object(const Cloud& cloud, std::string& out) {
 // Whether one cloud says no more than its cubes, so that they may stand at the top.
 bool is_plain(const Cloud& cloud) {
     return cloud.model == CloudModel::kCubes && cloud.translate == glm::dvec3(0) &&
-           cloud.scale == 1 && cloud.rotate_y == 0 && !cloud.fill && !cloud.density && !cloud.seed;
+           cloud.scale == 1 && cloud.rotate_y == 0 && cloud.velocity == glm::dvec3(0) &&
+           !cloud.fill && !cloud.density && !cloud.seed;
 }
 
 void clouds(ObjectText& text, const SceneDraft& scene) {
@@ -147,13 +89,13 @@ void clouds(ObjectText& text, const SceneDraft& scene) {
 }
 
 void lights(ObjectText& text, const SceneDraft& scene, const SceneDraft& standard) {
-    object(text, "medium", [&](ObjectText& medium) {
+    write_object(text, "medium", [&](ObjectText& medium) {
         medium.number("albedo", scene.medium.albedo, standard.medium.albedo);
         medium.number("g", scene.medium.g, standard.medium.g);
         if (scene.medium.phase == PhaseFunction::kCornetteShanks)
             medium.text("phase", "cornette-shanks");
     });
-    object(text, "sun", [&](ObjectText& sun) {
+    write_object(text, "sun", [&](ObjectText& sun) {
         if (scene.sun.direction) {
             sun.vector("direction", *scene.sun.direction);
         } else {
@@ -169,7 +111,7 @@ void lights(ObjectText& text, const SceneDraft& scene, const SceneDraft& standar
     if (scene.sky.none) {
         text.text("sky", "none");
     } else {
-        object(text, "sky", [&](ObjectText& sky) {
+        write_object(text, "sky", [&](ObjectText& sky) {
             if (scene.sky.physical) {
                 sky.text("model", "physical");
                 sky.number("intensity", scene.sky.intensity, kPhysicalSkyIntensity);
@@ -182,12 +124,12 @@ void lights(ObjectText& text, const SceneDraft& scene, const SceneDraft& standar
         });
     }
     if (scene.ground)
-        object(text, "ground", [&](ObjectText& ground) {
+        write_object(text, "ground", [&](ObjectText& ground) {
             ground.number("height", scene.ground->height);
             ground.vector("albedo", scene.ground->albedo);
         });
     if (scene.haze)
-        object(text, "haze", [&](ObjectText& haze) {
+        write_object(text, "haze", [&](ObjectText& haze) {
             const Haze usual;
             haze.number("extinction", scene.haze->extinction);
             haze.number("height", scene.haze->height, usual.height);
@@ -196,7 +138,7 @@ void lights(ObjectText& text, const SceneDraft& scene, const SceneDraft& standar
             haze.number("g", scene.haze->g, usual.g);
         });
     if (scene.detail)
-        object(text, "detail", [&](ObjectText& detail) {
+        write_object(text, "detail", [&](ObjectText& detail) {
             detail.number("amount", scene.detail->amount);
             detail.number("size", scene.detail->size);
         });
@@ -204,13 +146,13 @@ void lights(ObjectText& text, const SceneDraft& scene, const SceneDraft& standar
 
 void picture(ObjectText& text, const SceneDraft& scene, const SceneDraft& standard) {
     if (!scene.camera.automatic)
-        object(text, "camera", [&](ObjectText& camera) {
+        write_object(text, "camera", [&](ObjectText& camera) {
             camera.vector("eye", scene.camera.eye);
             camera.vector("target", scene.camera.target);
             camera.vector("up", scene.camera.up, standard.camera.up);
             camera.number("fov", scene.camera.fov, standard.camera.fov);
         });
-    object(text, "image", [&](ObjectText& image) {
+    write_object(text, "image", [&](ObjectText& image) {
         image.number("width", scene.image.width, standard.image.width);
         image.number("height", scene.image.height, standard.image.height);
         if (scene.image.format == ImageFormat::kExr) image.text("format", "exr");
@@ -219,13 +161,13 @@ void picture(ObjectText& text, const SceneDraft& scene, const SceneDraft& standa
         if (scene.image.exposure) image.number("exposure", *scene.image.exposure);
         if (scene.image.precision == Precision::kFloat) image.text("precision", "float");
     });
-    object(text, "effects", [&](ObjectText& effects) {
+    write_object(text, "effects", [&](ObjectText& effects) {
         for (int i = 0; i < kEffectCount; ++i)
             if (scene.effects[i] != Switch::kAuto)
                 effects.name(effect_name(static_cast<Effect>(i))) +=
                     scene.effects[i] == Switch::kOn ? "true" : "false";
     });
-    object(text, "accuracy", [&](ObjectText& accuracy) {
+    write_object(text, "accuracy", [&](ObjectText& accuracy) {
         if (scene.accuracy.error) accuracy.number("error", *scene.accuracy.error);
         if (scene.accuracy.time_ms) accuracy.number("time_ms", *scene.accuracy.time_ms);
         if (scene.accuracy.rung) accuracy.text("rung", *scene.accuracy.rung);
@@ -242,6 +184,15 @@ std::string scene_to_json(const SceneDraft& scene) {
     if (scene.fill != standard.fill) text.text("fill", fill_name(scene.fill));
     if (scene.seed != standard.seed) text.integer("seed", scene.seed);
     if (scene.density) text.number("density", *scene.density);
+    if (scene.look != Look::kPhysical)
+        text.text("look", scene.look == Look::kGardner ? "gardner" : "ostroushko");
+    text.number("time", scene.time, standard.time);
+    if (scene.sequence)
+        write_object(text, "sequence", [&](ObjectText& sequence) {
+            sequence.number("from", scene.sequence->from);
+            sequence.number("to", scene.sequence->to);
+            sequence.integer("frames", scene.sequence->frames);
+        });
     lights(text, scene, standard);
     picture(text, scene, standard);
     text.end();

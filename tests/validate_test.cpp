@@ -191,9 +191,6 @@ TEST(Fingerprint, NoAccuracyIsTheDefaultAccuracy) {
 // --- of the contract, but not of this version
 
 TEST(SceneJson, RefusesWhatThisVersionLacksAsUnsupported) {
-    for (const char* const model : {"automaton", "spheres", "implicit", "ellipsoids"})
-        expect_unsupported(cloud_with(std::string("\"model\": \"") + model + "\""),
-                           "/clouds/0/model", {"\"cubes\"", "\"particles\""});
     expect_unsupported(cube_with(R"("texture": "puff")"), "/cubes/0/texture");
     expect_invalid(scene_with(R"("ground": {"albedo": [0.1, 0.2, 1.3]})"), "/ground/albedo/2");
     expect_unsupported(scene_with(R"("effects": {"texture": true})"), "/effects/texture");

@@ -4,20 +4,24 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <numbers>
+#include <string>
 
 #include "core/generate/cubes.h"
-#include "core/exact_math.h"
 #include "core/generate/keyed_random.h"
+#include "core/generate/models.h"
+#include "core/generate/motion.h"
 #include "core/parallel.h"
+#include "core/scene/limits.h"
 
 namespace awan {
 namespace {
 
-// A run of particles of one cube, or of one cloud of ready particles: a piece of work for one
-// thread.
+// A run of particles of one cube, or of one list of ready particles: a piece of work for one thread.
 struct Piece {
     const Cloud* cloud;
-    const Cube* cube;  // null: ready particles
+    const Cube* cube;             // null: ready particles
+    const ReadyParticles* ready;  // null: a cube
     std::uint64_t key;
     std::uint64_t first, last;  // within the cube or the ready lists
     std::size_t out;            // where the first goes
@@ -25,18 +29,6 @@ struct Piece {
     Fill fill;
 };
 constexpr std::uint64_t kPieceSize = 8192;  // about half a millisecond of work
-
-struct Motion {
-    glm::dvec3 translate;
-    double scale;
-    SinCos turn;
-
-    glm::dvec3 operator()(glm::dvec3 p) const {
-        p *= scale;
-        return translate +
-               glm::dvec3(p.x * turn.cos + p.z * turn.sin, p.y, p.z * turn.cos - p.x * turn.sin);
-    }
-};
 
 void add_pieces(std::vector<Piece>& pieces, Piece whole, std::uint64_t count, std::size_t& total) {
     for (std::uint64_t first = 0; first < count; first += kPieceSize) {
@@ -48,7 +40,9 @@ void add_pieces(std::vector<Piece>& pieces, Piece whole, std::uint64_t count, st
     }
 }
 
-std::vector<Piece> cut_into_pieces(const Scene& scene, std::size_t& total) {
+// `made`: of clouds that are procedural.
+std::vector<Piece> cut_into_pieces(const Scene& scene, const std::vector<ModelParticles>& made,
+                                   std::size_t& total) {
     std::vector<Piece> pieces;
     total = 0;
     const double scene_density = scene->density.value_or(kDefaultDensity);
@@ -57,14 +51,15 @@ std::vector<Piece> cut_into_pieces(const Scene& scene, std::size_t& total) {
         const std::uint64_t key = keyed(cloud.seed.value_or(scene->seed), k);
         Piece piece{&cloud,
                     nullptr,
+                    is_procedural(cloud) ? &made[k].particles : &cloud.ready,
                     key,
                     0,
                     0,
                     0,
                     cloud.density.value_or(scene_density),
                     cloud.fill.value_or(scene->fill)};
-        if (cloud.model == CloudModel::kParticles) {
-            add_pieces(pieces, piece, cloud.ready.positions.size(), total);
+        if (cloud.model != CloudModel::kCubes) {
+            add_pieces(pieces, piece, piece.ready->positions.size(), total);
             continue;
         }
         for (std::size_t c = 0; c < cloud.cubes.size(); ++c) {
@@ -76,9 +71,9 @@ std::vector<Piece> cut_into_pieces(const Scene& scene, std::size_t& total) {
     return pieces;
 }
 
-void fill_piece(const Piece& piece, ParticleSet& set) {
+void fill_piece(const Piece& piece, double time, ParticleSet& set) {
     const Cloud& cloud = *piece.cloud;
-    const Motion motion{cloud.translate, cloud.scale, exact_sincos_degrees(cloud.rotate_y)};
+    const Motion motion = motion_of(cloud, time);
     const auto density = static_cast<float>(piece.density * piece.cube->density);
     std::array<FilledParticle, 256> filled;  // stays in the first cache
     std::size_t out = piece.out;
@@ -94,10 +89,10 @@ void fill_piece(const Piece& piece, ParticleSet& set) {
     }
 }
 
-void copy_piece(const Piece& piece, ParticleSet& set) {
+void copy_piece(const Piece& piece, double time, ParticleSet& set) {
     const Cloud& cloud = *piece.cloud;
-    const ReadyParticles& ready = cloud.ready;
-    const Motion motion{cloud.translate, cloud.scale, exact_sincos_degrees(cloud.rotate_y)};
+    const ReadyParticles& ready = *piece.ready;
+    const Motion motion = motion_of(cloud, time);
     for (std::uint64_t i = piece.first; i < piece.last; ++i) {
         const auto from = static_cast<std::size_t>(i);
         const std::size_t to = piece.out + static_cast<std::size_t>(i - piece.first);
@@ -110,12 +105,51 @@ void copy_piece(const Piece& piece, ParticleSet& set) {
     }
 }
 
+// The procedural clouds, one after the other: each uses all threads.
+Status run_models(const Scene& scene, int threads, const Deadline& deadline, bool coarse,
+                  std::vector<ModelParticles>& made, ParticleSet& set) {
+    std::uint64_t total = 0;
+    for (std::size_t k = 0; k < scene->clouds.size(); ++k) {
+        const Cloud& cloud = scene->clouds[k];
+        if (!is_procedural(cloud)) {
+            total += cloud.ready.positions.size();
+            for (const Cube& cube : cloud.cubes) total += cube.particles;
+            continue;
+        }
+        const Motion motion = motion_of(cloud, scene->time);
+        ModelRequest request;
+        request.key = keyed(cloud.seed.value_or(scene->seed), k);
+        request.time = scene->time;
+        request.threads = threads;
+        request.coarse = coarse;
+        const Camera& camera = scene->camera;
+        const double fov = camera.automatic ? kAutomaticFov : camera.fov;
+        request.pixel_angle =
+            2 * std::tan(fov * std::numbers::pi / 360) / static_cast<double>(scene->image.height);
+        if (!camera.automatic) request.eye = motion.back(camera.eye);
+        auto particles = model_particles(cloud, request, deadline);
+        if (!particles.ok()) return particles.error();
+        made[k] = *std::move(particles);
+        set.error = std::max(set.error, made[k].error);
+        set.variant = keyed(set.variant, made[k].variant);
+        total += made[k].particles.positions.size();
+        if (total > limits::kMaxParticles)
+            return Error{ErrorCode::kInvalidScene, "/clouds/" + std::to_string(k),
+                         "a scene may have at most " + std::to_string(limits::kMaxParticles) +
+                             " particles in all, this cloud makes it " + std::to_string(total)};
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
-Result<ParticleSet> generate(const Scene& scene, int threads, const Deadline& deadline) {
-    std::size_t total = 0;
-    const std::vector<Piece> pieces = cut_into_pieces(scene, total);
+Result<ParticleSet> generate(const Scene& scene, int threads, const Deadline& deadline,
+                             bool coarse) {
     ParticleSet set;
+    std::vector<ModelParticles> made(scene->clouds.size());
+    if (Status failed = run_models(scene, threads, deadline, coarse, made, set)) return *failed;
+    std::size_t total = 0;
+    const std::vector<Piece> pieces = cut_into_pieces(scene, made, total);
     set.center.resize(total);
     set.radius.resize(total);
     set.density.resize(total);
@@ -132,9 +166,9 @@ Result<ParticleSet> generate(const Scene& scene, int threads, const Deadline& de
             return;
         }
         if (pieces[i].cube != nullptr) {
-            fill_piece(pieces[i], set);
+            fill_piece(pieces[i], scene->time, set);
         } else {
-            copy_piece(pieces[i], set);
+            copy_piece(pieces[i], scene->time, set);
         }
     });
     if (auto error = deadline.over()) return *error;

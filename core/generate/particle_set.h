@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <vector>
@@ -20,6 +21,11 @@ struct ParticleSet {
     // Structure finer than the particles (detail.h), for all rooms that see matter; null: there is none, and the
     // extinction is the sum of the Gaussians.
     std::shared_ptr<const DetailField> detail;
+
+    // Of procedural clouds (models.h): error of what was made coarser than described, the largest of all clouds'; and what
+    // tells sets apart that depend on the eye.
+    double error = 0;
+    std::uint64_t variant = 0;
 
     std::size_t size() const { return center.size(); }
 };

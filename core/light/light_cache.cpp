@@ -39,9 +39,11 @@ std::size_t LightCache::bytes_in_use() const {
     return used_;
 }
 
-std::string light_key(const Scene& scene, const TransportSettings& settings) {
-    char text[96];
-    std::snprintf(text, sizeof text, ":%d:%d:%a:%d:%d:%d:%d", settings.cells, settings.sun_cells,
+std::string light_key(const Scene& scene, const TransportSettings& settings,
+                      std::uint64_t variant) {
+    char text[128];
+    std::snprintf(text, sizeof text, ":%llx:%d:%d:%a:%d:%d:%d:%d",
+                  static_cast<unsigned long long>(variant), settings.cells, settings.sun_cells,
                   settings.tolerance, settings.max_sweeps, settings.sky ? 1 : 0,
                   settings.ground ? 1 : 0, settings.ground_shadow ? 1 : 0);
     std::string key = light_fingerprint(scene) + text;

@@ -31,6 +31,8 @@ class LightCache {
 };
 
 // What a light depends on: everything of the scene but camera, image, effects and accuracy, and the settings.
-std::string light_key(const Scene& scene, const TransportSettings& settings);
+// variant: ParticleSet's.
+std::string light_key(const Scene& scene, const TransportSettings& settings,
+                      std::uint64_t variant = 0);
 
 }  // namespace awan

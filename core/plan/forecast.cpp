@@ -47,6 +47,7 @@ double predicted_bytes(const Rung& rung, const Scene& scene, const Survey& surve
                        std::min(1.0, figures[5] / std::max(std::pow(rung.cells, 3), 1.0)) +
                    8e6 + 64 * particles;
         case Method::kPaths:
+        case Method::kLook:  // never asked for (plan.cpp)
             break;
     }
     return 32e6 + 64 * particles + 32 * figures[4];
@@ -67,6 +68,7 @@ const ErrorModel& error_model(const Rung& rung) {
         case Method::kMarch:
             return rung.cells == 0 ? kSingleError : kTransportError;
         case Method::kPaths:
+        case Method::kLook:  // never asked for (plan.cpp)
             break;
     }
     return kPathNoise;
@@ -96,6 +98,8 @@ RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey
         case Method::kPaths:
             forecast.error /= std::sqrt(std::max(samples, 1U));
             ms += predicted_ms(kPathTime, times) * stretch(threads, 0);
+            break;
+        case Method::kLook:
             break;
     }
     forecast.time_ms = ms * speed.slowness;

@@ -10,6 +10,7 @@ enum class Method {
     kSplats,  // the two passes of splats on the renderer (core/light/light.h, core/draw/draw.h)
     kMarch,  // transport on a grid and the march (core/light/transport.h, core/draw/march.h); no renderer
     kPaths,  // the path tracer (core/truth/path_tracer.h); no renderer
+    kLook,   // the rules of a published system (core/looks/looks.h); no renderer, not on the ladder
 };
 
 struct Rung {
@@ -20,6 +21,9 @@ struct Rung {
 };
 
 std::span<const Rung> ladder();
+// What takes the place of a rung where a scene asks for a look.
+const Rung& look_rung();
+
 const Rung* find_rung(std::string_view name);  // null: there is none of that name
 
 }  // namespace awan

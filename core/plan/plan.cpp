@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "core/looks/looks.h"
 #include "core/plan/criteria.h"
 
 namespace awan {
@@ -172,6 +173,8 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
             error = std::hypot(std::min(error, thin_error(plan, scene, survey, additive)),
                                lost_by_splats(plan));
         }
+        double& whole = plan.forecasts.back().error;
+        whole = std::hypot(whole, survey.model_error);
         if (rung.method == Method::kSplats ||
             (!wants_splats(scene) && (paths || rung.method != Method::kPaths)))
             candidates.push_back(plan.forecasts.back());
@@ -220,9 +223,27 @@ void fit_effects_to_rung(Plan& plan) {
     if (rung.method == Method::kMarch && rung.cells == 0) set(Effect::kSkyLight, false);
 }
 
+// A look is not lit: nothing is simulated.
+Plan plan_look(const Scene& scene, const Survey& survey, int threads) {
+    Plan plan;
+    for (int i = 0; i < kEffectCount; ++i) {
+        EffectDecision& decision = plan.effects[static_cast<std::size_t>(i)];
+        decision.effect = static_cast<Effect>(i);
+        decision.available = in_this_version(decision.effect);
+        decision.reason = "the scene asks for a look, which follows its own rules";
+    }
+    plan.predicted.rung = &look_rung();
+    plan.predicted.error = std::numeric_limits<double>::quiet_NaN();
+    plan.predicted.time_ms = look_time_ms(scene, survey.view, threads);
+    plan.rung = look_rung().name;
+    plan.rung_reason = "the scene asks for a look: there is no truth to be near to";
+    return plan;
+}
+
 }  // namespace
 
 Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSpeed& speed) {
+    if (scene->look != Look::kPhysical) return plan_look(scene, survey, threads);
     Plan plan;
     const std::array<Criterion, kEffectCount> own_of = criteria(scene, survey);
     for (int i = 0; i < kEffectCount; ++i) {

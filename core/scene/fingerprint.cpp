@@ -13,7 +13,11 @@
 #include <span>
 #include <type_traits>
 
+#include "core/scene/automaton.h"
+#include "core/scene/ellipsoids.h"
+#include "core/scene/implicit.h"
 #include "core/scene/scene.h"
+#include "core/scene/spheres.h"
 
 namespace awan {
 namespace {
@@ -94,7 +98,16 @@ void add_cloud(Hasher& hash, const SceneDraft& scene, const Cloud& cloud) {
     hash.list(std::span<const float>(cloud.ready.radii));
     hash.list(unless_all(cloud.ready.densities, 1.0f));
     hash.list(unless_all(cloud.ready.colors, glm::vec3(1.0f)));
+    const auto add_model = [&](const auto& model) {
+        if (model) hash.list(std::span<const double>(figures_of(*model)));
+    };
+    add_model(cloud.automaton);
+    add_model(cloud.spheres);
+    add_model(cloud.implicit);
+    add_model(cloud.ellipsoids);
     hash.vector(cloud.translate);
+    hash.vector(scene.time * cloud.velocity);
+    hash.number(is_procedural(cloud) ? scene.time : 0.0);
     hash.number(cloud.scale);
     hash.number(cloud.rotate_y);
     hash.choice(cloud.fill.value_or(scene.fill));
@@ -154,6 +167,11 @@ void add_picture(Hasher& hash, const SceneDraft& scene) {
     hash.choice(scene.image.precision);
     hash.optional(scene.image.exposure, [&](double stops) { hash.number(stops); });
     for (const Switch effect : scene.effects) hash.choice(effect);
+    hash.choice(scene.look);
+    hash.optional(scene.sequence, [&](const Sequence& sequence) {
+        hash.number(sequence.from);
+        hash.number(sequence.to);
+    });
     const Accuracy& accuracy = scene.accuracy;
     const bool none = !accuracy.error && !accuracy.time_ms && !accuracy.rung;
     hash.optional(none ? kDefaultError : accuracy.error, [&](double error) { hash.number(error); });

@@ -41,6 +41,13 @@ inline constexpr double kMinDetailSize = 0.05,
                         kMaxDetailSize =
                             4;  // mean particle radii: finer is below every grid, coarser is shape
 
+// --- time
+// -------------------------------------------------------------------------------------------
+inline constexpr double kMaxTime = 1e6;      // |seconds|: a frame of 1/60 s keeps ten digits
+inline constexpr double kMaxVelocity = 1e6;  // units a second, along an axis
+inline constexpr std::uint64_t kMaxFrames =
+    100'000;  // an hour at 24 frames a second; names of files have as many digits
+
 // --- light
 // ------------------------------------------------------------------------------------------
 inline constexpr double kMaxIntensity =

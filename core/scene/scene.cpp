@@ -9,6 +9,10 @@
 #include <string_view>
 
 #include "core/exact_math.h"
+#include "core/scene/automaton.h"
+#include "core/scene/ellipsoids.h"
+#include "core/scene/implicit.h"
+#include "core/scene/spheres.h"
 
 namespace awan {
 namespace {
@@ -53,6 +57,18 @@ glm::dvec3 sun_direction(const Sun& sun) {
            0.0;
 }
 
+bool is_procedural(const Cloud& cloud) {
+    return cloud.model != CloudModel::kCubes && cloud.model != CloudModel::kParticles;
+}
+
+std::uint64_t most_particles(const Cloud& cloud) {
+    if (cloud.automaton) return most_particles(*cloud.automaton);
+    if (cloud.spheres) return most_particles(*cloud.spheres);
+    if (cloud.implicit) return most_particles(*cloud.implicit);
+    if (cloud.ellipsoids) return most_particles(*cloud.ellipsoids);
+    return 0;
+}
+
 std::uint64_t particle_count(const SceneDraft& scene) {
     // Saturates, so that a sum over a draft nobody has checked cannot wrap to a small number.
     std::uint64_t total = 0;
@@ -64,8 +80,10 @@ std::uint64_t particle_count(const SceneDraft& scene) {
     for (const Cloud& cloud : scene.clouds) {
         if (cloud.model == CloudModel::kCubes)
             for (const Cube& cube : cloud.cubes) add(cube.particles);
-        else
+        else if (cloud.model == CloudModel::kParticles)
             add(cloud.ready.positions.size());
+        else
+            add(most_particles(cloud));
     }
     return total;
 }

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -37,7 +38,13 @@ struct ReadyParticles {
     std::vector<glm::vec3> colors;  // 0..1, multiply the albedo; default white
 };
 
-enum class CloudModel { kCubes, kParticles };
+enum class CloudModel { kCubes, kParticles, kAutomaton, kSpheres, kImplicit, kEllipsoids };
+
+// The other models, each in a header of its own (automaton.h, ...).
+struct AutomatonCloud;
+struct SpheresCloud;
+struct ImplicitCloud;
+struct EllipsoidsCloud;
 
 // A point p of the model stands at translate + rotate_y(scale * p) in the scene; radii scale too,
 // extinction (1/unit) does not: a cloud made twice as large is twice as deep.
@@ -45,6 +52,12 @@ struct Cloud {
     CloudModel model = CloudModel::kCubes;
     std::vector<Cube> cubes;  // model kCubes
     ReadyParticles ready;     // model kParticles
+    // Of the model that it is, the others null.
+    std::shared_ptr<const AutomatonCloud> automaton;
+    std::shared_ptr<const SpheresCloud> spheres;
+    std::shared_ptr<const ImplicitCloud> implicit;
+    std::shared_ptr<const EllipsoidsCloud> ellipsoids;
+    glm::dvec3 velocity{0};  // scene units a second: at scene.time it stands so much farther
     glm::dvec3 translate{0};
     double scale = 1;
     double rotate_y = 0;                // degrees, from +z towards +x
@@ -111,6 +124,7 @@ struct Detail {
     double size = 1.5;    // of the largest bumps, in mean particle radii
 };
 
+inline constexpr double kAutomaticFov = 40;  // degrees
 struct Camera {
     bool automatic = true;  // "auto": the whole cloud, three-quarter view; then the rest is unused
     glm::dvec3 eye{0};
@@ -165,6 +179,16 @@ struct Accuracy {
     std::optional<std::string> rung;  // by name (core/plan/ladder.h)
 };
 
+// How a picture is made: by light as it is, or by the rules of a published system, which are a look and have no error
+// against the truth (core/looks).
+enum class Look { kPhysical, kOstroushko, kGardner };
+
+// Frames 0 .. frames-1 of a scene, the first at `from`, the last at `to`, evenly between.
+struct Sequence {
+    double from = 0, to = 1;  // seconds
+    std::uint64_t frames = 1;
+};
+
 struct SceneDraft {
     // True when the document has `cubes` at its top instead of `clouds`: then there is exactly one
     // cloud and pointers to its cubes read /cubes/i, else /clouds/k/cubes/i.
@@ -183,6 +207,9 @@ struct SceneDraft {
     ImageSettings image;
     Switch effects[kEffectCount] = {};
     Accuracy accuracy;
+    Look look = Look::kPhysical;
+    double time = 0;  // seconds
+    std::optional<Sequence> sequence;
 };
 
 // Makes table 4.4 a thick cumulus: optical depth about 30 through its middle (measured by
@@ -204,7 +231,13 @@ class Scene {
 // Unit vector towards the sun. Elevation 90 is exactly (0, 1, 0).
 glm::dvec3 sun_direction(const Sun& sun);
 
-// Particles asked for in all clouds. No overflow for drafts within the limits on cubes.
+// Of the models automaton, spheres, implicit and ellipsoids.
+bool is_procedural(const Cloud& cloud);
+
+// No more particles are made of a cloud that is_procedural(). 0 for others.
+std::uint64_t most_particles(const Cloud& cloud);
+
+// Particles asked for in all clouds, of models that make their own as many as they may. Saturates.
 std::uint64_t particle_count(const SceneDraft& scene);
 
 // 128 bits over every value of the scene, as 32 hex digits. Equal scenes, however written, have

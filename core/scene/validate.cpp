@@ -10,7 +10,11 @@
 #include <string>
 
 #include "core/plan/ladder.h"
+#include "core/scene/automaton.h"
+#include "core/scene/ellipsoids.h"
+#include "core/scene/implicit.h"
 #include "core/scene/limits.h"
+#include "core/scene/spheres.h"
 
 namespace awan {
 namespace {
@@ -205,6 +209,12 @@ Status check_ready(const ReadyParticles& ready, const Placement& placement, doub
     return std::nullopt;
 }
 
+// At which something may stand.
+std::vector<double> times_of(const SceneDraft& draft) {
+    if (!draft.sequence) return {draft.time};
+    return {draft.time, draft.sequence->from, draft.sequence->to};
+}
+
 Status check_cloud(const SceneDraft& draft, std::size_t k, Totals& totals) {
     const Cloud& cloud = draft.clouds[k];
     const std::string at = draft.top_level_cubes ? "" : "/clouds/" + std::to_string(k);
@@ -221,13 +231,65 @@ Status check_cloud(const SceneDraft& draft, std::size_t k, Totals& totals) {
                 in_range(*cloud.density, 0, limits::kMaxDensity, [&] { return at + "/density"; }))
             return wrong;
     const double density = cloud.density.value_or(draft.density.value_or(kDefaultDensity));
+    const auto velocity_pointer = [&] { return at + "/velocity"; };
+    if (Status wrong = all_in_range(cloud.velocity, -limits::kMaxVelocity, limits::kMaxVelocity,
+                                    velocity_pointer))
+        return wrong;
+    for (const double time : times_of(draft))
+        if (Status wrong = coordinates(cloud.translate + time * cloud.velocity, velocity_pointer))
+            return too_far(velocity_pointer());
     const Placement placement(cloud);
+    const bool described[] = {cloud.automaton != nullptr, cloud.spheres != nullptr,
+                              cloud.implicit != nullptr, cloud.ellipsoids != nullptr};
+    constexpr CloudModel kOf[] = {CloudModel::kAutomaton, CloudModel::kSpheres,
+                                  CloudModel::kImplicit, CloudModel::kEllipsoids};
+    for (std::size_t i = 0; i < std::size(kOf); ++i)
+        if (described[i] != (cloud.model == kOf[i]))
+            return invalid(at, "must have the description of its model and no other");
+    if (cloud.automaton) return check_automaton(*cloud.automaton, at + "/automaton");
+    if (cloud.spheres) return check_spheres(*cloud.spheres, at + "/spheres");
+    if (cloud.implicit) return check_implicit(*cloud.implicit, at + "/implicit");
+    if (cloud.ellipsoids) return check_ellipsoids(*cloud.ellipsoids, at + "/ellipsoids");
     if (cloud.model == CloudModel::kParticles)
         return check_ready(cloud.ready, placement, density, totals, at);
     for (std::size_t i = 0; i < cloud.cubes.size(); ++i)
         if (Status wrong = check_cube(cloud.cubes[i], placement, density, totals,
                                       at + "/cubes/" + std::to_string(i)))
             return wrong;
+    return std::nullopt;
+}
+
+Status check_times(const SceneDraft& draft) {
+    if (Status wrong = in_range(draft.time, -limits::kMaxTime, limits::kMaxTime, "/time"))
+        return wrong;
+    if (!draft.sequence) return std::nullopt;
+    const Sequence& sequence = *draft.sequence;
+    if (Status wrong =
+            in_range(sequence.from, -limits::kMaxTime, limits::kMaxTime, "/sequence/from"))
+        return wrong;
+    if (Status wrong = in_range(sequence.to, -limits::kMaxTime, limits::kMaxTime, "/sequence/to"))
+        return wrong;
+    if (sequence.frames < 1 || sequence.frames > limits::kMaxFrames)
+        return invalid("/sequence/frames", "must be from 1 to " +
+                                               std::to_string(limits::kMaxFrames) + ", not " +
+                                               std::to_string(sequence.frames));
+    return std::nullopt;
+}
+
+// The model whose look it is.
+Status check_look(const SceneDraft& draft) {
+    if (draft.look == Look::kPhysical) return std::nullopt;
+    const bool gardner = draft.look == Look::kGardner;
+    for (std::size_t k = 0; k < draft.clouds.size(); ++k)
+        if (draft.clouds[k].model != (gardner ? CloudModel::kEllipsoids : CloudModel::kSpheres))
+            return invalid("/look", std::string("belongs to clouds of model \"") +
+                                        (gardner ? "ellipsoids" : "spheres") + "\", and cloud " +
+                                        std::to_string(k) + " is not");
+    const Accuracy& accuracy = draft.accuracy;
+    if (accuracy.error || accuracy.time_ms || accuracy.rung)
+        return invalid("/accuracy",
+                       "a look follows its own rules and has no rungs; leave `accuracy` out or "
+                       "give the look \"physical\"");
     return std::nullopt;
 }
 
@@ -242,6 +304,7 @@ Status check_clouds(const SceneDraft& draft) {
     if (draft.density)
         if (Status wrong = in_range(*draft.density, 0, limits::kMaxDensity, "/density"))
             return wrong;
+    if (Status wrong = check_times(draft)) return wrong;
     Totals totals;
     for (std::size_t k = 0; k < draft.clouds.size(); ++k)
         if (Status wrong = check_cloud(draft, k, totals)) return wrong;
@@ -394,6 +457,7 @@ Result<Scene> validate(SceneDraft draft) {
         if (Status wrong = check_detail(*draft.detail)) return *wrong;
     if (Status wrong = check_camera(draft.camera)) return *wrong;
     if (Status wrong = check_image(draft.image)) return *wrong;
+    if (Status wrong = check_look(draft)) return *wrong;
     if (Status wrong = check_effects(draft)) return *wrong;
     if (Status wrong = check_accuracy(draft.accuracy)) return *wrong;
     return Scene(std::move(draft));

@@ -72,6 +72,7 @@ struct Survey {
     double max_projected_px = 0;     //   infinite for a particle that holds the eye
     DetailFigures detail;            // what detail would be made for
     bool eye_inside = false;         // the eye is within 4 s of a particle
+    double model_error = 0;          // ParticleSet::error
     GroundView ground;
     HazeFigures haze;
 };

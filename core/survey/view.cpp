@@ -14,7 +14,6 @@ constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kAutoAzimuth = 30 * kRadians;
 constexpr double kAutoElevation = -6 * kRadians;  // looking up a little, as one sees clouds
 constexpr double kAutoMargin = 1.08;
-constexpr double kAutoFov = 40;
 
 // Distance from `target` along `back` at which every corner of the box is in the picture.
 double distance_that_holds(const View& view, const Bounds& bounds, glm::dvec3 target) {
@@ -38,7 +37,7 @@ double distance_that_holds(const View& view, const Bounds& bounds, glm::dvec3 ta
 View resolve_view(const Camera& camera, const ImageSettings& image, const Bounds& bounds) {
     View view;
     view.aspect = static_cast<double>(image.width) / static_cast<double>(image.height);
-    const double fov = camera.automatic ? kAutoFov : camera.fov;
+    const double fov = camera.automatic ? kAutomaticFov : camera.fov;
     view.tan_half_fov = std::tan(fov / 2 * kRadians);
 
     const glm::dvec3 center = (bounds.min + bounds.max) / 2.0;

@@ -1,0 +1,15 @@
+#include "core/looks/looks.h"
+
+namespace awan {
+
+Result<Image> gardner_look(const Scene& scene, const View&, int, const Deadline&) {
+    Image image{scene->image.width, scene->image.height, false, {}};
+    image.pixels.resize(4 * image.pixel_count());
+    return image;
+}
+
+double gardner_look_ms(const Scene&, const View&, int) {
+    return 1;
+}
+
+}  // namespace awan

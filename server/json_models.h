@@ -1,0 +1,27 @@
+// The documents of the models that make their own particles, a file each (json_<model>.cpp): the rows of the tables of
+// json_fields.h, and the writing.
+#pragma once
+
+#include <span>
+
+#include "core/scene/scene.h"
+#include "server/json_fields.h"
+#include "server/json_object_text.h"
+
+namespace awan {
+
+std::span<const Field> automaton_fields();
+std::span<const Field> spheres_fields();
+std::span<const Field> implicit_fields();
+std::span<const Field> ellipsoids_fields();
+
+// Members of the model's object that are not the default.
+void write_automaton(const AutomatonCloud& cloud, ObjectText& text);
+void write_spheres(const SpheresCloud& cloud, ObjectText& text);
+void write_implicit(const ImplicitCloud& cloud, ObjectText& text);
+void write_ellipsoids(const EllipsoidsCloud& cloud, ObjectText& text);
+
+// `model` and the model's object, of a cloud that is_procedural().
+void write_model(const Cloud& cloud, ObjectText& text);
+
+}  // namespace awan
