@@ -422,7 +422,12 @@ std::span<const Field> fields_of(ObjectKind kind) {
         case ObjectKind::kSequence:
             return kSequenceFields;
         case ObjectKind::kAutomaton:
-            return automaton_fields();
+        case ObjectKind::kAutomatonEllipsoid:
+        case ObjectKind::kAutomatonRandom:
+        case ObjectKind::kAutomatonWind:
+        case ObjectKind::kAutomatonLayers:
+        case ObjectKind::kAutomatonWindBand:
+            return automaton_fields(kind);
         case ObjectKind::kSpheres:
             return spheres_fields();
         case ObjectKind::kImplicit:
@@ -495,6 +500,9 @@ const List& list_at(ListKind kind) {
             return kDensities;
         case ListKind::kColors:
             return kColors;
+        case ListKind::kAutomatonEllipsoids:
+        case ListKind::kAutomatonWindBands:
+            return automaton_list(kind);
         case ListKind::kNone:
             break;
     }

@@ -35,6 +35,11 @@ enum class ObjectKind : std::uint8_t {
     kSpheres,
     kImplicit,
     kEllipsoids,
+    kAutomatonEllipsoid,
+    kAutomatonRandom,
+    kAutomatonWind,
+    kAutomatonLayers,
+    kAutomatonWindBand,
 };
 
 // Lists whose length is not fixed.
@@ -46,6 +51,8 @@ enum class ListKind : std::uint8_t {
     kRadii,
     kDensities,
     kColors,
+    kAutomatonEllipsoids,
+    kAutomatonWindBands,
 };
 
 enum class WordOutcome { kTaken, kUnknown, kUnsupported };

@@ -75,6 +75,15 @@ void DraftInProgress::begin(ObjectKind kind) {
         case ObjectKind::kAutomaton:
             automaton = std::make_shared<AutomatonCloud>();
             break;
+        case ObjectKind::kAutomatonEllipsoid:
+            automaton->ellipsoids.emplace_back();
+            break;
+        case ObjectKind::kAutomatonRandom:
+            automaton->random.emplace();
+            break;
+        case ObjectKind::kAutomatonWindBand:
+            automaton->wind.ellipsoids.emplace_back();
+            break;
         case ObjectKind::kSpheres:
             spheres = std::make_shared<SpheresCloud>();
             break;

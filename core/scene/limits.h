@@ -48,6 +48,27 @@ inline constexpr double kMaxVelocity = 1e6;  // units a second, along an axis
 inline constexpr std::uint64_t kMaxFrames =
     100'000;  // an hour at 24 frames a second; names of files have as many digits
 
+// --- automaton (core/scene/automaton.h)
+// --------------------------------------------------------------------
+inline constexpr double kMaxAutomatonSide = 1024;  // cells along an axis
+// 1024 x 64 x 1024: four bits a cell of state and 17 of probabilities, 180 MiB.
+inline constexpr double kMaxAutomatonCells = 1u << 26;
+inline constexpr double kMinAutomatonCell = 1e-3, kMaxAutomatonCell = 1e5;  // units
+inline constexpr std::uint64_t kMaxAutomatonEllipsoids = 1'000;             // both kinds together
+inline constexpr std::uint64_t kMaxAutomatonBands = 100;  // each moves every ellipsoid at each step
+inline constexpr double kMinAutomatonRadius = 0.5;        // cells: below, it may contain none
+inline constexpr double kMaxAutomatonRadius = 4096;       // cells: the whole grid in its core
+inline constexpr double kMaxAutomatonPlace = 1e5;         // |cells|, of a centre or a height
+inline constexpr double kMaxAutomatonSpeed = 1024;        // |cells a step|: the grid's side
+inline constexpr std::uint64_t kMaxAutomatonSteps = 100'000;
+// Cells times steps, and where ellipsoids move theirs times steps: a minute of one core.
+inline constexpr double kMaxAutomatonWork = 0x1p36;
+inline constexpr double kMaxStepsPerSecond = 1e6;
+inline constexpr double kMaxAutomatonSmooth = 4;          // 9 x 9 x 9 cells
+inline constexpr std::uint64_t kMaxAutomatonHistory = 8;  // steps: a bit a cell each
+inline constexpr double kMinMetaballRadius = 1.5;         // cells: below, cells show
+inline constexpr double kMaxMetaballRadius = 16;          // cells: beyond, a coarser grid does
+
 // --- light
 // ------------------------------------------------------------------------------------------
 inline constexpr double kMaxIntensity =
