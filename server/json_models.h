@@ -12,6 +12,7 @@ namespace awan {
 
 std::span<const Field> automaton_fields();
 std::span<const Field> spheres_fields();
+std::span<const Field> spheres_morph_fields();
 std::span<const Field> implicit_fields();
 std::span<const Field> ellipsoids_fields();
 

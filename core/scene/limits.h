@@ -48,6 +48,23 @@ inline constexpr double kMaxVelocity = 1e6;  // units a second, along an axis
 inline constexpr std::uint64_t kMaxFrames =
     100'000;  // an hour at 24 frames a second; names of files have as many digits
 
+// --- spheres (core/scene/spheres.h)
+// -----------------------------------------------------------------------------------------
+inline constexpr std::uint64_t kMaxSphereLevels =
+    10;  // 9,765,625 spheres, the most of the source; below, they are finer than any picture
+inline constexpr std::uint64_t kMaxSpheresParticles =
+    1u << 20;  // of one cloud: two clouds of this kind and others find room in kMaxParticles
+inline constexpr double kMinSpheresSide = 1e-5,
+                        kMaxSpheresSide = 1e6;  // radii of particles are .36 of a side and less
+inline constexpr double kMinVisualRange =
+                            4e-6,  // ln 50 / kMaxDensity, rounded up: extinctions stay allowed
+    kMaxVisualRange = 1e9;
+inline constexpr double kMinSphereRatio = 0.05,
+                        kMaxSphereRatio =
+                            0.9;  // at 0 there is no child, at 1 all five are their parent
+inline constexpr double kMinMorphDuration = 1e-3;         // seconds: less is a cut
+inline constexpr std::uint64_t kMaxMorphSteps = 100'000;  // one a frame
+
 // --- light
 // ------------------------------------------------------------------------------------------
 inline constexpr double kMaxIntensity =
