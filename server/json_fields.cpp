@@ -430,6 +430,8 @@ std::span<const Field> fields_of(ObjectKind kind) {
             return automaton_fields(kind);
         case ObjectKind::kSpheres:
             return spheres_fields();
+        case ObjectKind::kSpheresMorph:
+            return spheres_morph_fields();
         case ObjectKind::kImplicit:
             return implicit_fields();
         case ObjectKind::kEllipsoids:

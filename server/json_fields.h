@@ -33,6 +33,7 @@ enum class ObjectKind : std::uint8_t {
     kSequence,
     kAutomaton,
     kSpheres,
+    kSpheresMorph,
     kImplicit,
     kEllipsoids,
     kAutomatonEllipsoid,

@@ -13,6 +13,7 @@ namespace awan {
 std::span<const Field> automaton_fields(ObjectKind kind);
 const List& automaton_list(ListKind kind);
 std::span<const Field> spheres_fields();
+std::span<const Field> spheres_morph_fields();
 std::span<const Field> implicit_fields();
 std::span<const Field> ellipsoids_fields();
 

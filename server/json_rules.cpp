@@ -87,6 +87,9 @@ void DraftInProgress::begin(ObjectKind kind) {
         case ObjectKind::kSpheres:
             spheres = std::make_shared<SpheresCloud>();
             break;
+        case ObjectKind::kSpheresMorph:
+            spheres->morph.emplace();
+            break;
         case ObjectKind::kImplicit:
             implicit = std::make_shared<ImplicitCloud>();
             break;

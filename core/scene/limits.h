@@ -68,6 +68,22 @@ inline constexpr double kMaxAutomatonSmooth = 4;          // 9 x 9 x 9 cells
 inline constexpr std::uint64_t kMaxAutomatonHistory = 8;  // steps: a bit a cell each
 inline constexpr double kMinMetaballRadius = 1.5;         // cells: below, cells show
 inline constexpr double kMaxMetaballRadius = 16;          // cells: beyond, a coarser grid does
+// --- spheres (core/scene/spheres.h)
+// -----------------------------------------------------------------------------------------
+inline constexpr std::uint64_t kMaxSphereLevels =
+    10;  // 9,765,625 spheres, the most of the source; below, they are finer than any picture
+inline constexpr std::uint64_t kMaxSpheresParticles =
+    1u << 20;  // of one cloud: two clouds of this kind and others find room in kMaxParticles
+inline constexpr double kMinSpheresSide = 1e-5,
+                        kMaxSpheresSide = 1e6;  // radii of particles are .36 of a side and less
+inline constexpr double kMinVisualRange =
+                            4e-6,  // ln 50 / kMaxDensity, rounded up: extinctions stay allowed
+    kMaxVisualRange = 1e9;
+inline constexpr double kMinSphereRatio = 0.05,
+                        kMaxSphereRatio =
+                            0.9;  // at 0 there is no child, at 1 all five are their parent
+inline constexpr double kMinMorphDuration = 1e-3;         // seconds: less is a cut
+inline constexpr std::uint64_t kMaxMorphSteps = 100'000;  // one a frame
 
 // --- light
 // ------------------------------------------------------------------------------------------
