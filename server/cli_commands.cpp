@@ -77,6 +77,8 @@ int run_render(const RenderCommand& command) {
     if (binary_to_terminal(command.output))
         return bad_usage("-o -: an image is not written to a terminal");
     image.format = *format == "exr" ? ImageFormat::kExr : ImageFormat::kPng;
+    if (const Status wrong = begin_with_state(command.state, *draft))
+        return report_error(command.scene, *wrong);
 
     auto scene = validate(std::move(draft).value());
     if (!scene) return report_error(command.scene, scene.error());
@@ -93,7 +95,7 @@ int run_particles(const ParticlesCommand& command) {
     if (!format) return bad_usage(format.error().message);
     if (*format == "ply" && binary_to_terminal(command.output))
         return bad_usage("-o -: binary PLY is not written to a terminal");
-    auto scene = read_valid_scene(command.scene);
+    auto scene = read_valid_scene(command.scene, command.state);
     if (!scene) return report_error(command.scene, scene.error());
     if (*format == "awn") {
         auto layout = write_awn(**scene);
@@ -110,7 +112,7 @@ int run_particles(const ParticlesCommand& command) {
 }
 
 int run_plan(const PlanCommand& command) {
-    auto scene = read_valid_scene(command.scene);
+    auto scene = read_valid_scene(command.scene, command.state);
     if (!scene) return report_error(command.scene, scene.error());
     auto planned = plan_only(*scene, command.threads, Deadline{}, measure_speed());
     if (!planned) return report_error(command.scene, planned.error());
