@@ -426,7 +426,13 @@ std::span<const Field> fields_of(ObjectKind kind) {
         case ObjectKind::kSpheres:
             return spheres_fields();
         case ObjectKind::kImplicit:
-            return implicit_fields();
+        case ObjectKind::kImplicitPrimitive:
+        case ObjectKind::kImplicitKey:
+        case ObjectKind::kImplicitGrowth:
+        case ObjectKind::kImplicitAttractor:
+        case ObjectKind::kImplicitVortex:
+        case ObjectKind::kImplicitFlow:
+            return implicit_fields(kind);
         case ObjectKind::kEllipsoids:
             return ellipsoids_fields();
         case ObjectKind::kEffects:  // named by effect_name()
@@ -495,6 +501,13 @@ const List& list_at(ListKind kind) {
             return kDensities;
         case ListKind::kColors:
             return kColors;
+        case ListKind::kImplicitPrimitives:
+        case ListKind::kImplicitPoints:
+        case ListKind::kImplicitKeys:
+        case ListKind::kImplicitAttractors:
+        case ListKind::kImplicitVortices:
+        case ListKind::kImplicitVectors:
+            return implicit_list(kind);
         case ListKind::kNone:
             break;
     }

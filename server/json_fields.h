@@ -35,6 +35,12 @@ enum class ObjectKind : std::uint8_t {
     kSpheres,
     kImplicit,
     kEllipsoids,
+    kImplicitPrimitive,
+    kImplicitKey,
+    kImplicitGrowth,
+    kImplicitAttractor,
+    kImplicitVortex,
+    kImplicitFlow,
 };
 
 // Lists whose length is not fixed.
@@ -46,6 +52,12 @@ enum class ListKind : std::uint8_t {
     kRadii,
     kDensities,
     kColors,
+    kImplicitPrimitives,
+    kImplicitPoints,
+    kImplicitKeys,
+    kImplicitAttractors,
+    kImplicitVortices,
+    kImplicitVectors,
 };
 
 enum class WordOutcome { kTaken, kUnknown, kUnsupported };
