@@ -41,6 +41,12 @@ enum class ObjectKind : std::uint8_t {
     kAutomatonWind,
     kAutomatonLayers,
     kAutomatonWindBand,
+    kImplicitPrimitive,
+    kImplicitKey,
+    kImplicitGrowth,
+    kImplicitAttractor,
+    kImplicitVortex,
+    kImplicitFlow,
 };
 
 // Lists whose length is not fixed.
@@ -54,6 +60,12 @@ enum class ListKind : std::uint8_t {
     kColors,
     kAutomatonEllipsoids,
     kAutomatonWindBands,
+    kImplicitPrimitives,
+    kImplicitPoints,
+    kImplicitKeys,
+    kImplicitAttractors,
+    kImplicitVortices,
+    kImplicitVectors,
 };
 
 enum class WordOutcome { kTaken, kUnknown, kUnsupported };
