@@ -429,6 +429,13 @@ std::span<const Field> fields_of(ObjectKind kind) {
             return implicit_fields();
         case ObjectKind::kEllipsoids:
             return ellipsoids_fields();
+        case ObjectKind::kEllipsoidsTexture:
+        case ObjectKind::kEllipsoidsShading:
+        case ObjectKind::kSkyPlane:
+        case ObjectKind::kPlaneTexture:
+        case ObjectKind::kFormation:
+        case ObjectKind::kEllipsoid:
+            return ellipsoids_part_fields(kind);
         case ObjectKind::kEffects:  // named by effect_name()
         case ObjectKind::kNone:
             return {};
@@ -482,6 +489,10 @@ const List& list_at(ListKind kind) {
                                       s.cloud->ready.colors.emplace_back(
                                           to_float(v.x), to_float(v.y), to_float(v.z));
                                   }};
+    static constexpr List kFormations{
+        .wanted = "an object", .most = limits::kMaxEllipsoids, .object = ObjectKind::kFormation};
+    static constexpr List kEllipsoids{
+        .wanted = "an object", .most = limits::kMaxEllipsoids, .object = ObjectKind::kEllipsoid};
     switch (kind) {
         case ListKind::kCubes:
             return kCubes;
@@ -495,6 +506,10 @@ const List& list_at(ListKind kind) {
             return kDensities;
         case ListKind::kColors:
             return kColors;
+        case ListKind::kFormations:
+            return kFormations;
+        case ListKind::kEllipsoids:
+            return kEllipsoids;
         case ListKind::kNone:
             break;
     }

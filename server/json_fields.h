@@ -35,6 +35,12 @@ enum class ObjectKind : std::uint8_t {
     kSpheres,
     kImplicit,
     kEllipsoids,
+    kEllipsoidsTexture,
+    kEllipsoidsShading,
+    kSkyPlane,
+    kPlaneTexture,
+    kFormation,
+    kEllipsoid,
 };
 
 // Lists whose length is not fixed.
@@ -46,6 +52,8 @@ enum class ListKind : std::uint8_t {
     kRadii,
     kDensities,
     kColors,
+    kFormations,
+    kEllipsoids,
 };
 
 enum class WordOutcome { kTaken, kUnknown, kUnsupported };

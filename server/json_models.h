@@ -14,6 +14,7 @@ std::span<const Field> automaton_fields();
 std::span<const Field> spheres_fields();
 std::span<const Field> implicit_fields();
 std::span<const Field> ellipsoids_fields();
+std::span<const Field> ellipsoids_part_fields(ObjectKind kind);  // of the objects in it
 
 // Members of the model's object that are not the default.
 void write_automaton(const AutomatonCloud& cloud, ObjectText& text);
