@@ -21,25 +21,25 @@ enum class TextureForm { kClean, kPrinted };
 // T(X,Y,Z) = k sum Ci [sin(FXi X + PXi) + T0] * sum Ci [sin(FYi Y + PYi) + T0], 0..1.
 struct SineTexture {
     TextureForm form = TextureForm::kClean;
-    std::uint64_t terms = 6;  // of either sum; the source: 4 to 7
-    double frequency_x = 1;   // FX1, radians/unit, along x and upward
-    double frequency_z = 1;   // FY1, radians/unit, along z
-    double offset = 0.6;      // T0, "controls the contrast": more of it, less contrast
+    std::uint64_t terms = 6;   // of either sum; the source: 4 to 7
+    double frequency_x = 0.9;  // FX1, radians/unit, along x and upward
+    double frequency_z = 0.9;  // FY1, radians/unit, along z
+    double offset = 1;         // T0, "controls the contrast": more of it, less contrast
 };
 
 // Intensity I = (1-a){(1-t)[(1-s) Id + s Is] + t It} + a.
 struct SineShading {
     double specular = 0.1;  // s
-    double texture = 0.45;  // t
-    double ambient = 0.3;   // a
+    double texture = 0.35;  // t
+    double ambient = 0.25;  // a
     double shininess = 4;   // exponent of Is, Phong's; the source gives none
 };
 
 // TR = clamp(1 - (It - T1 - (T2-T1)(1-g))/D, 0, 1).
 struct Translucence {
-    double threshold = 0.1;       // T1, at the centre of the limb curve
-    double threshold_edge = 0.8;  // T2, on the silhouette
-    double range = 0.2;           // D, of texture, from clear to opaque
+    double threshold = 0;          // T1, at the centre of the limb curve
+    double threshold_edge = 0.65;  // T2, on the silhouette
+    double range = 0.2;            // D, of texture, from clear to opaque
 };
 
 // TR = clamp(1 - (It - T1)/D, 0, 1). Endless in the look; in the volume a square slab around the cloud's origin.
@@ -51,7 +51,7 @@ struct SkyPlane {
     double range = 0.3;
     double density = 10;             // multiplies the cloud's
     std::uint64_t resolution = 128;  // cells along a side of the slab
-    SineTexture texture{TextureForm::kClean, 6, 0.3, 0.3, 0.6};
+    SineTexture texture{TextureForm::kClean, 6, 0.3, 0.3, 1};
 };
 
 // Rows and patches, towers, or towers on a patch. Ellipsoids are linked: each but the first overlaps an earlier one.
@@ -64,7 +64,7 @@ struct Formation {
     double variation = 0.3;  // 0..: radii are between (1 - v) and (1 + v) times `radii`
     double link = 0.5;       // share of the way from touching (0) to the same centre (1)
     double heading = 90;     // degrees, from +z towards +x: which way the row goes
-    double spread = 60;      // degrees, by which a link may depart from `heading`, or from upward
+    double spread = 50;      // degrees, by which a link may depart from `heading`, or from upward
 };
 
 struct Ellipsoid {

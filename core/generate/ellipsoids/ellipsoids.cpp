@@ -1,5 +1,6 @@
 // Ellipsoids and a sky plane as matter: where the source makes a surface more or less translucent, extinction is more or less.
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 
 #include "core/generate/ellipsoids/formations.h"
@@ -10,43 +11,52 @@
 namespace awan {
 namespace {
 
-// Six Gaussians that touch the box from inside, one at the middle of each face.
-void add_box(const glm::dvec3& center, const glm::dvec3& half, double density,
-             ReadyParticles& particles) {
-    const double radius = std::min({half.x, half.y, half.z});
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double side : {-1.0, 1.0}) {
-            glm::dvec3 p = center;
-            p[axis] += side * (half[axis] - radius);
-            particles.positions.push_back(p);
-            particles.radii.push_back(static_cast<float>(radius));
-            particles.densities.push_back(static_cast<float>(density));
-        }
+void add_one(const glm::dvec3& p, double radius, double density, ReadyParticles& particles) {
+    particles.positions.push_back(p);
+    particles.radii.push_back(static_cast<float>(radius));
+    particles.densities.push_back(static_cast<float>(density));
+}
+
+// Touching the ellipsoid from inside, at the ends of its axes and between them: its bounds, however the cloud is turned, within a
+// tenth.
+void add_outline(const PlacedEllipsoid& one, double density, ReadyParticles& particles) {
+    constexpr double kInset = 0.1;
+    const double radius = kInset * std::min({one.radii.x, one.radii.y, one.radii.z});
+    for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+            for (int z = -1; z <= 1; ++z) {
+                const int used = x * x + y * y + z * z;
+                if (used != 1 && used != 3) continue;
+                const double length = (1 - kInset) / std::sqrt(static_cast<double>(used));
+                add_one(one.from_unit(length * glm::dvec3(x, y, z)), radius, density, particles);
+            }
+}
+
+// The corners of the plane's slab.
+void add_corners(const SkyPlane& plane, ReadyParticles& particles) {
+    const double half = plane.extent / 2;
+    const double radius =
+        0.5 * std::max(plane.thickness, plane.extent / static_cast<double>(plane.resolution));
+    for (const double x : {-1.0, 1.0})
+        for (const double z : {-1.0, 1.0})
+            add_one({x * (half - radius), plane.altitude, z * (half - radius)}, radius,
+                    plane.density, particles);
 }
 
 ModelParticles coarse_particles(const EllipsoidsCloud& cloud,
                                 const std::vector<PlacedEllipsoid>& ellipsoids) {
     ModelParticles made;
-    // All of some ellipsoids one by one; of many only the box around them.
-    constexpr std::size_t kOneByOne = 64;
-    if (ellipsoids.size() <= kOneByOne) {
-        for (const PlacedEllipsoid& one : ellipsoids)
-            add_box(one.center, one.half_box(), cloud.density, made.particles);
-    } else {
-        glm::dvec3 low = ellipsoids[0].center, high = low;
-        for (const PlacedEllipsoid& one : ellipsoids) {
-            low = glm::min(low, one.center - one.half_box());
-            high = glm::max(high, one.center + one.half_box());
+    // Of many ellipsoids one round particle each will do.
+    constexpr std::size_t kFew = 64;
+    for (const PlacedEllipsoid& one : ellipsoids) {
+        if (ellipsoids.size() <= kFew) {
+            add_outline(one, cloud.density, made.particles);
+        } else {
+            add_one(one.center, std::max({one.radii.x, one.radii.y, one.radii.z}), cloud.density,
+                    made.particles);
         }
-        add_box(0.5 * (low + high), 0.5 * (high - low), cloud.density, made.particles);
     }
-    if (cloud.plane) {
-        const SkyPlane& plane = *cloud.plane;
-        const double cell = plane.extent / static_cast<double>(plane.resolution);
-        add_box({0, plane.altitude, 0},
-                {plane.extent / 2, std::max(plane.thickness, cell) / 2, plane.extent / 2},
-                plane.density, made.particles);
-    }
+    if (cloud.plane) add_corners(*cloud.plane, made.particles);
     return made;
 }
 

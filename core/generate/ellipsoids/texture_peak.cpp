@@ -74,7 +74,7 @@ void climb(Place& place, std::size_t axes, std::size_t terms, double floor, doub
 double scale_to_one(std::size_t terms, double floor, bool in_space,
                     const Coefficients& coefficient) {
     const std::size_t axes = in_space ? 3 : 2;
-    constexpr std::size_t kKept = 96, kClimbed = 6;
+    constexpr std::size_t kKept = 40, kClimbed = 4;
     // One period, cut into 4 along each axis; with every further term cells become half as wide, as its sine is.
     std::vector<Place> places(1);
     double step = 0.5;
