@@ -442,6 +442,13 @@ std::span<const Field> fields_of(ObjectKind kind) {
             return implicit_fields(kind);
         case ObjectKind::kEllipsoids:
             return ellipsoids_fields();
+        case ObjectKind::kEllipsoidsTexture:
+        case ObjectKind::kEllipsoidsShading:
+        case ObjectKind::kSkyPlane:
+        case ObjectKind::kPlaneTexture:
+        case ObjectKind::kFormation:
+        case ObjectKind::kEllipsoid:
+            return ellipsoids_part_fields(kind);
         case ObjectKind::kEffects:  // named by effect_name()
         case ObjectKind::kNone:
             return {};
@@ -495,6 +502,10 @@ const List& list_at(ListKind kind) {
                                       s.cloud->ready.colors.emplace_back(
                                           to_float(v.x), to_float(v.y), to_float(v.z));
                                   }};
+    static constexpr List kFormations{
+        .wanted = "an object", .most = limits::kMaxEllipsoids, .object = ObjectKind::kFormation};
+    static constexpr List kEllipsoids{
+        .wanted = "an object", .most = limits::kMaxEllipsoids, .object = ObjectKind::kEllipsoid};
     switch (kind) {
         case ListKind::kCubes:
             return kCubes;
@@ -518,6 +529,10 @@ const List& list_at(ListKind kind) {
         case ListKind::kImplicitVortices:
         case ListKind::kImplicitVectors:
             return implicit_list(kind);
+        case ListKind::kFormations:
+            return kFormations;
+        case ListKind::kEllipsoids:
+            return kEllipsoids;
         case ListKind::kNone:
             break;
     }

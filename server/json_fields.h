@@ -47,6 +47,12 @@ enum class ObjectKind : std::uint8_t {
     kImplicitAttractor,
     kImplicitVortex,
     kImplicitFlow,
+    kEllipsoidsTexture,
+    kEllipsoidsShading,
+    kSkyPlane,
+    kPlaneTexture,
+    kFormation,
+    kEllipsoid,
 };
 
 // Lists whose length is not fixed.
@@ -66,6 +72,8 @@ enum class ListKind : std::uint8_t {
     kImplicitAttractors,
     kImplicitVortices,
     kImplicitVectors,
+    kFormations,
+    kEllipsoids,
 };
 
 enum class WordOutcome { kTaken, kUnknown, kUnsupported };

@@ -105,6 +105,15 @@ void DraftInProgress::begin(ObjectKind kind) {
         case ObjectKind::kEllipsoids:
             ellipsoids = std::make_shared<EllipsoidsCloud>();
             break;
+        case ObjectKind::kSkyPlane:
+            ellipsoids->plane.emplace();
+            break;
+        case ObjectKind::kFormation:
+            ellipsoids->formations.emplace_back();
+            break;
+        case ObjectKind::kEllipsoid:
+            ellipsoids->ellipsoids.emplace_back();
+            break;
         default:
             break;
     }

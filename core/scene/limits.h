@@ -80,6 +80,29 @@ inline constexpr std::uint64_t kMaxGrowth =
 inline constexpr double kMaxGrowthSpread = 100;  // radii
 inline constexpr double kMaxGrowthMotion = 10;   // radii a second, or a second^2
 inline constexpr double kMinGrowthSeconds = 0.1, kMaxGrowthSeconds = 1e5;  // lifetimes, durations
+// --- ellipsoids (core/scene/ellipsoids.h)
+// -----------------------------------------------------------------------------------------
+inline constexpr std::uint64_t kMaxTextureTerms =
+    8;  // the source: 4 to 7; the highest frequency is then 128 times the first
+inline constexpr double kMinTextureFrequency = 1e-6, kMaxTextureFrequency = 1e6;  // radians/unit
+inline constexpr double kMaxTextureOffset = 100;  // T0: by then the texture is flat within 2%
+// Of T, which is from 0 to 1, and of where it fades: a little beyond either end, so that a cloud may be all or nothing.
+inline constexpr double kMinTextureThreshold = -10, kMaxTextureThreshold = 10;
+inline constexpr double kMinTextureRange = 1e-3,
+                        kMaxTextureRange = 10;  // D divides: less is a step for any eye
+inline constexpr double kMaxShininess = 1e3;    // a highlight of 3 degrees
+inline constexpr std::uint64_t kMaxEllipsoids =
+    1'000;  // in a cloud: a pixel may have to look at all of them
+// A particle is 1.3 times a cell wide, and a cell the box over `resolution`: with these it stays within kMinRadius and
+// kMaxRadius, whatever the formations.
+inline constexpr double kMinEllipsoidRadius = 1e-3, kMaxEllipsoidRadius = 1e3;  // units
+inline constexpr double kMaxEllipsoidCoordinate = 1e6;                          // |units|
+inline constexpr double kMaxRadiusVariation = 0.9;         // (1 - v) stays a radius
+inline constexpr double kMinLink = 0.05, kMaxLink = 0.95;  // overlapping, yet not all in one place
+inline constexpr double kMinPlaneExtent = 1e-2, kMaxPlaneExtent = 1e6;  // units
+// Cells along the longest side; 160^3 are 4.1 million.
+inline constexpr std::uint64_t kMinLatticeResolution = 8, kMaxLatticeResolution = 160;
+inline constexpr std::uint64_t kMaxPlaneResolution = 1'000;  // cells along the plane
 
 // --- time
 // -------------------------------------------------------------------------------------------
