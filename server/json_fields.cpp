@@ -422,9 +422,16 @@ std::span<const Field> fields_of(ObjectKind kind) {
         case ObjectKind::kSequence:
             return kSequenceFields;
         case ObjectKind::kAutomaton:
-            return automaton_fields();
+        case ObjectKind::kAutomatonEllipsoid:
+        case ObjectKind::kAutomatonRandom:
+        case ObjectKind::kAutomatonWind:
+        case ObjectKind::kAutomatonLayers:
+        case ObjectKind::kAutomatonWindBand:
+            return automaton_fields(kind);
         case ObjectKind::kSpheres:
             return spheres_fields();
+        case ObjectKind::kSpheresMorph:
+            return spheres_morph_fields();
         case ObjectKind::kImplicit:
             return implicit_fields();
         case ObjectKind::kEllipsoids:
@@ -489,10 +496,6 @@ const List& list_at(ListKind kind) {
                                       s.cloud->ready.colors.emplace_back(
                                           to_float(v.x), to_float(v.y), to_float(v.z));
                                   }};
-    static constexpr List kFormations{
-        .wanted = "an object", .most = limits::kMaxEllipsoids, .object = ObjectKind::kFormation};
-    static constexpr List kEllipsoids{
-        .wanted = "an object", .most = limits::kMaxEllipsoids, .object = ObjectKind::kEllipsoid};
     switch (kind) {
         case ListKind::kCubes:
             return kCubes;
@@ -506,10 +509,12 @@ const List& list_at(ListKind kind) {
             return kDensities;
         case ListKind::kColors:
             return kColors;
+        case ListKind::kAutomatonEllipsoids:
+        case ListKind::kAutomatonWindBands:
+            return automaton_list(kind);
         case ListKind::kFormations:
-            return kFormations;
         case ListKind::kEllipsoids:
-            return kEllipsoids;
+            return ellipsoids_list(kind);
         case ListKind::kNone:
             break;
     }

@@ -33,6 +33,7 @@ enum class ObjectKind : std::uint8_t {
     kSequence,
     kAutomaton,
     kSpheres,
+    kSpheresMorph,
     kImplicit,
     kEllipsoids,
     kEllipsoidsTexture,
@@ -41,6 +42,11 @@ enum class ObjectKind : std::uint8_t {
     kPlaneTexture,
     kFormation,
     kEllipsoid,
+    kAutomatonEllipsoid,
+    kAutomatonRandom,
+    kAutomatonWind,
+    kAutomatonLayers,
+    kAutomatonWindBand,
 };
 
 // Lists whose length is not fixed.
@@ -54,6 +60,8 @@ enum class ListKind : std::uint8_t {
     kColors,
     kFormations,
     kEllipsoids,
+    kAutomatonEllipsoids,
+    kAutomatonWindBands,
 };
 
 enum class WordOutcome { kTaken, kUnknown, kUnsupported };

@@ -75,8 +75,20 @@ void DraftInProgress::begin(ObjectKind kind) {
         case ObjectKind::kAutomaton:
             automaton = std::make_shared<AutomatonCloud>();
             break;
+        case ObjectKind::kAutomatonEllipsoid:
+            automaton->ellipsoids.emplace_back();
+            break;
+        case ObjectKind::kAutomatonRandom:
+            automaton->random.emplace();
+            break;
+        case ObjectKind::kAutomatonWindBand:
+            automaton->wind.ellipsoids.emplace_back();
+            break;
         case ObjectKind::kSpheres:
             spheres = std::make_shared<SpheresCloud>();
+            break;
+        case ObjectKind::kSpheresMorph:
+            spheres->morph.emplace();
             break;
         case ObjectKind::kImplicit:
             implicit = std::make_shared<ImplicitCloud>();

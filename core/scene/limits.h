@@ -72,6 +72,43 @@ inline constexpr double kMaxVelocity = 1e6;  // units a second, along an axis
 inline constexpr std::uint64_t kMaxFrames =
     100'000;  // an hour at 24 frames a second; names of files have as many digits
 
+// --- automaton (core/scene/automaton.h)
+// --------------------------------------------------------------------
+inline constexpr double kMaxAutomatonSide = 1024;  // cells along an axis
+// 1024 x 64 x 1024: four bits a cell of state and 17 of probabilities, 180 MiB.
+inline constexpr double kMaxAutomatonCells = 1u << 26;
+inline constexpr double kMinAutomatonCell = 1e-3, kMaxAutomatonCell = 1e5;  // units
+inline constexpr std::uint64_t kMaxAutomatonEllipsoids = 1'000;             // both kinds together
+inline constexpr std::uint64_t kMaxAutomatonBands = 100;  // each moves every ellipsoid at each step
+inline constexpr double kMinAutomatonRadius = 0.5;        // cells: below, it may contain none
+inline constexpr double kMaxAutomatonRadius = 4096;       // cells: the whole grid in its core
+inline constexpr double kMaxAutomatonPlace = 1e5;         // |cells|, of a centre or a height
+inline constexpr double kMaxAutomatonSpeed = 1024;        // |cells a step|: the grid's side
+inline constexpr std::uint64_t kMaxAutomatonSteps = 100'000;
+// Cells times steps, and where ellipsoids move theirs times steps: a minute of one core.
+inline constexpr double kMaxAutomatonWork = 0x1p36;
+inline constexpr double kMaxStepsPerSecond = 1e6;
+inline constexpr double kMaxAutomatonSmooth = 4;          // 9 x 9 x 9 cells
+inline constexpr std::uint64_t kMaxAutomatonHistory = 8;  // steps: a bit a cell each
+inline constexpr double kMinMetaballRadius = 1.5;         // cells: below, cells show
+inline constexpr double kMaxMetaballRadius = 16;          // cells: beyond, a coarser grid does
+// --- spheres (core/scene/spheres.h)
+// -----------------------------------------------------------------------------------------
+inline constexpr std::uint64_t kMaxSphereLevels =
+    10;  // 9,765,625 spheres, the most of the source; below, they are finer than any picture
+inline constexpr std::uint64_t kMaxSpheresParticles =
+    1u << 20;  // of one cloud: two clouds of this kind and others find room in kMaxParticles
+inline constexpr double kMinSpheresSide = 1e-5,
+                        kMaxSpheresSide = 1e6;  // radii of particles are .36 of a side and less
+inline constexpr double kMinVisualRange =
+                            4e-6,  // ln 50 / kMaxDensity, rounded up: extinctions stay allowed
+    kMaxVisualRange = 1e9;
+inline constexpr double kMinSphereRatio = 0.05,
+                        kMaxSphereRatio =
+                            0.9;  // at 0 there is no child, at 1 all five are their parent
+inline constexpr double kMinMorphDuration = 1e-3;         // seconds: less is a cut
+inline constexpr std::uint64_t kMaxMorphSteps = 100'000;  // one a frame
+
 // --- light
 // ------------------------------------------------------------------------------------------
 inline constexpr double kMaxIntensity =
