@@ -433,7 +433,13 @@ std::span<const Field> fields_of(ObjectKind kind) {
         case ObjectKind::kSpheresMorph:
             return spheres_morph_fields();
         case ObjectKind::kImplicit:
-            return implicit_fields();
+        case ObjectKind::kImplicitPrimitive:
+        case ObjectKind::kImplicitKey:
+        case ObjectKind::kImplicitGrowth:
+        case ObjectKind::kImplicitAttractor:
+        case ObjectKind::kImplicitVortex:
+        case ObjectKind::kImplicitFlow:
+            return implicit_fields(kind);
         case ObjectKind::kEllipsoids:
             return ellipsoids_fields();
         case ObjectKind::kEllipsoidsTexture:
@@ -512,6 +518,13 @@ const List& list_at(ListKind kind) {
         case ListKind::kAutomatonEllipsoids:
         case ListKind::kAutomatonWindBands:
             return automaton_list(kind);
+        case ListKind::kImplicitPrimitives:
+        case ListKind::kImplicitPoints:
+        case ListKind::kImplicitKeys:
+        case ListKind::kImplicitAttractors:
+        case ListKind::kImplicitVortices:
+        case ListKind::kImplicitVectors:
+            return implicit_list(kind);
         case ListKind::kFormations:
         case ListKind::kEllipsoids:
             return ellipsoids_list(kind);

@@ -76,10 +76,9 @@ Status check_ellipsoids(const AutomatonCloud& cloud, const std::string& at) {
     }
     if (!cloud.random) return std::nullopt;
     const RandomEllipsoids& random = *cloud.random;
-    if (Status wrong =
-            count_in_range(random.count, 0,
-                           limits::kMaxAutomatonEllipsoids - cloud.ellipsoids.size(),
-                           at + "/random/count"))
+    if (Status wrong = count_in_range(random.count, 0,
+                                      limits::kMaxAutomatonEllipsoids - cloud.ellipsoids.size(),
+                                      at + "/random/count"))
         return wrong;
     if (Status wrong = check_radii(random.smallest, at + "/random/smallest")) return wrong;
     if (Status wrong = check_radii(random.largest, at + "/random/largest")) return wrong;
@@ -139,13 +138,12 @@ Status check_work(const AutomatonCloud& cloud, const std::string& at) {
     const double work = own + a_step * static_cast<double>(cloud.steps);
     if (work <= limits::kMaxAutomatonWork) return std::nullopt;
     const double left = std::floor((limits::kMaxAutomatonWork - own) / a_step);
-    return invalid(at + "/steps",
-                   "is more than this grid may make: cells" +
-                       std::string(cloud.wind.ellipsoids.empty()
-                                       ? ""
-                                       : " (and those in ellipsoids, which move)") +
-                       " times steps may be " + to_text(limits::kMaxAutomatonWork) + ", here " +
-                       to_text(std::max(left, 0.0)) + " steps");
+    return invalid(at + "/steps", "is more than this grid may make: cells" +
+                                      std::string(cloud.wind.ellipsoids.empty()
+                                                      ? ""
+                                                      : " (and those in ellipsoids, which move)") +
+                                      " times steps may be " + to_text(limits::kMaxAutomatonWork) +
+                                      ", here " + to_text(std::max(left, 0.0)) + " steps");
 }
 
 void add(std::vector<double>& figures, const glm::dvec3& v) {
@@ -184,9 +182,8 @@ std::vector<double> automaton_rules_of(const AutomatonCloud& cloud) {
     add(figures, random.largest);
     figures.push_back(random.level ? 1 : 0);
     figures.push_back(random.level.value_or(0));
-    figures.insert(figures.end(),
-                   {static_cast<double>(cloud.overlap), cloud.base, cloud.humidity,
-                    cloud.activation, cloud.extinction, cloud.outside_extinction});
+    figures.insert(figures.end(), {static_cast<double>(cloud.overlap), cloud.base, cloud.humidity,
+                                   cloud.activation, cloud.extinction, cloud.outside_extinction});
     add(figures, cloud.wind.layers);
     figures.push_back(static_cast<double>(cloud.wind.ellipsoids.size()));
     for (const AutomatonWindBand& band : cloud.wind.ellipsoids) {
@@ -200,12 +197,12 @@ std::vector<double> automaton_rules_of(const AutomatonCloud& cloud) {
 
 std::vector<double> figures_of(const AutomatonCloud& cloud) {
     std::vector<double> figures = automaton_rules_of(cloud);
-    figures.insert(figures.end(),
-                   {cloud.cell, static_cast<double>(cloud.warm_up), cloud.steps_per_second,
-                    static_cast<double>(cloud.steps)});
+    figures.insert(figures.end(), {cloud.cell, static_cast<double>(cloud.warm_up),
+                                   cloud.steps_per_second, static_cast<double>(cloud.steps)});
     add(figures, cloud.smooth);
     figures.insert(figures.end(), {cloud.metaball_radius, cloud.threshold,
                                    static_cast<double>(cloud.most_particles)});
+    for (double& figure : figures) figure += 0.0;  // -0 is 0
     return figures;
 }
 
@@ -230,17 +227,14 @@ Status check_automaton(const AutomatonCloud& cloud, const std::string& at) {
     for (const auto& [name, value] : probabilities)
         if (Status wrong = in_range(value, 0, 1, at + name)) return wrong;
     if (Status wrong = check_wind(cloud.wind, at + "/wind")) return wrong;
-    if (Status wrong =
-            count_in_range(cloud.steps, 0, limits::kMaxAutomatonSteps, at + "/steps"))
+    if (Status wrong = count_in_range(cloud.steps, 0, limits::kMaxAutomatonSteps, at + "/steps"))
         return wrong;
-    if (Status wrong = count_in_range(cloud.warm_up, 0, cloud.steps, at + "/warm_up"))
-        return wrong;
+    if (Status wrong = count_in_range(cloud.warm_up, 0, cloud.steps, at + "/warm_up")) return wrong;
     if (Status wrong = in_range(cloud.steps_per_second, 0, limits::kMaxStepsPerSecond,
                                 at + "/steps_per_second"))
         return wrong;
     if (Status wrong = check_work(cloud, at)) return wrong;
-    if (Status wrong =
-            whole_in_range(cloud.smooth, 0, limits::kMaxAutomatonSmooth, at + "/smooth"))
+    if (Status wrong = whole_in_range(cloud.smooth, 0, limits::kMaxAutomatonSmooth, at + "/smooth"))
         return wrong;
     if (Status wrong = count_in_range(cloud.smooth_steps, 1, limits::kMaxAutomatonHistory,
                                       at + "/smooth_steps"))

@@ -74,10 +74,11 @@ struct AutomatonCloud {
     double base = 5;  // no vapour is supplied to cells below: clouds are flat there. 0: none
 
     // Probabilities a step, 0..1, each a damping factor of document 001 (without, "puff-balls"):
-    double humidity = 0.1;             // p_hum = humidity (1 - d) in an ellipsoid, else 0
-    double activation = 0.002;         // p_act = activation (1 - d) in an ellipsoid, else 0
-    double extinction = 0.12;          // p_ext = extinction d in an ellipsoid
-    double outside_extinction = 0.25;  // p_ext elsewhere: 0 (document 001) leaves stranded clouds for ever
+    double humidity = 0.1;      // p_hum = humidity (1 - d) in an ellipsoid, else 0
+    double activation = 0.002;  // p_act = activation (1 - d) in an ellipsoid, else 0
+    double extinction = 0.12;   // p_ext = extinction d in an ellipsoid
+    double outside_extinction =
+        0.25;  // p_ext elsewhere: 0 (document 001) leaves stranded clouds for ever
 
     AutomatonWind wind;
 

@@ -41,6 +41,45 @@ inline constexpr double kMinDetailSize = 0.05,
                         kMaxDetailSize =
                             4;  // mean particle radii: finer is below every grid, coarser is shape
 
+// --- implicit clouds
+// ------------------------------------------------------------------------------------
+// Spheres, ellipsoids, cylinders and pieces of skeletons: the document needs "less than a few hundred".
+inline constexpr std::uint64_t kMaxImplicitElements = 1'000;
+inline constexpr std::uint64_t kMaxImplicitKeys =
+    1'000;  // of a primitive: a minute of motion capture
+inline constexpr std::uint64_t kMaxImplicitWarps =
+    64;  // attractors, vortices: each is asked for every cell
+inline constexpr std::uint64_t kMaxFlowVectors =
+    4'096;  // 16^3: a vector table is drawn by hand or thinned
+// 160^3 cells, all full, are 4,096,000 particles: just within kMaxParticles. Under 16 nothing is left of a shape.
+inline constexpr std::uint64_t kMinImplicitResolution = 16, kMaxImplicitResolution = 160;
+// Units. With the limits on radii, warps and resolution a Gaussian's radius stays within kMinRadius .. kMaxRadius.
+inline constexpr double kMaxImplicitCoordinate = 1e6;
+inline constexpr double kMinImplicitRadius = 0.01, kMaxImplicitRadius = 1e5;
+inline constexpr double kMinImplicitRadii = 0.02,
+                        kMaxImplicitRadii = 50;  // an ellipsoid's semi-axes over its radius
+inline constexpr double kMaxImplicitWeight = 100;
+inline constexpr double kMaxImplicitAmount = 100;
+inline constexpr double kMinImplicitExponent = 0.1,
+                        kMaxImplicitExponent = 8;  // beyond, a cloud is all or nothing
+inline constexpr double kMaxImplicitDensity =
+    1'000;  // of the model: what is above is cut; times kMaxDensity still float32
+inline constexpr double kMaxDisplacement =
+    4;  // mean radii: beyond, nothing is left of the primitives
+inline constexpr double kMinNoiseSize = 0.01, kMaxNoiseSize = 100;  // mean radii
+inline constexpr std::uint64_t kMaxOctaves = 10;  // sizes 1 : 512, below the finest lattice
+inline constexpr double kMaxStretch = 100;
+inline constexpr double kMaxJet = 20;                           // mean radii
+inline constexpr double kMaxRipple = 1'000, kMinRipple = 0.01;  // wavelengths, mean radii
+inline constexpr double kMaxSwirl = 1'000;                      // frames a second
+inline constexpr double kMinAttraction = -0.9,
+                        kMaxAttraction = 10;      // at -1 the middle would be pushed to infinity
+inline constexpr double kMaxVortexAngle = 3'600;  // degrees: ten turns
+inline constexpr std::uint64_t kMaxGrowth =
+    500;  // particles: each is a primitive; the document's largest has 150
+inline constexpr double kMaxGrowthSpread = 100;  // radii
+inline constexpr double kMaxGrowthMotion = 10;   // radii a second, or a second^2
+inline constexpr double kMinGrowthSeconds = 0.1, kMaxGrowthSeconds = 1e5;  // lifetimes, durations
 // --- ellipsoids (core/scene/ellipsoids.h)
 // -----------------------------------------------------------------------------------------
 inline constexpr std::uint64_t kMaxTextureTerms =

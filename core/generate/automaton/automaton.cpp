@@ -1,9 +1,11 @@
 // The cloud of an automaton at a time: steps, then smoothing, then Gaussians.
 #include "core/scene/automaton.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/generate/automaton/cells_to_particles.h"
+#include "core/generate/automaton/parcels.h"
 #include "core/generate/automaton/run.h"
 #include "core/generate/models.h"
 
@@ -32,6 +34,12 @@ Status check_start(const AutomatonCloud& cloud, std::uint64_t key) {
     const AutomatonState& start = *cloud.start;
     if (start.key != key) return wrong("another seed, or another place among the scene's clouds");
     if (start.rules != rules_key(cloud)) return wrong("an automaton with other parameters");
+    // What a file says of itself and no automaton of these rules could have.
+    const AutomatonGrid grid(cloud.cells);
+    if (start.nx != grid.nx || start.ny != grid.ny || start.nz != grid.nz ||
+        start.ellipsoids.size() != first_ellipsoids(cloud, key).size() ||
+        start.earlier.size() != std::min(start.step, cloud.smooth_steps - 1))
+        return wrong("no automaton");
     return std::nullopt;
 }
 

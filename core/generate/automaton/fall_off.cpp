@@ -8,6 +8,9 @@
 
 #include "core/parallel.h"
 
+// The same bits by wider instructions where there are any: nothing here is contracted or reordered.
+#define AWAN_CLONES __attribute__((target_clones("avx2", "default")))
+
 namespace awan {
 namespace {
 
@@ -23,27 +26,39 @@ std::uint64_t transposed(std::uint64_t x) {
     return x ^ t ^ (t << 28);
 }
 
+// Of eight bytes, 0 or 1: a bit each.
+std::uint64_t gathered(std::uint64_t bytes) {
+    return bytes * 0x0102040810204080u >> 56;
+}
+
+std::uint64_t eight_bytes(const std::uint8_t* bytes) {
+    std::uint64_t x;
+    std::memcpy(&x, bytes, 8);
+    return x;
+}
+
 // `square`: d^2 of 64 cells. The word of those inside, and their digits.
-std::uint64_t pack(const float* square, std::uint64_t* planes) {
-    std::array<std::uint8_t, 64> high, low;
-    std::array<std::int32_t, 64> digits;
-    // In float: a last bit of d decides nothing that shows, and IEEE's root is the same everywhere.
-    for (std::size_t i = 0; i < 64; ++i)
-        digits[i] = static_cast<std::int32_t>(std::sqrt(std::min(square[i], 1.0F)) * 65536.0F);
-    for (std::size_t i = 0; i < 64; ++i) {
-        high[i] = static_cast<std::uint8_t>(digits[i] >> 8);
-        low[i] = static_cast<std::uint8_t>(digits[i]);
-    }
+AWAN_CLONES std::uint64_t pack(const float* square, std::uint64_t* planes) {
+    alignas(64) std::array<std::int32_t, 64> digits;
+    alignas(64) std::array<std::uint8_t, 64> outside, high, low;
+    // In float: a last bit of d decides nothing that shows, and IEEE's root is the same everywhere. Loops of one thing each
+    // become vector instructions.
+    alignas(64) std::array<float, 64> d;
+    for (std::size_t i = 0; i < 64; ++i) d[i] = square[i] < 1.0F ? square[i] : 1.0F;
+    for (std::size_t i = 0; i < 64; ++i) d[i] = std::sqrt(d[i]);
+    for (std::size_t i = 0; i < 64; ++i) digits[i] = static_cast<std::int32_t>(d[i] * 65536.0F);
+    for (std::size_t i = 0; i < 64; ++i) outside[i] = static_cast<std::uint8_t>(digits[i] >> 16);
+    for (std::size_t i = 0; i < 64; ++i) high[i] = static_cast<std::uint8_t>(digits[i] >> 8);
+    for (std::size_t i = 0; i < 64; ++i) low[i] = static_cast<std::uint8_t>(digits[i]);
     std::uint64_t inside = 0;
-    for (std::size_t i = 0; i < 64; ++i)
-        inside |= static_cast<std::uint64_t>(digits[i] < 65536) << i;
+    for (std::size_t group = 0; group < 8; ++group)
+        inside |= (gathered(eight_bytes(&outside[8 * group])) ^ 255) << (8 * group);
     if (inside == 0) return 0;
+    // Eight cells' bytes turned are eight planes' bytes; eight of those turned are planes.
     std::array<std::array<std::uint8_t, 8>, kDistancePlanes> bytes;
     for (std::size_t half = 0; half < 2; ++half)
         for (std::size_t group = 0; group < 8; ++group) {
-            std::uint64_t x;
-            std::memcpy(&x, (half == 0 ? high : low).data() + 8 * group, 8);
-            x = transposed(x);
+            const std::uint64_t x = transposed(eight_bytes(&(half == 0 ? high : low)[8 * group]));
             for (std::size_t bit = 0; bit < 8; ++bit)
                 bytes[half * 8 + 7 - bit][group] = static_cast<std::uint8_t>(x >> (8 * bit));
         }
@@ -51,28 +66,47 @@ std::uint64_t pack(const float* square, std::uint64_t* planes) {
     return inside;
 }
 
+// Cells of a row that anything was written to.
+struct Reach {
+    std::size_t first = SIZE_MAX, last = 0;  // `last` is not one of them
+};
+
+// Squares of distances along a row: from `start`, in steps of one cell of `inverse` radii, with `rest` across.
+AWAN_CLONES void keep_smallest(float start, float inverse, float rest, std::int32_t count,
+                               float* out) {
+    for (std::int32_t i = 0; i < count; ++i) {
+        const float along = (start + static_cast<float>(i)) * inverse;
+        const float d2 = along * along + rest;
+        out[i] = d2 < out[i] ? d2 : out[i];
+    }
+}
+
+AWAN_CLONES void keep_first(float start, float inverse, float rest, std::int32_t count,
+                            float* out) {
+    for (std::int32_t i = 0; i < count; ++i) {
+        const float along = (start + static_cast<float>(i)) * inverse;
+        const float d2 = along * along + rest;
+        out[i] = out[i] < 1.0F ? out[i] : d2;
+    }
+}
+
 // Of a row: the part of it within the ellipsoid, squares of distances.
-template <bool kFirstWins>
-void add_row(const AutomatonEllipsoid& ellipsoid, double rest, std::size_t nx, float* square) {
+void add_row(const AutomatonEllipsoid& ellipsoid, double rest, AutomatonOverlap overlap,
+             std::size_t nx, float* square, Reach& reach) {
     // A cell to spare on either side: the test is that of the square.
     const double half = std::sqrt(1 - rest) * ellipsoid.radii.x + 1;
     const double side = static_cast<double>(nx);
     const double x = ellipsoid.center.x - 0.5;
     const auto first = static_cast<std::size_t>(std::clamp(std::floor(x - half), 0.0, side));
     const auto last = static_cast<std::size_t>(std::clamp(std::ceil(x + half) + 1, 0.0, side));
+    if (first >= last) return;
+    reach.first = std::min(reach.first, first);
+    reach.last = std::max(reach.last, last);
     const auto inverse = static_cast<float>(1 / ellipsoid.radii.x);
     const auto start = static_cast<float>(static_cast<double>(first) - x);
-    const auto other = static_cast<float>(rest);
-    float* const out = square + first;
-    const auto count = static_cast<std::int32_t>(last - std::min(first, last));
-    for (std::int32_t i = 0; i < count; ++i) {
-        const float along = (start + static_cast<float>(i)) * inverse;
-        const float d2 = along * along + other;
-        if (kFirstWins)
-            out[i] = out[i] < 1.0F ? out[i] : d2;
-        else
-            out[i] = d2 < out[i] ? d2 : out[i];
-    }
+    (overlap == AutomatonOverlap::kFirst ? keep_first : keep_smallest)(
+        start, inverse, static_cast<float>(rest), static_cast<std::int32_t>(last - first),
+        square + first);
 }
 
 double squared(double x) {
@@ -104,6 +138,7 @@ Status make_fall_off(const AutomatonGrid& grid, const std::vector<AutomatonEllip
             const std::size_t row = grid.row(j, k);
             const double y = static_cast<double>(j) + 0.5;
             bool touched = false;
+            Reach reach;
             if (y >= base)
                 for (const AutomatonEllipsoid* one : near) {
                     const double rest = squared((y - one->center.y) / one->radii.y) +
@@ -111,17 +146,15 @@ Status make_fall_off(const AutomatonGrid& grid, const std::vector<AutomatonEllip
                     if (!(rest < 1)) continue;
                     if (!touched) std::fill(square.begin(), square.end(), kOutside);
                     touched = true;
-                    if (overlap == AutomatonOverlap::kFirst)
-                        add_row<true>(*one, rest, grid.nx, square.data());
-                    else
-                        add_row<false>(*one, rest, grid.nx, square.data());
+                    add_row(*one, rest, overlap, grid.nx, square.data(), reach);
                 }
             bool any = false;
             for (std::size_t w = 0; w < grid.words; ++w) {
                 const std::size_t word = row * grid.words + w;
                 into.inside[word] =
-                    touched ? pack(square.data() + 64 * w, &into.distance[word * kDistancePlanes])
-                            : 0;
+                    64 * w < reach.last && 64 * (w + 1) > reach.first
+                        ? pack(square.data() + 64 * w, &into.distance[word * kDistancePlanes])
+                        : 0;
                 any |= into.inside[word] != 0;
             }
             into.row_inside[row] = any;

@@ -71,7 +71,8 @@ bool move_ellipsoids(const AutomatonCloud& cloud, const std::vector<AutomatonEll
         const bool is_random = n >= cloud.ellipsoids.size();
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::uint64_t>(axis);
-            const double change = between(-cloud.wind.mutation, cloud.wind.mutation, uniform(own, a));
+            const double change =
+                between(-cloud.wind.mutation, cloud.wind.mutation, uniform(own, a));
             const double half = cloud.cells[axis] / 2;
             // Never narrower than a quarter of a cell, so that it still has a middle.
             double& radius = ellipsoid.radii[axis];
@@ -80,8 +81,7 @@ bool move_ellipsoids(const AutomatonCloud& cloud, const std::vector<AutomatonEll
             ellipsoid.center[axis] = place(2 * half, radius, uniform(own, 3 + a));
         }
         if (is_random && random.level) ellipsoid.center.y = *random.level;
-        ellipsoid.center.x =
-            speed > 0 ? ellipsoid.radii.x : cloud.cells.x - ellipsoid.radii.x;
+        ellipsoid.center.x = speed > 0 ? ellipsoid.radii.x : cloud.cells.x - ellipsoid.radii.x;
     }
     return moved;
 }

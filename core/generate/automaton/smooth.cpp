@@ -62,8 +62,7 @@ bool PlaneSmoother::sum_along_x(std::size_t row, std::uint8_t* out) const {
     const std::size_t words = grid_.words;
     for (const CloudBits field : fields_) {
         const std::uint64_t* const bits = field->data() + row * words;
-        if (std::all_of(bits, bits + words, [](std::uint64_t word) { return word == 0; }))
-            continue;
+        if (std::all_of(bits, bits + words, [](std::uint64_t word) { return word == 0; })) continue;
         if (!any) std::memset(out, 0, stride_);
         any = true;
         for (std::size_t w = 0; w < words; ++w) {

@@ -22,7 +22,7 @@ class PlaneSmoother {
 
     struct Plane {
         const std::uint16_t* counts;  // [j * stride + i], i < nx; valid until the next call
-        const std::uint8_t* rows;     // 0: all counts of row j are 0 (and may not have been written)
+        const std::uint8_t* rows;  // 0: all counts of row j are 0 (and may not have been written)
         std::size_t stride;
     };
     // Cheap when called for k, k + 1, k + 2, ...
@@ -43,8 +43,8 @@ class PlaneSmoother {
     AutomatonGrid grid_;
     std::vector<CloudBits> fields_;
     std::size_t i0_, j0_, k0_, stride_;
-    std::vector<Sums> ring_;             // plane k is in ring_[k % size]
-    std::vector<std::uint8_t> x_sums_;   // of one plane
+    std::vector<Sums> ring_;            // plane k is in ring_[k % size]
+    std::vector<std::uint8_t> x_sums_;  // of one plane
     std::vector<std::uint8_t> x_rows_;
     std::vector<std::uint16_t> counts_;  // of the answer
     std::vector<std::uint8_t> rows_;

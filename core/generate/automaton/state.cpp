@@ -187,6 +187,7 @@ Result<AutomatonState> first_state(const AutomatonCloud& cloud, std::uint64_t ke
                                    const Deadline& deadline, AutomatonScratch& scratch) {
     const AutomatonGrid grid(cloud.cells);
     AutomatonState state;
+    state.nx = grid.nx, state.ny = grid.ny, state.nz = grid.nz;
     state.key = key;
     state.rules = rules_key(cloud);
     state.ellipsoids = first_ellipsoids(cloud, key);

@@ -13,6 +13,7 @@ namespace awan {
 
 // The bits of all cells: vapour, phase transition, cloud. Each grid.all_words() long.
 struct AutomatonState {
+    std::uint64_t nx = 0, ny = 0, nz = 0;
     std::uint64_t key = 0;    // of all that is random (models.h)
     std::uint64_t rules = 0;  // rules_key() of the cloud it belongs to
     std::uint64_t step = 0;   // steps made
