@@ -113,6 +113,38 @@ export function numberField(store, { label, pointer, optional = false, get, set,
   };
 }
 
+// A seed has 64 bits, more than a number field can hold exactly. `placeholder`: what none of it means.
+export function seedField(store, { label = "Seed", pointer = () => "/seed", get, set, placeholder, another = false }) {
+  const id = freshId("seed");
+  const value = get ?? (() => atOrDefault(store.scene, pointer()));
+  const put = set ?? ((seed) => store.set(pointer(), seed));
+  const input = el("input", { id, type: "text", inputmode: "numeric", autocomplete: "off", placeholder });
+  input.addEventListener("input", () => {
+    const text = input.value.trim();
+    const none = text === "" && placeholder !== undefined;
+    const whole = /^-?\d+$/.test(text);
+    input.classList.toggle("incomplete", !whole && !none);
+    if (none) put(undefined);
+    else if (whole) put(Number.isSafeInteger(Number(text)) ? Number(text) : BigInt(text));
+  });
+  const show = () => {
+    if (document.activeElement !== input) input.value = String(value() ?? "");
+  };
+  input.addEventListener("blur", () => {
+    input.classList.remove("incomplete");
+    input.value = String(value() ?? "");
+  });
+  const element = el("div", { class: "field seed" }, el("label", { for: id }, label), input,
+    another ? el("button", { type: "button", onclick: () => put(crypto.getRandomValues(new Uint32Array(1))[0]) }, "Another") : null);
+  return {
+    element,
+    refresh() {
+      element.dataset.pointer = pointer();
+      show();
+    },
+  };
+}
+
 // choices: [[value, title]...]
 export function select(store, { label, pointer, choices, get, set }) {
   const id = freshId("select");

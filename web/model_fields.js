@@ -11,7 +11,7 @@
 //   { kind: "table", member, title, one, fresh, columns }         a list of objects, a row each
 //   { kind: "cards", member, title, one, fresh, fields }          a list of objects, a box each
 //
-// `standard` is what the service takes where the document says nothing; a function of the model's own
+// Any may have a `hint`, shown by the pointer. `standard` is what the service takes where the document says nothing; a function of the model's own
 // object where that depends on another field of it.
 
 import { select, slider, stepByArrows, numberInput } from "./controls.js";
@@ -111,7 +111,7 @@ function makeSwitch(context, spec) {
     element,
     refresh() {
       element.dataset.pointer = place();
-      input.checked = box.hidden = now() === null;
+      box.hidden = now() === null;
       input.checked = !box.hidden;
       if (!box.hidden) inner.forEach((field) => field.refresh());
     },
@@ -208,7 +208,8 @@ function shownWhen(context, { when }, field) {
 
 export function makeFields(context, specs) {
   return specs.map((spec) => {
-    if (spec.make) return shownWhen(context, spec, spec.make(context));
-    return shownWhen(context, spec, MAKERS[spec.kind ?? "slider"](context, spec));
+    const field = spec.make ? spec.make(context) : MAKERS[spec.kind ?? "slider"](context, spec);
+    if (spec.hint) field.element.title = spec.hint;
+    return shownWhen(context, spec, field);
   });
 }
