@@ -71,6 +71,8 @@ export function cloudsOf(scene) {
   return [{ cloud: scene, pointer: "" }];
 }
 
+export const modelOf = (cloud) => cloud.model ?? "cubes";
+
 // As cloudsOf, in a document that has `clouds`, so that another can be added.
 export function withCloudList(scene) {
   if (Array.isArray(scene.clouds)) return scene;

@@ -27,6 +27,8 @@ export const ellipsoids = {
         { member: "heading", label: "Heading", min: 0, max: 360, step: 1, unit: "°", standard: 90 },
         { member: "spread", label: "Spread", min: 0, max: 180, step: 1, unit: "°", standard: 60 },
       ] },
+    { kind: "vector", member: "drift", label: "Texture drifts", unit: "units/s", step: 0.1, standard: [0, 0, 0] },
+    { member: "resolution", label: "Resolution", min: 8, max: 160, step: 1, standard: 64 },
     { kind: "section", title: "Single ellipsoids", fields: [
       { kind: "table", member: "ellipsoids", title: "Ellipsoids", noun: "ellipsoid", one: "an ellipsoid", fresh: { center: [0, 0, 0], radii: [3, 2, 3] },
         columns: [...triple("centre", "center", 0), ...triple("radii", "radii", 1), { title: "turn, °", member: "rotate_y", standard: 0, step: 5 }] },
@@ -55,7 +57,5 @@ export const ellipsoids = {
       { member: "shading/ambient", label: "Ambient", ...share, standard: 0.3 },
       { member: "shading/shininess", label: "Shininess", min: 1, max: 50, log: true, standard: 4 },
     ] },
-    { kind: "vector", member: "drift", label: "Texture drifts", unit: "units/s", step: 0.1, standard: [0, 0, 0] },
-    { member: "resolution", label: "Resolution", min: 8, max: 160, step: 1, standard: 64 },
   ],
 };

@@ -2,7 +2,7 @@
 // moves; and a group of controls for each model, of which the one that belongs is shown.
 
 import { group, numberField, seedField, select } from "./controls.js";
-import { at, cloudsOf, withCloudList } from "./document.js";
+import { at, cloudsOf, modelOf, withCloudList } from "./document.js";
 import { el, freshId } from "./dom.js";
 import { automaton } from "./model_automaton.js";
 import { ellipsoids } from "./model_ellipsoids.js";
@@ -34,8 +34,6 @@ const split = (object, names) => {
   for (const [name, value] of Object.entries(object)) (names.includes(name) ? inside : outside)[name] = value;
   return [inside, outside];
 };
-
-export const modelOf = (cloud) => cloud.model ?? "cubes";
 
 // Whether another time shows another picture.
 export function somethingMoves(scene) {

@@ -2,7 +2,7 @@
 
 import { cameraOf, isAutomatic, kSteepest, orbitOf, sizeOf } from "./camera.js";
 import { checkbox, colour, group, numberField, seedField, select, slider } from "./controls.js";
-import { at, atOrDefault, withAt } from "./document.js";
+import { at, atOrDefault, cloudsOf, modelOf, withAt } from "./document.js";
 import { el } from "./dom.js";
 import { detailPanel, groundPanel, hazePanel } from "./surroundings.js";
 
@@ -157,10 +157,10 @@ function matterPanel(store) {
       label: "Phase function", pointer: () => "/medium/phase",
       choices: [["henyey-greenstein", "Henyey–Greenstein"], ["cornette-shanks", "Cornette–Shanks"]],
     }),
-    select(store, {
+    shownIf(() => cloudsOf(store.scene).some(({ cloud }) => modelOf(cloud) === "cubes"), select(store, {
       label: "Filling", pointer: () => "/fill",
       choices: [["uniform", "uniform"], ["gardner", "gardner: with phase shift"], ["printed", "printed: as in the source"]],
-    }),
+    })),
     seedField(store, { another: true }),
   ];
   return { title: "Matter", pointer: "/medium", fields };
