@@ -153,19 +153,21 @@ Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadl
     return planned;
 }
 
-Result<Planned> ready_to_render(const Scene& scene, Result<Planned> planned, int threads) {
+Result<Planned> ready_to_render(const Scene& scene, Result<Planned> planned, int threads,
+                                DetailTiles* tiles) {
     if (planned.ok() && planned->plan.on(Effect::kDetail)) {
         EffectTimes& effects = planned->times.effects;
-        planned->particles.detail = timed_for(
-            effects, Effect::kDetail, [&] { return detail_of(scene, planned->survey, threads); });
+        planned->particles.detail = timed_for(effects, Effect::kDetail, [&] {
+            return detail_of(scene, planned->survey, threads, tiles);
+        });
         planned->times.survey_ms += effects.of(Effect::kDetail);
     }
     return planned;
 }
 
 Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& deadline,
-                           const MachineSpeed& speed) {
-    return ready_to_render(scene, plan_only(scene, threads, deadline, speed), threads);
+                           const MachineSpeed& speed, DetailTiles* tiles) {
+    return ready_to_render(scene, plan_only(scene, threads, deadline, speed), threads, tiles);
 }
 
 Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools& tools,

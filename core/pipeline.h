@@ -58,11 +58,13 @@ Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadl
                           const MachineSpeed& speed = {});
 
 // Ready for render_planned: with the particles' detail where it is on.
-Result<Planned> ready_to_render(const Scene& scene, Result<Planned> planned, int threads);
+// tiles: kept from render to render; may be null.
+Result<Planned> ready_to_render(const Scene& scene, Result<Planned> planned, int threads,
+                                DetailTiles* tiles = nullptr);
 
 // plan_only, ready to render.
 Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& deadline,
-                           const MachineSpeed& speed = {});
+                           const MachineSpeed& speed = {}, DetailTiles* tiles = nullptr);
 
 // Light and picture of what was planned.
 Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools& tools,

@@ -39,8 +39,8 @@ Result<Camera> hold_all(const SceneDraft& draft, const std::array<double, 3>& ti
     Camera camera;
     camera.automatic = false;
     camera.eye = view.eye;
-    // A far target: the direction then keeps its digits.
-    const double far = std::max(glm::length(view.eye), 1.0);
+    // Far enough for the direction to keep its digits.
+    const double far = std::max(1e-3 * glm::length(view.eye), 1.0);
     camera.target = view.eye + far * view.forward;
     camera.fov = kAutomaticFov;
     return camera;
@@ -65,7 +65,8 @@ Result<Settled> settle(const Scene& scene, int threads, const Deadline& deadline
     if (draft.camera.automatic) {
         auto camera = hold_all(draft, times, threads, deadline);
         if (!camera.ok()) return camera.error();
-        draft.camera = *camera;
+        const Camera own = std::exchange(draft.camera, *camera);
+        if (!validate(draft).ok()) draft.camera = own;  // it would stand beyond the limits
     }
     if (draft.look != Look::kPhysical) return settled;
     const Rung* chosen = nullptr;

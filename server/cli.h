@@ -28,6 +28,7 @@ struct RenderCommand {
     std::string background;           // "", "sky", "transparent"
     std::optional<std::string> rung;  // at most one of these three
     std::optional<double> error, time_ms;
+    std::string state;  // of an automaton, to begin with: a file, or ""
     int threads = 1;
     DeviceChoice device = DeviceChoice::kAuto;
 };
@@ -53,6 +54,7 @@ struct ParticlesCommand {
     std::string scene;
     std::string output = "-";
     std::string format;  // "", "json", "csv", "ply", "awn"
+    std::string state;
     int threads = 1;
 };
 int run_particles(const ParticlesCommand& command);
@@ -60,9 +62,19 @@ int run_particles(const ParticlesCommand& command);
 struct PlanCommand {
     std::string scene;
     std::string output = "-";
+    std::string state;
     int threads = 1;
 };
 int run_plan(const PlanCommand& command);
+
+// The state of an automaton at the scene's time, for --state.
+struct StateCommand {
+    std::string scene;
+    std::string output;
+    std::optional<std::uint64_t> cloud;  // by its place in the scene; none: the only automaton
+    int threads = 1;
+};
+int run_state(const StateCommand& command);
 
 struct ConvertCommand {
     std::string input;

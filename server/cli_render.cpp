@@ -16,15 +16,18 @@ namespace {
 
 // What renders one after the other work with.
 struct Work {
+    explicit Work(const RenderCommand& c) : command(c) {}
+
     const RenderCommand& command;
     MachineSpeed speed = measure_speed();
     std::optional<Device> device;
     ProgressLine progress;
+    DetailTiles tiles;
     std::string prefix;  // of what is said, e.g. "frame 3 of 12, "
 };
 
 Result<Rendered> render_frame(const Scene& scene, Result<Planned> planned, Work& work) {
-    planned = ready_to_render(scene, std::move(planned), work.command.threads);
+    planned = ready_to_render(scene, std::move(planned), work.command.threads, &work.tiles);
     if (!planned) return planned.error();
     if (const Status failed = open_for(planned->plan, work.command.device, work.device))
         return *failed;
@@ -122,7 +125,7 @@ int run_render(const RenderCommand& command) {
     auto scene = validate(std::move(draft).value());
     if (!scene) return report_error(command.scene, scene.error());
     const bool animated = *format == "webp" || *format == "apng";
-    Work work{command, measure_speed(), {}, {}, {}};
+    Work work(command);
     if (!animated && command.frames.empty()) {
         auto bytes = render_still(*scene, work);
         if (!bytes) return report_error(command.scene, bytes.error());

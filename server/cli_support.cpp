@@ -80,9 +80,10 @@ Status open_for(const Plan& plan, DeviceChoice choice, std::optional<Device>& de
     return std::nullopt;
 }
 
-Result<Scene> read_valid_scene(const std::string& path) {
+Result<Scene> read_valid_scene(const std::string& path, const std::string& state) {
     auto draft = read_scene_file(path);
     if (!draft) return draft.error();
+    if (const Status wrong = begin_with_state(state, *draft)) return *wrong;
     return validate(std::move(draft).value());
 }
 

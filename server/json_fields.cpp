@@ -422,13 +422,33 @@ std::span<const Field> fields_of(ObjectKind kind) {
         case ObjectKind::kSequence:
             return kSequenceFields;
         case ObjectKind::kAutomaton:
-            return automaton_fields();
+        case ObjectKind::kAutomatonEllipsoid:
+        case ObjectKind::kAutomatonRandom:
+        case ObjectKind::kAutomatonWind:
+        case ObjectKind::kAutomatonLayers:
+        case ObjectKind::kAutomatonWindBand:
+            return automaton_fields(kind);
         case ObjectKind::kSpheres:
             return spheres_fields();
+        case ObjectKind::kSpheresMorph:
+            return spheres_morph_fields();
         case ObjectKind::kImplicit:
-            return implicit_fields();
+        case ObjectKind::kImplicitPrimitive:
+        case ObjectKind::kImplicitKey:
+        case ObjectKind::kImplicitGrowth:
+        case ObjectKind::kImplicitAttractor:
+        case ObjectKind::kImplicitVortex:
+        case ObjectKind::kImplicitFlow:
+            return implicit_fields(kind);
         case ObjectKind::kEllipsoids:
             return ellipsoids_fields();
+        case ObjectKind::kEllipsoidsTexture:
+        case ObjectKind::kEllipsoidsShading:
+        case ObjectKind::kSkyPlane:
+        case ObjectKind::kPlaneTexture:
+        case ObjectKind::kFormation:
+        case ObjectKind::kEllipsoid:
+            return ellipsoids_part_fields(kind);
         case ObjectKind::kEffects:  // named by effect_name()
         case ObjectKind::kNone:
             return {};
@@ -482,6 +502,10 @@ const List& list_at(ListKind kind) {
                                       s.cloud->ready.colors.emplace_back(
                                           to_float(v.x), to_float(v.y), to_float(v.z));
                                   }};
+    static constexpr List kFormations{
+        .wanted = "an object", .most = limits::kMaxEllipsoids, .object = ObjectKind::kFormation};
+    static constexpr List kEllipsoids{
+        .wanted = "an object", .most = limits::kMaxEllipsoids, .object = ObjectKind::kEllipsoid};
     switch (kind) {
         case ListKind::kCubes:
             return kCubes;
@@ -495,6 +519,20 @@ const List& list_at(ListKind kind) {
             return kDensities;
         case ListKind::kColors:
             return kColors;
+        case ListKind::kAutomatonEllipsoids:
+        case ListKind::kAutomatonWindBands:
+            return automaton_list(kind);
+        case ListKind::kImplicitPrimitives:
+        case ListKind::kImplicitPoints:
+        case ListKind::kImplicitKeys:
+        case ListKind::kImplicitAttractors:
+        case ListKind::kImplicitVortices:
+        case ListKind::kImplicitVectors:
+            return implicit_list(kind);
+        case ListKind::kFormations:
+            return kFormations;
+        case ListKind::kEllipsoids:
+            return kEllipsoids;
         case ListKind::kNone:
             break;
     }

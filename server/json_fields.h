@@ -33,8 +33,26 @@ enum class ObjectKind : std::uint8_t {
     kSequence,
     kAutomaton,
     kSpheres,
+    kSpheresMorph,
     kImplicit,
     kEllipsoids,
+    kAutomatonEllipsoid,
+    kAutomatonRandom,
+    kAutomatonWind,
+    kAutomatonLayers,
+    kAutomatonWindBand,
+    kImplicitPrimitive,
+    kImplicitKey,
+    kImplicitGrowth,
+    kImplicitAttractor,
+    kImplicitVortex,
+    kImplicitFlow,
+    kEllipsoidsTexture,
+    kEllipsoidsShading,
+    kSkyPlane,
+    kPlaneTexture,
+    kFormation,
+    kEllipsoid,
 };
 
 // Lists whose length is not fixed.
@@ -46,6 +64,16 @@ enum class ListKind : std::uint8_t {
     kRadii,
     kDensities,
     kColors,
+    kAutomatonEllipsoids,
+    kAutomatonWindBands,
+    kImplicitPrimitives,
+    kImplicitPoints,
+    kImplicitKeys,
+    kImplicitAttractors,
+    kImplicitVortices,
+    kImplicitVectors,
+    kFormations,
+    kEllipsoids,
 };
 
 enum class WordOutcome { kTaken, kUnknown, kUnsupported };

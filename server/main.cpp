@@ -48,6 +48,11 @@ void add_threads(CLI::App& command, int& threads) {
     add(command, "--threads", threads, "threads that work on one scene")->check(CLI::Range(1, 256));
 }
 
+void add_state(CLI::App& command, std::string& state) {
+    add(command, "--state", state,
+        "a file of `awan state`: its automaton goes on from there instead of from the beginning");
+}
+
 // A configuration file says for `serve` what its flags would: `queue = 4`, `allow-host = ["a"]`.
 // Flags win over the environment, and both over the file.
 class ServeConfig : public CLI::ConfigTOML {
@@ -138,6 +143,7 @@ Run add_render(CLI::App& app) {
             "the best rung within these milliseconds, instead of the document's accuracy");
     error->check(CLI::PositiveNumber)->excludes(rung)->excludes(time_ms);
     time_ms->check(CLI::PositiveNumber)->excludes(rung);
+    add_state(*render, command->state);
     add_threads(*render, command->threads);
     add_device(*render, command->device);
     return [command] { return run_render(*command); };
@@ -187,6 +193,7 @@ Run add_particles(CLI::App& app) {
         "a .json, .csv, .ply or .awn file, or - for standard output");
     add(*particles, "--format", command->format, "json, csv, ply or awn, for standard output")
         ->check(CLI::IsMember({"json", "csv", "ply", "awn"}));
+    add_state(*particles, command->state);
     add_threads(*particles, command->threads);
     return [command] { return run_particles(*command); };
 }
@@ -197,8 +204,22 @@ Run add_plan(CLI::App& app) {
     CLI::App* plan = app.add_subcommand("plan", "what would be simulated, and why, as JSON");
     plan->add_option("scene", command->scene, kSceneHelp)->required();
     add(*plan, "-o,--output", command->output, "a file, or - for standard output");
+    add_state(*plan, command->state);
     add_threads(*plan, command->threads);
     return [command] { return run_plan(*command); };
+}
+
+Run add_state_command(CLI::App& app) {
+    auto command = std::make_shared<StateCommand>();
+    command->threads = processors();
+    CLI::App* state = app.add_subcommand(
+        "state", "an automaton at the scene's time to a file, to go on from later (--state)");
+    state->add_option("scene", command->scene, kSceneHelp)->required();
+    add(*state, "-o,--output", command->output, "a file, or - for standard output")->required();
+    add(*state, "--cloud", command->cloud,
+        "which of the scene's clouds, from 0; needed when several are automata");
+    add_threads(*state, command->threads);
+    return [command] { return run_state(*command); };
 }
 
 Run add_convert(CLI::App& app) {
@@ -231,7 +252,8 @@ int main(int argc, char** argv) {
     const std::pair<const char*, Run> commands[] = {
         {"serve", add_serve(app)},       {"render", add_render(app)},
         {"accuracy", add_accuracy(app)}, {"particles", add_particles(app)},
-        {"plan", add_plan(app)},         {"convert", add_convert(app)}};
+        {"plan", add_plan(app)},         {"convert", add_convert(app)},
+        {"state", add_state_command(app)}};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -1,12 +1,87 @@
+// The cloud of an automaton at a time: steps, then smoothing, then Gaussians.
 #include "core/scene/automaton.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "core/generate/automaton/cells_to_particles.h"
+#include "core/generate/automaton/parcels.h"
+#include "core/generate/automaton/run.h"
 #include "core/generate/models.h"
 
 namespace awan {
 
-Result<ModelParticles> automaton_particles(const AutomatonCloud&, const ModelRequest&,
-                                           const Deadline&) {
-    return ModelParticles{};
+Result<AutomatonState> run_automaton(const AutomatonCloud& cloud, std::uint64_t key,
+                                     std::uint64_t step, int threads, const Deadline& deadline,
+                                     AutomatonScratch& scratch) {
+    const auto begin = [&]() -> Result<AutomatonState> {
+        if (cloud.start) {
+            if (Status wrong = check_start(cloud, key)) return *wrong;
+            if (cloud.start->step <= step) return *cloud.start;
+        }
+        return first_state(cloud, key, threads, deadline, scratch);
+    };
+    auto state = begin();
+    while (state.ok() && state->step < step)
+        if (Status late = step_automaton(cloud, threads, deadline, scratch, *state)) return *late;
+    return state;
+}
+
+Status check_start(const AutomatonCloud& cloud, std::uint64_t key) {
+    const auto wrong = [](const std::string& what) {
+        return Error{ErrorCode::kInvalidScene, "", "the state to begin with belongs to " + what};
+    };
+    const AutomatonState& start = *cloud.start;
+    if (start.key != key) return wrong("another seed, or another place among the scene's clouds");
+    if (start.rules != rules_key(cloud)) return wrong("an automaton with other parameters");
+    // What a file says of itself and no automaton of these rules could have.
+    const AutomatonGrid grid(cloud.cells);
+    if (start.nx != grid.nx || start.ny != grid.ny || start.nz != grid.nz ||
+        start.ellipsoids.size() != first_ellipsoids(cloud, key).size() ||
+        start.earlier.size() != std::min(start.step, cloud.smooth_steps - 1))
+        return wrong("no automaton");
+    return std::nullopt;
+}
+
+Result<ModelParticles> automaton_particles(const AutomatonCloud& cloud, const ModelRequest& request,
+                                           const Deadline& deadline) {
+    const double steps = automaton_steps_at(cloud, request.time);
+    const double whole = std::floor(steps);
+    AutomatonScratch scratch;
+    auto state = run_automaton(cloud, request.key, static_cast<std::uint64_t>(whole),
+                               request.threads, deadline, scratch);
+    if (!state.ok()) return state.error();
+
+    CellDensity density;
+    density.share_of_next = steps - whole;
+    std::vector<std::vector<std::uint64_t>> skies, next;
+    const auto take = [](const AutomatonState& from, std::vector<std::vector<std::uint64_t>>& to) {
+        to.push_back(from.cld);
+        to.insert(to.end(), from.earlier.begin(), from.earlier.end());
+    };
+    // Before step 0 the sky was clear: as many fields as there are to be smoothed over.
+    const AutomatonGrid grid(cloud.cells);
+    const auto complete = [&](std::vector<std::vector<std::uint64_t>>& fields,
+                              std::vector<CloudBits>& to) {
+        while (fields.size() < cloud.smooth_steps) fields.emplace_back(grid.all_words(), 0);
+        for (const auto& field : fields) to.push_back(&field);
+    };
+    take(*state, skies);
+    if (density.share_of_next > 0) {
+        if (Status late = step_automaton(cloud, request.threads, deadline, scratch, *state))
+            return *late;
+        take(*state, next);
+        complete(next, density.next);
+    }
+    complete(skies, density.now);
+    scratch = {};
+    const std::uint64_t most = request.coarse ? 400 : cloud.most_particles;
+    auto made = cells_to_particles(cloud, density, most, request.threads, deadline);
+    if (!made.ok()) return made.error();
+    ModelParticles particles;
+    particles.particles = std::move(made->particles);
+    particles.error = made->error;
+    return particles;
 }
 
 }  // namespace awan

@@ -1,0 +1,157 @@
+#include "core/generate/automaton/cells_to_particles.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <optional>
+
+#include "core/generate/automaton/metaball.h"
+#include "core/parallel.h"
+#include "core/scene/automaton.h"
+
+namespace awan {
+namespace {
+
+struct Moments {  // of the matter of one block, in cells, from the corner of the grid
+    double mass = 0, square = 0;
+    glm::dvec3 first{0};
+};
+
+struct Piece {
+    std::vector<glm::dvec3> positions;
+    std::vector<float> radii, densities;
+};
+
+// Density of cells, plane by plane, between two steps.
+class Densities {
+  public:
+    Densities(const AutomatonCloud& cloud, const AutomatonGrid& grid, const CellDensity& density)
+        : now_(grid, density.now, reach(cloud)), share_(density.share_of_next) {
+        if (!density.next.empty() && share_ > 0) next_.emplace(grid, density.next, reach(cloud));
+        scale_ = 1 / now_.most();
+    }
+
+    void go_to(std::size_t k) {
+        a_ = now_.plane(k);
+        if (next_) b_ = next_->plane(k);
+    }
+    bool row_is_empty(std::size_t j) const {
+        return a_.rows[j] == 0 && (!next_ || b_.rows[j] == 0);
+    }
+    double operator()(std::size_t i, std::size_t j) const {
+        const double a = a_.rows[j] != 0 ? a_.counts[j * a_.stride + i] : 0;
+        if (!next_) return a * scale_;
+        const double b = b_.rows[j] != 0 ? b_.counts[j * b_.stride + i] : 0;
+        return (a + share_ * (b - a)) * scale_;
+    }
+
+  private:
+    static std::array<std::size_t, 3> reach(const AutomatonCloud& cloud) {
+        return {static_cast<std::size_t>(cloud.smooth.x), static_cast<std::size_t>(cloud.smooth.y),
+                static_cast<std::size_t>(cloud.smooth.z)};
+    }
+    PlaneSmoother now_;
+    std::optional<PlaneSmoother> next_;
+    PlaneSmoother::Plane a_{}, b_{};
+    double share_, scale_ = 1;
+};
+
+struct Making {
+    const AutomatonCloud& cloud;
+    const AutomatonGrid grid;
+    double variance;  // of a cell's Gaussian, in cells^2
+
+    // A block's Gaussian.
+    void add(const Moments& block, Piece& piece) const {
+        const glm::dvec3 middle = block.first / block.mass;
+        const double within = std::max(block.square / block.mass - glm::dot(middle, middle), 0.0);
+        const double s = std::sqrt(variance + within / 3);
+        const glm::dvec3 corner(cloud.cells.x / 2, 0, cloud.cells.z / 2);
+        piece.positions.push_back(cloud.cell * (middle - corner));
+        piece.radii.push_back(static_cast<float>(cloud.cell * 2 * s));
+        const double root = std::sqrt(2 * std::numbers::pi) * s;
+        piece.densities.push_back(static_cast<float>(block.mass / (root * root * root)));
+    }
+};
+
+// Planes first to last - 1, whole blocks of them.
+void make_piece(const Making& making, const CellDensity& density, std::size_t block,
+                std::size_t first, std::size_t last, Piece& piece) {
+    const AutomatonGrid& grid = making.grid;
+    Densities densities(making.cloud, grid, density);
+    const std::size_t wide = (grid.nx + block - 1) / block, high = (grid.ny + block - 1) / block;
+    std::vector<Moments> blocks;
+    for (std::size_t k = first; k < last; ++k) {
+        if (k % block == 0) blocks.assign(wide * high, {});
+        densities.go_to(k);
+        for (std::size_t j = 0; j < grid.ny; ++j) {
+            if (densities.row_is_empty(j)) continue;
+            for (std::size_t i = 0; i < grid.nx; ++i) {
+                const double q = densities(i, j);
+                if (!(q > making.cloud.threshold)) continue;
+                const glm::dvec3 p(static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5,
+                                   static_cast<double>(k) + 0.5);
+                Moments& into = blocks[j / block * wide + i / block];
+                into.mass += q;
+                into.first += q * p;
+                into.square += q * glm::dot(p, p);
+            }
+        }
+        if ((k + 1) % block != 0 && k + 1 != last) continue;
+        for (const Moments& one : blocks)
+            if (one.mass > 0) making.add(one, piece);
+    }
+}
+
+// Pictures of a block's Gaussians beside those of its cells (automaton_bench, Blocks): rms over rms.
+double error_of_blocks(std::size_t block) {
+    return block == 1 ? 0 : block == 2 ? 0.05 : block == 4 ? 0.1 : 0.2;
+}
+
+}  // namespace
+
+Result<CellParticles> cells_to_particles(const AutomatonCloud& cloud, const CellDensity& density,
+                                         std::uint64_t most, int threads,
+                                         const Deadline& deadline) {
+    const AutomatonGrid grid(cloud.cells);
+    const Making making{cloud, grid,
+                        kMetaballVariance * cloud.metaball_radius * cloud.metaball_radius};
+    const double work = static_cast<double>(grid.all_words()) * 64 * 2;
+    for (std::size_t block = 1;; block *= 2) {
+        // Each piece begins with smoothing a few planes of its neighbours'.
+        const std::size_t planes = (16 + block - 1) / block * block;
+        std::vector<Piece> pieces((grid.nz + planes - 1) / planes);
+        std::atomic<std::uint64_t> count{0};
+        std::atomic<bool> late{false};
+        parallel_for(useful_threads(threads, work), pieces.size(), [&](std::size_t n) {
+            if (late.load(std::memory_order_relaxed) || deadline.over()) late = true;
+            // That they are too many does not depend on which are counted first.
+            if (late.load(std::memory_order_relaxed) || count > most) return;
+            make_piece(making, density, block, n * planes, std::min((n + 1) * planes, grid.nz),
+                       pieces[n]);
+            count += pieces[n].positions.size();
+        });
+        if (auto error = deadline.over()) return *error;
+        if (count > most) continue;
+        CellParticles made;
+        made.block = block;
+        made.error = error_of_blocks(block);
+        made.particles.positions.reserve(count);
+        made.particles.radii.reserve(count);
+        made.particles.densities.reserve(count);
+        for (Piece& piece : pieces) {
+            const auto append = [](auto& to, const auto& from) {
+                to.insert(to.end(), from.begin(), from.end());
+            };
+            append(made.particles.positions, piece.positions);
+            append(made.particles.radii, piece.radii);
+            append(made.particles.densities, piece.densities);
+            piece = {};
+        }
+        return made;
+    }
+}
+
+}  // namespace awan

@@ -1,0 +1,30 @@
+// The density of an automaton's cells as Gaussians.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/deadline.h"
+#include "core/generate/automaton/smooth.h"
+#include "core/generate/models.h"
+
+namespace awan {
+
+struct CellDensity {
+    // cld after the steps to smooth over, the last one first; `next` one step later, as many, or empty.
+    std::vector<CloudBits> now, next;
+    double share_of_next = 0;  // 0..1
+};
+
+// One Gaussian a cell: a metaball of the cell's density, of integral one cell (metaball.h), as the Gaussian of the same mass
+// and second moment. Where those of cells are more than `most`, one a block of 2x2x2 cells, 4x4x4, ...: mass and centre of
+// mass stay, the second moment's trace too. `error` says what the blocks cost; `block` is the side of one, in cells.
+struct CellParticles {
+    ReadyParticles particles;
+    double error = 0;
+    std::size_t block = 1;
+};
+Result<CellParticles> cells_to_particles(const AutomatonCloud& cloud, const CellDensity& density,
+                                         std::uint64_t most, int threads, const Deadline& deadline);
+
+}  // namespace awan

@@ -1,0 +1,167 @@
+#include "core/generate/automaton/fall_off.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+
+#include "core/parallel.h"
+
+// The same bits by wider instructions where there are any: nothing here is contracted or reordered.
+#define AWAN_CLONES __attribute__((target_clones("avx2", "default")))
+
+namespace awan {
+namespace {
+
+constexpr float kOutside = 2;  // a square of a distance that no cell within an ellipsoid has
+
+// A bit matrix of 8 rows, a byte each, turned about its diagonal (Warren, Hacker's Delight 2, 7-3).
+std::uint64_t transposed(std::uint64_t x) {
+    std::uint64_t t = (x ^ (x >> 7)) & 0x00aa00aa00aa00aau;
+    x ^= t ^ (t << 7);
+    t = (x ^ (x >> 14)) & 0x0000cccc0000ccccu;
+    x ^= t ^ (t << 14);
+    t = (x ^ (x >> 28)) & 0x00000000f0f0f0f0u;
+    return x ^ t ^ (t << 28);
+}
+
+// Of eight bytes, 0 or 1: a bit each.
+std::uint64_t gathered(std::uint64_t bytes) {
+    return bytes * 0x0102040810204080u >> 56;
+}
+
+std::uint64_t eight_bytes(const std::uint8_t* bytes) {
+    std::uint64_t x;
+    std::memcpy(&x, bytes, 8);
+    return x;
+}
+
+// `square`: d^2 of 64 cells. The word of those inside, and their digits.
+AWAN_CLONES std::uint64_t pack(const float* square, std::uint64_t* planes) {
+    alignas(64) std::array<std::int32_t, 64> digits;
+    alignas(64) std::array<std::uint8_t, 64> outside, high, low;
+    // In float: a last bit of d decides nothing that shows, and IEEE's root is the same everywhere. Loops of one thing each
+    // become vector instructions.
+    alignas(64) std::array<float, 64> d;
+    for (std::size_t i = 0; i < 64; ++i) d[i] = square[i] < 1.0F ? square[i] : 1.0F;
+    for (std::size_t i = 0; i < 64; ++i) d[i] = std::sqrt(d[i]);
+    for (std::size_t i = 0; i < 64; ++i) digits[i] = static_cast<std::int32_t>(d[i] * 65536.0F);
+    for (std::size_t i = 0; i < 64; ++i) outside[i] = static_cast<std::uint8_t>(digits[i] >> 16);
+    for (std::size_t i = 0; i < 64; ++i) high[i] = static_cast<std::uint8_t>(digits[i] >> 8);
+    for (std::size_t i = 0; i < 64; ++i) low[i] = static_cast<std::uint8_t>(digits[i]);
+    std::uint64_t inside = 0;
+    for (std::size_t group = 0; group < 8; ++group)
+        inside |= (gathered(eight_bytes(&outside[8 * group])) ^ 255) << (8 * group);
+    if (inside == 0) return 0;
+    // Eight cells' bytes turned are eight planes' bytes; eight of those turned are planes.
+    std::array<std::array<std::uint8_t, 8>, kDistancePlanes> bytes;
+    for (std::size_t half = 0; half < 2; ++half)
+        for (std::size_t group = 0; group < 8; ++group) {
+            const std::uint64_t x = transposed(eight_bytes(&(half == 0 ? high : low)[8 * group]));
+            for (std::size_t bit = 0; bit < 8; ++bit)
+                bytes[half * 8 + 7 - bit][group] = static_cast<std::uint8_t>(x >> (8 * bit));
+        }
+    std::memcpy(planes, bytes.data(), sizeof bytes);
+    return inside;
+}
+
+// Cells of a row that anything was written to.
+struct Reach {
+    std::size_t first = SIZE_MAX, last = 0;  // `last` is not one of them
+};
+
+// Squares of distances along a row: from `start`, in steps of one cell of `inverse` radii, with `rest` across.
+AWAN_CLONES void keep_smallest(float start, float inverse, float rest, std::int32_t count,
+                               float* out) {
+    for (std::int32_t i = 0; i < count; ++i) {
+        const float along = (start + static_cast<float>(i)) * inverse;
+        const float d2 = along * along + rest;
+        out[i] = d2 < out[i] ? d2 : out[i];
+    }
+}
+
+AWAN_CLONES void keep_first(float start, float inverse, float rest, std::int32_t count,
+                            float* out) {
+    for (std::int32_t i = 0; i < count; ++i) {
+        const float along = (start + static_cast<float>(i)) * inverse;
+        const float d2 = along * along + rest;
+        out[i] = out[i] < 1.0F ? out[i] : d2;
+    }
+}
+
+// Of a row: the part of it within the ellipsoid, squares of distances.
+void add_row(const AutomatonEllipsoid& ellipsoid, double rest, AutomatonOverlap overlap,
+             std::size_t nx, float* square, Reach& reach) {
+    // A cell to spare on either side: the test is that of the square.
+    const double half = std::sqrt(1 - rest) * ellipsoid.radii.x + 1;
+    const double side = static_cast<double>(nx);
+    const double x = ellipsoid.center.x - 0.5;
+    const auto first = static_cast<std::size_t>(std::clamp(std::floor(x - half), 0.0, side));
+    const auto last = static_cast<std::size_t>(std::clamp(std::ceil(x + half) + 1, 0.0, side));
+    if (first >= last) return;
+    reach.first = std::min(reach.first, first);
+    reach.last = std::max(reach.last, last);
+    const auto inverse = static_cast<float>(1 / ellipsoid.radii.x);
+    const auto start = static_cast<float>(static_cast<double>(first) - x);
+    (overlap == AutomatonOverlap::kFirst ? keep_first : keep_smallest)(
+        start, inverse, static_cast<float>(rest), static_cast<std::int32_t>(last - first),
+        square + first);
+}
+
+double squared(double x) {
+    return x * x;
+}
+
+}  // namespace
+
+Status make_fall_off(const AutomatonGrid& grid, const std::vector<AutomatonEllipsoid>& ellipsoids,
+                     AutomatonOverlap overlap, double base, int threads, const Deadline& deadline,
+                     FallOff& into) {
+    into.inside.resize(grid.all_words());
+    into.distance.resize(grid.all_words() * kDistancePlanes);
+    into.row_inside.resize(grid.rows());
+    const double work =
+        static_cast<double>(grid.rows()) * static_cast<double>(64 * grid.words + 20);
+    std::atomic<bool> late{false};
+    parallel_for(useful_threads(threads, work), grid.nz, [&](std::size_t k) {
+        if (late.load(std::memory_order_relaxed) || deadline.over()) {
+            late = true;
+            return;
+        }
+        std::vector<float> square(grid.words * 64);
+        std::vector<const AutomatonEllipsoid*> near;
+        const double z = static_cast<double>(k) + 0.5;
+        for (const AutomatonEllipsoid& one : ellipsoids)
+            if (std::abs(z - one.center.z) < one.radii.z) near.push_back(&one);
+        for (std::size_t j = 0; j < grid.ny; ++j) {
+            const std::size_t row = grid.row(j, k);
+            const double y = static_cast<double>(j) + 0.5;
+            bool touched = false;
+            Reach reach;
+            if (y >= base)
+                for (const AutomatonEllipsoid* one : near) {
+                    const double rest = squared((y - one->center.y) / one->radii.y) +
+                                        squared((z - one->center.z) / one->radii.z);
+                    if (!(rest < 1)) continue;
+                    if (!touched) std::fill(square.begin(), square.end(), kOutside);
+                    touched = true;
+                    add_row(*one, rest, overlap, grid.nx, square.data(), reach);
+                }
+            bool any = false;
+            for (std::size_t w = 0; w < grid.words; ++w) {
+                const std::size_t word = row * grid.words + w;
+                into.inside[word] =
+                    64 * w < reach.last && 64 * (w + 1) > reach.first
+                        ? pack(square.data() + 64 * w, &into.distance[word * kDistancePlanes])
+                        : 0;
+                any |= into.inside[word] != 0;
+            }
+            into.row_inside[row] = any;
+        }
+    });
+    if (auto error = deadline.over()) return *error;
+    return std::nullopt;
+}
+
+}  // namespace awan
