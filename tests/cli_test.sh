@@ -168,20 +168,20 @@ same "no file without a renderer" "" "$(ls e.png 2>/dev/null)"
 
 # --- states of automata
 printf '{"clouds":[{"model":"automaton","automaton":{"cells":[40,12,40],"steps_per_second":2}}],"time":3}' >automaton.json
-sed 's/"time":3/"time":5.2/' automaton.json >later.json
+sed 's/"time":3/"time":5.2/' automaton.json >afterwards.json
 run 2 state automaton.json
 run 0 state automaton.json -o at3.state
 same "silence" "" "$(cat out err)"
-run 0 particles later.json -o from0.csv
-run 0 particles later.json -o from3.csv --state at3.state --threads 1
+run 0 particles afterwards.json -o from0.csv
+run 0 particles afterwards.json -o from3.csv --state at3.state --threads 1
 cmp -s from0.csv from3.csv || fail "a resumed automaton is another"
 [ "$(wc -l <from0.csv)" -gt 500 ] || fail "an automaton has a cloud"
-run 0 state later.json -o at5.state
+run 0 state afterwards.json -o at5.state
 run 0 particles automaton.json -o a3.csv
 run 0 particles automaton.json -o b3.csv --state at5.state
 cmp -s a3.csv b3.csv || fail "a state that is too late changes something"
-run 0 plan later.json --state at3.state
-run 0 render later.json -o state.png --width 16 --height 12 --rung harris --state at3.state
+run 0 plan afterwards.json --state at3.state
+run 0 render afterwards.json -o state.png --width 16 --height 12 --rung harris --state at3.state
 sed 's/"time":3/"time":3,"seed":7/' automaton.json >other.json
 run 3 particles other.json --state at3.state
 contains "another seed" "seed" "$(cat err)"
