@@ -10,6 +10,7 @@
 #include "core/light/transport.h"
 #include "core/looks/looks.h"
 #include "core/plan/island_settings.h"
+#include "core/sequence.h"
 #include "core/survey/detail_of.h"
 #include "core/truth/path_tracer.h"
 
@@ -115,8 +116,8 @@ Status render_look(const Scene& scene, const Planned& planned, const Tools& tool
 
 }  // namespace
 
-Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadline,
-                          const MachineSpeed& speed) {
+Result<Planned> plan_still(const Scene& scene, int threads, const Deadline& deadline,
+                           const MachineSpeed& speed, const std::optional<DetailFigures>& detail) {
     Planned planned;
     auto particles = timed(planned.times.generate_ms, [&] {
         return generate(scene, threads, deadline, scene->look != Look::kPhysical);
@@ -127,6 +128,7 @@ Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadl
                           [&] { return survey(scene, planned.particles, threads, deadline); });
     if (!surveyed.ok()) return surveyed.error();
     planned.survey = *std::move(surveyed);
+    if (detail) planned.survey.detail = *detail;
     planned.plan = plan(scene, planned.survey, threads, speed);
     // What procedural clouds take is known only by running them.
     if (std::any_of(scene->clouds.begin(), scene->clouds.end(), is_procedural)) {
@@ -138,16 +140,34 @@ Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadl
     return planned;
 }
 
-Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& deadline,
-                           const MachineSpeed& speed) {
-    auto planned = plan_only(scene, threads, deadline, speed);
+Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadline,
+                          const MachineSpeed& speed) {
+    if (!scene->sequence) return plan_still(scene, threads, deadline, speed, {});
+    auto settled = settle(scene, threads, deadline, speed);
+    if (!settled.ok()) return settled.error();
+    const Frame frame = frame_at(*settled, scene->time);
+    auto planned = plan_still(frame.scene, threads, deadline, speed, frame.detail);
+    if (planned.ok() && !scene->accuracy.rung && settled->draft.accuracy.rung)
+        planned->plan.rung_reason =
+            "settled for the whole sequence by its first, middle and last frame";
+    return planned;
+}
+
+Result<Planned> ready_to_render(const Scene& scene, Result<Planned> planned, int threads,
+                                DetailTiles* tiles) {
     if (planned.ok() && planned->plan.on(Effect::kDetail)) {
         EffectTimes& effects = planned->times.effects;
-        planned->particles.detail = timed_for(
-            effects, Effect::kDetail, [&] { return detail_of(scene, planned->survey, threads); });
+        planned->particles.detail = timed_for(effects, Effect::kDetail, [&] {
+            return detail_of(scene, planned->survey, threads, tiles);
+        });
         planned->times.survey_ms += effects.of(Effect::kDetail);
     }
     return planned;
+}
+
+Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& deadline,
+                           const MachineSpeed& speed, DetailTiles* tiles) {
+    return ready_to_render(scene, plan_only(scene, threads, deadline, speed), threads, tiles);
 }
 
 Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools& tools,

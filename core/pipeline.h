@@ -3,9 +3,12 @@
 // (core/formats).
 #pragma once
 
+#include <optional>
+
 #include "core/deadline.h"
 #include "core/draw/image.h"
 #include "core/effect_times.h"
+#include "core/generate/detail.h"
 #include "core/generate/particle_set.h"
 #include "core/gl/device.h"
 #include "core/light/light_cache.h"
@@ -45,13 +48,23 @@ struct Tools {
     MachineSpeed speed;
 };
 
-// Generates, surveys and plans. threads >= 1.
+// Generates, surveys and plans this one picture, whatever sequence it is of. detail: the figures to make detail for, else the
+// survey's. threads >= 1.
+Result<Planned> plan_still(const Scene& scene, int threads, const Deadline& deadline,
+                           const MachineSpeed& speed, const std::optional<DetailFigures>& detail);
+
+// The same; of a scene with a sequence, with what is settled for all of its frames (core/sequence.h).
 Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadline,
                           const MachineSpeed& speed = {});
 
-// The same, ready for render_planned: with the particles' detail where it is on.
+// Ready for render_planned: with the particles' detail where it is on.
+// tiles: kept from render to render; may be null.
+Result<Planned> ready_to_render(const Scene& scene, Result<Planned> planned, int threads,
+                                DetailTiles* tiles = nullptr);
+
+// plan_only, ready to render.
 Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& deadline,
-                           const MachineSpeed& speed = {});
+                           const MachineSpeed& speed = {}, DetailTiles* tiles = nullptr);
 
 // Light and picture of what was planned.
 Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools& tools,

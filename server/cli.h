@@ -21,7 +21,10 @@ struct RenderCommand {
     std::string output;
     // Instead of what the document says.
     std::optional<int> width, height;
-    std::string format;               // "", "png", "exr"
+    std::string format;               // "", "png", "exr"; of an animation "webp", "apng"
+    std::optional<double> time;       // seconds
+    std::string frames;               // of the scene's sequence: "", "all", "3", "0-11,20"
+    double frames_per_second = 12;    // that an animation shows
     std::string background;           // "", "sky", "transparent"
     std::optional<std::string> rung;  // at most one of these three
     std::optional<double> error, time_ms;

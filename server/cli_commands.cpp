@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "core/formats/awn.h"
-#include "core/formats/image_file.h"
 #include "core/formats/particle_files.h"
 #include "core/generate/generate.h"
 #include "core/light/machine_speed.h"
@@ -39,55 +38,7 @@ Status write_particles(const std::string& path, const std::string& format,
     return file->commit();
 }
 
-Result<std::string> render_bytes(const Scene& scene, const RenderCommand& command) {
-    ProgressLine progress;
-    progress.say("planning");
-    const MachineSpeed speed = measure_speed();
-    auto planned = plan_scene(scene, command.threads, Deadline{}, speed);
-    if (!planned) return planned.error();
-    std::optional<Device> device;
-    progress.say("opening the renderer");
-    if (const Status failed = open_for(planned->plan, command.device, device)) return *failed;
-    progress.say("rendering, rung " + planned->plan.rung);
-    const Tools tools{device ? &*device : nullptr, command.threads, nullptr,
-                      [&](double share) { progress.done(share); }, speed};
-    auto rendered = render_planned(scene, *std::move(planned), tools, Deadline{});
-    if (!rendered) return rendered.error();
-    progress.say("encoding");
-    const ImageSettings& image = scene->image;
-    if (image.format == ImageFormat::kExr) return encode_exr(rendered->image, image.precision);
-    return encode_png(rendered->image, image.exposure.value_or(auto_exposure(scene)));
-}
-
 }  // namespace
-
-int run_render(const RenderCommand& command) {
-    auto draft = read_scene_file(command.scene);
-    if (!draft) return report_error(command.scene, draft.error());
-    ImageSettings& image = draft->image;
-    if (command.width) image.width = *command.width;
-    if (command.height) image.height = *command.height;
-    if (command.rung || command.error || command.time_ms)
-        draft->accuracy = {command.error, command.time_ms, command.rung};
-    if (command.background == "sky") image.background = Background::kSky;
-    if (command.background == "transparent") image.background = Background::kTransparent;
-    const auto format = output_format(command.output, command.format, {"png", "exr"},
-                                      image.format == ImageFormat::kExr ? "exr" : "png");
-    if (!format) return bad_usage(format.error().message);
-    if (binary_to_terminal(command.output))
-        return bad_usage("-o -: an image is not written to a terminal");
-    image.format = *format == "exr" ? ImageFormat::kExr : ImageFormat::kPng;
-    if (const Status wrong = begin_with_state(command.state, *draft))
-        return report_error(command.scene, *wrong);
-
-    auto scene = validate(std::move(draft).value());
-    if (!scene) return report_error(command.scene, scene.error());
-    auto bytes = render_bytes(*scene, command);
-    if (!bytes) return report_error(command.scene, bytes.error());
-    if (const Status failed = write_output(command.output, *bytes))
-        return report_error("", *failed);
-    return kExitFine;
-}
 
 int run_particles(const ParticlesCommand& command) {
     const auto format =

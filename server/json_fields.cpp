@@ -430,10 +430,25 @@ std::span<const Field> fields_of(ObjectKind kind) {
             return automaton_fields(kind);
         case ObjectKind::kSpheres:
             return spheres_fields();
+        case ObjectKind::kSpheresMorph:
+            return spheres_morph_fields();
         case ObjectKind::kImplicit:
-            return implicit_fields();
+        case ObjectKind::kImplicitPrimitive:
+        case ObjectKind::kImplicitKey:
+        case ObjectKind::kImplicitGrowth:
+        case ObjectKind::kImplicitAttractor:
+        case ObjectKind::kImplicitVortex:
+        case ObjectKind::kImplicitFlow:
+            return implicit_fields(kind);
         case ObjectKind::kEllipsoids:
             return ellipsoids_fields();
+        case ObjectKind::kEllipsoidsTexture:
+        case ObjectKind::kEllipsoidsShading:
+        case ObjectKind::kSkyPlane:
+        case ObjectKind::kPlaneTexture:
+        case ObjectKind::kFormation:
+        case ObjectKind::kEllipsoid:
+            return ellipsoids_part_fields(kind);
         case ObjectKind::kEffects:  // named by effect_name()
         case ObjectKind::kNone:
             return {};
@@ -503,6 +518,16 @@ const List& list_at(ListKind kind) {
         case ListKind::kAutomatonEllipsoids:
         case ListKind::kAutomatonWindBands:
             return automaton_list(kind);
+        case ListKind::kImplicitPrimitives:
+        case ListKind::kImplicitPoints:
+        case ListKind::kImplicitKeys:
+        case ListKind::kImplicitAttractors:
+        case ListKind::kImplicitVortices:
+        case ListKind::kImplicitVectors:
+            return implicit_list(kind);
+        case ListKind::kFormations:
+        case ListKind::kEllipsoids:
+            return ellipsoids_list(kind);
         case ListKind::kNone:
             break;
     }

@@ -33,6 +33,7 @@ enum class ObjectKind : std::uint8_t {
     kSequence,
     kAutomaton,
     kSpheres,
+    kSpheresMorph,
     kImplicit,
     kEllipsoids,
     kAutomatonEllipsoid,
@@ -40,6 +41,18 @@ enum class ObjectKind : std::uint8_t {
     kAutomatonWind,
     kAutomatonLayers,
     kAutomatonWindBand,
+    kImplicitPrimitive,
+    kImplicitKey,
+    kImplicitGrowth,
+    kImplicitAttractor,
+    kImplicitVortex,
+    kImplicitFlow,
+    kEllipsoidsTexture,
+    kEllipsoidsShading,
+    kSkyPlane,
+    kPlaneTexture,
+    kFormation,
+    kEllipsoid,
 };
 
 // Lists whose length is not fixed.
@@ -53,6 +66,14 @@ enum class ListKind : std::uint8_t {
     kColors,
     kAutomatonEllipsoids,
     kAutomatonWindBands,
+    kImplicitPrimitives,
+    kImplicitPoints,
+    kImplicitKeys,
+    kImplicitAttractors,
+    kImplicitVortices,
+    kImplicitVectors,
+    kFormations,
+    kEllipsoids,
 };
 
 enum class WordOutcome { kTaken, kUnknown, kUnsupported };

@@ -4,6 +4,7 @@
 #include "core/scene/implicit.h"
 #include "core/scene/spheres.h"
 #include "server/json_fields.h"
+#include "server/json_models.h"
 
 namespace awan {
 namespace {
@@ -87,11 +88,31 @@ void DraftInProgress::begin(ObjectKind kind) {
         case ObjectKind::kSpheres:
             spheres = std::make_shared<SpheresCloud>();
             break;
+        case ObjectKind::kSpheresMorph:
+            spheres->morph.emplace();
+            break;
         case ObjectKind::kImplicit:
             implicit = std::make_shared<ImplicitCloud>();
             break;
+        case ObjectKind::kImplicitPrimitive:
+        case ObjectKind::kImplicitKey:
+        case ObjectKind::kImplicitGrowth:
+        case ObjectKind::kImplicitAttractor:
+        case ObjectKind::kImplicitVortex:
+        case ObjectKind::kImplicitFlow:
+            begin_implicit(kind, *implicit);
+            break;
         case ObjectKind::kEllipsoids:
             ellipsoids = std::make_shared<EllipsoidsCloud>();
+            break;
+        case ObjectKind::kSkyPlane:
+            ellipsoids->plane.emplace();
+            break;
+        case ObjectKind::kFormation:
+            ellipsoids->formations.emplace_back();
+            break;
+        case ObjectKind::kEllipsoid:
+            ellipsoids->ellipsoids.emplace_back();
             break;
         default:
             break;
@@ -117,6 +138,10 @@ void complete(ObjectKind kind, std::uint32_t seen, DraftInProgress& state) {
         sky.intensity = kPhysicalSkyIntensity;
     if (kind == ObjectKind::kAutomaton) state.cloud->automaton = std::move(state.automaton);
     if (kind == ObjectKind::kSpheres) state.cloud->spheres = std::move(state.spheres);
+    // A list without elements is one too.
+    if (kind == ObjectKind::kImplicit && has(kind, seen, "primitives") &&
+        !state.implicit->primitives)
+        state.implicit->primitives.emplace();
     if (kind == ObjectKind::kImplicit) state.cloud->implicit = std::move(state.implicit);
     if (kind == ObjectKind::kEllipsoids) state.cloud->ellipsoids = std::move(state.ellipsoids);
 }

@@ -112,14 +112,23 @@ Run add_render(CLI::App& app) {
     command->threads = processors();
     CLI::App* render = app.add_subcommand("render", "a scene to an image");
     render->add_option("scene", command->scene, kSceneHelp)->required();
-    add(*render, "-o,--output", command->output, "a .png or .exr file, or - for standard output")
+    add(*render, "-o,--output", command->output,
+        "a .png or .exr file, or - for standard output; of a sequence a name with %04d in it for "
+        "numbered "
+        "files, or an animation, .webp or .apng")
         ->required();
+    add(*render, "--time", command->time, "seconds, instead of the document's");
+    add(*render, "--frames", command->frames,
+        "of the scene's sequence: all, or numbers from 0 as 3 or 0-11,20");
+    add(*render, "--fps", command->frames_per_second, "frames a second that an animation shows")
+        ->check(CLI::Range(0.1, 1000.0));
     add(*render, "--width", command->width, "pixels, instead of the document's")
         ->check(CLI::Range(1, limits::kMaxImageSide));
     add(*render, "--height", command->height, "pixels, instead of the document's")
         ->check(CLI::Range(1, limits::kMaxImageSide));
-    add(*render, "--format", command->format, "png or exr, instead of the document's")
-        ->check(CLI::IsMember({"png", "exr"}));
+    add(*render, "--format", command->format,
+        "png or exr, instead of the document's; webp or apng for standard output")
+        ->check(CLI::IsMember({"png", "exr", "webp", "apng"}));
     add(*render, "--background", command->background,
         "sky or transparent, instead of the document's")
         ->check(CLI::IsMember({"sky", "transparent"}));

@@ -247,7 +247,8 @@ Response answer_render(Service::State& state, const Request& request, const Scen
     if (!lease) return busy(state, request, "other requests use the memory this one needs");
 
     Timing timing;
-    auto planned = plan_scene(scene, state.options.threads, request.deadline, state.options.speed);
+    auto planned = plan_scene(scene, state.options.threads, request.deadline, state.options.speed,
+                              &state.tiles);
     if (!planned) return fail(planned.error(), request);
     if (const auto reason = hopeless(planned->plan, request.deadline))
         return problem(504, *reason, "", request.id);

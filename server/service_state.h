@@ -73,6 +73,7 @@ struct Service::State {
     WorkBudget budget;
     WorkGate gate;
     WorkGate sweeps{1};  // measurements of accuracy: two at once would measure each other
+    DetailTiles tiles;
     const std::vector<Page> pages = make_pages();
     const std::vector<Preset> presets = make_presets();
     std::string presets_json;

@@ -26,6 +26,34 @@ printf '60\n1\n60, 2, 1, 2, 0, 0, 0, 0.5\n' >layout.awn
 printf '{"cubes":[{"particles":60,"size":[2,-1,2],"center":[0,0,0],"radius":0.5}]}' >impossible.json
 printf 'nonsense' >broken.json
 
+cat >moving.json <<'END'
+{"clouds":[{"velocity":[1,0,0],"cubes":[{"particles":60,"size":[2,1,2],"center":[0,0,0],"radius":0.5}]}],
+ "sequence":{"from":0,"to":2,"frames":4},"image":{"width":64,"height":48},"accuracy":{"rung":"harris"}}
+END
+
+# --- sequences
+run 2 render scene.json --frames 0 -o a.png
+contains "no sequence" "sequence" "$(cat err)"
+run 2 render scene.json -o a.webp
+run 2 render moving.json --frames 0-4 -o "m.%d.png"
+contains "frames that there are" "0 to 3" "$(cat err)"
+run 2 render moving.json --frames all -o m.png
+contains "a place for the number" "%04d" "$(cat err)"
+run 0 render moving.json --frames all -o "m.%03d.png"
+same "numbered files" "m.000.png m.001.png m.002.png m.003.png" "$(echo m.*.png)"
+run 0 render moving.json --frames 2 -o alone.png
+cmp -s alone.png m.002.png || fail "a frame alone is not the frame among others"
+cmp -s m.001.png m.002.png && fail "nothing moved"
+run 0 render moving.json --time 1.3333333333333333 -o at.png
+cmp -s at.png m.002.png || fail "the scene at a frame's time is not that frame"
+run 0 render moving.json -o m.webp
+same "animated WebP" "RIFF WEBP" "$(head -c 4 m.webp) $(head -c 12 m.webp | tail -c 4)"
+run 0 render moving.json --fps 4 -o m.apng
+oiiotool --info m.apng >info 2>&1 || fail "oiiotool does not read the APNG: $(cat info)"
+contains "APNG's size" "64 x   48" "$(cat info)"
+run 5 render moving.json -o nowhere/m.webp
+rm -f m.* alone.png at.png info
+
 # --- usage
 run 0 --version
 contains "version" "awan " "$(cat out)"

@@ -19,7 +19,7 @@ namespace awan {
 namespace {
 
 DetailField field_of(double amount, std::uint64_t seed = 1, int threads = 2) {
-    return make_detail({2, 1, {0, 0, 0}}, amount, 1, seed, threads);
+    return make_detail({2, 1, {0, 0, 0}}, amount, 1, make_detail_tile(seed, threads));
 }
 
 // A few thousand points that share no lattice with the tile.
@@ -91,8 +91,13 @@ TEST(Detail, IsContinuousFiniteAndZeroWhereThereIsNothing) {
 TEST(Detail, DependsOnTheSeedAndNotOnThreads) {
     const DetailField one = field_of(0.7, 5, 1), many = field_of(0.7, 5, 7),
                       other = field_of(0.7, 6);
-    EXPECT_EQ(one.words, many.words);
-    EXPECT_NE(one.words, other.words);
+    EXPECT_EQ(*one.tile, *many.tile);
+    EXPECT_NE(*one.tile, *other.tile);
+    DetailTiles tiles;
+    EXPECT_EQ(*tiles.of(1, 1), *make_detail_tile(1, 1));
+    const DetailTile kept = tiles.of(1, 1);
+    for (std::uint64_t seed = 2; seed < 12; ++seed) EXPECT_NE(*tiles.of(seed, 2), *kept);
+    EXPECT_EQ(*tiles.of(1, 2), *kept);  // made again
 }
 
 // Table 4.4 with detail.

@@ -24,9 +24,11 @@ const DEFAULTS = {
   "/haze/height": 0,
   "/haze/albedo": 1,
   "/haze/g": 0.6,
-  "/detail/amount": 0.5,
-  "/detail/size": 0.5,
+  "/detail/amount": 0.7,
+  "/detail/size": 1.5,
   "/camera/fov": 40,
+  "/look": "physical",
+  "/time": 0,
   "/image/width": 800,
   "/image/height": 600,
   "/image/background": "sky",
@@ -69,6 +71,8 @@ export function cloudsOf(scene) {
   return [{ cloud: scene, pointer: "" }];
 }
 
+export const modelOf = (cloud) => cloud.model ?? "cubes";
+
 // As cloudsOf, in a document that has `clouds`, so that another can be added.
 export function withCloudList(scene) {
   if (Array.isArray(scene.clouds)) return scene;
@@ -84,6 +88,7 @@ export function whyNoLayout(scene) {
   if ((cloud.model ?? "cubes") !== "cubes") return `An .awn file holds cubes, not the model “${cloud.model}”.`;
   const shift = Array.isArray(cloud.translate) ? cloud.translate : [];
   const moved = shift.some((t) => t !== 0) || (cloud.scale ?? 1) !== 1 || (cloud.rotate_y ?? 0) !== 0;
+  if (Array.isArray(cloud.velocity) && cloud.velocity.some((v) => v !== 0)) return "An .awn file cannot say that its cloud moves.";
   if (moved) return "An .awn file cannot say that its cloud is moved, scaled or turned.";
   return "";
 }

@@ -96,7 +96,7 @@ AWAN_INLINE void add_detail(const DetailRays& rays, const Chunk& chunk, Tile& ti
         if (simd::any(thin)) {
             const Floats p[3] = {start[0] + t * slope[0], start[1] + t * slope[1],
                                  start[2] + t * slope[2]};
-            const Floats lump = lumps(simd::max(u, Floats{}), bumps_at(field.words.data(), p));
+            const Floats lump = lumps(simd::max(u, Floats{}), bumps_at(field.tile->data(), p));
             const Floats gathered = (whole * keep) * lump;
             detailed = u < 1.0f ? detailed + sharp * (gathered - detailed) : detailed;
         }

@@ -1,4 +1,4 @@
-// The inner loops of march_block.cpp. Bodies are inlined into one function a target there.
+// The inner loops of the march. Bodies are inlined into one function a target in march_targets.cpp.
 #pragma once
 
 #include <cmath>

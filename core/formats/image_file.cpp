@@ -106,6 +106,18 @@ float storable(float value, float largest) {
 
 }  // namespace
 
+std::vector<std::uint8_t> display_pixels(const Image& image, double exposure_stops) {
+    const DisplayTable table;
+    const auto gain = static_cast<float>(std::exp2(exposure_stops));
+    const std::size_t row = (image.opaque ? 3U : 4U) * static_cast<std::size_t>(image.width);
+    std::vector<std::uint8_t> pixels(row * static_cast<std::size_t>(image.height));
+    for (int y = 0; y < image.height; ++y)
+        (image.opaque ? opaque_row : transparent_row)(
+            row_of(image, y), image.width, gain, table,
+            pixels.data() + row * static_cast<std::size_t>(y));
+    return pixels;
+}
+
 Result<std::string> encode_png(const Image& image, double exposure_stops) {
     const int channels = image.opaque ? 3 : 4;
     OIIO::ImageSpec spec = spec_of(image, channels, OIIO::TypeDesc::UINT8);

@@ -1,7 +1,9 @@
 // Image -> PNG or EXR bytes, made in memory. image_file.cpp is the only user of OpenImageIO.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/draw/image.h"
 #include "core/scene/scene.h"
@@ -12,6 +14,9 @@ namespace awan {
 // core/shaders/tone.glsl; RGB when image.opaque, else RGBA with straight (not premultiplied) alpha
 // as PNG wants it.
 Result<std::string> encode_png(const Image& image, double exposure_stops);
+
+// The pixels of it, row by row: 3 bytes each when image.opaque, else 4.
+std::vector<std::uint8_t> display_pixels(const Image& image, double exposure_stops);
 
 // Linear radiance, premultiplied alpha, channels R G B A, no tone curve, ZIP compression.
 Result<std::string> encode_exr(const Image& image, Precision precision);

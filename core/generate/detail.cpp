@@ -200,9 +200,7 @@ float gathered_share(float u) {
     return 1 - (a + w) * (a + w) / (2 * w);
 }
 
-DetailField make_detail(const DetailFigures& figures, double amount, double size,
-                        std::uint64_t seed, int threads) {
-    DetailField field;
+DetailTile make_detail_tile(std::uint64_t seed, int threads) {
     const std::uint64_t key = keyed(seed, 0xde7a11);
     const Warp warp(keyed(key, 100));
     std::vector<Bumps> octaves;
@@ -222,7 +220,30 @@ DetailField make_detail(const DetailFigures& figures, double amount, double size
             }
         }
     });
-    field.words = packed(ranks(values));
+    return std::make_shared<const std::vector<std::uint32_t>>(packed(ranks(values)));
+}
+
+DetailTile DetailTiles::of(std::uint64_t seed, int threads) {
+    {
+        const std::lock_guard lock(mutex_);
+        const auto at = std::find_if(entries_.begin(), entries_.end(),
+                                     [&](const Entry& entry) { return entry.seed == seed; });
+        if (at != entries_.end()) {
+            entries_.splice(entries_.begin(), entries_, at);
+            return at->tile;
+        }
+    }
+    // Two at once may make the same: it is the same.
+    DetailTile tile = make_detail_tile(seed, threads);
+    const std::lock_guard lock(mutex_);
+    entries_.push_front({seed, tile});
+    if (entries_.size() > kKept) entries_.pop_back();
+    return tile;
+}
+
+DetailField make_detail(const DetailFigures& figures, double amount, double size, DetailTile tile) {
+    DetailField field;
+    field.tile = std::move(tile);
     field.bump = std::clamp(size * figures.radius, 1e-9, 1e9);
     field.to_tile = turned() * (kDetailSide / (kDetailBumps * field.bump));
     field.origin = figures.origin;
@@ -241,7 +262,7 @@ float bumps_at(const DetailField& field, const glm::dvec3& point) {
         part[axis] = static_cast<float>(p - std::floor(p));
     }
     const std::uint32_t* const word =
-        field.words.data() + (low[2] * kSide + low[1]) * kSide + low[0];
+        field.tile->data() + (low[2] * kSide + low[1]) * kSide + low[0];
     const auto layer = [&](std::uint32_t w) {
         const auto byte = [&](int shift) { return static_cast<float>(w >> shift & 255u); };
         const float a = byte(0) + part[0] * (byte(8) - byte(0));

@@ -12,6 +12,9 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <list>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace awan {
@@ -21,10 +24,12 @@ inline constexpr int kDetailBumps = 5;        // of the largest, along the tile
 inline constexpr float kSoftness = 0.3f;      // w: of the lumps' edges, 0 would be hard
 inline constexpr float kMostGathered = 1.5f;  // extinction of a lump, in units of `edge`
 
+// Voxel (x, y, z)'s byte and those of its neighbours at x + 1, y + 1 and both (lowest byte first), x fastest; one more
+// layer than kDetailSide. A byte b stands for n = (b + 1/2) / 256. Never changed once made: 3.6 MB, shared.
+using DetailTile = std::shared_ptr<const std::vector<std::uint32_t>>;
+
 struct DetailField {
-    // Voxel (x, y, z)'s byte and those of its neighbours at x + 1, y + 1 and both (lowest byte first), x fastest; one more
-    // layer than kDetailSide. A byte b stands for n = (b + 1/2) / 256.
-    std::vector<std::uint32_t> words;
+    DetailTile tile;
     glm::dmat3 to_tile{
         1};                // voxels per scene unit, turned: no axis of the tile is one of the scene
     glm::dvec3 origin{0};  // scene units: voxel (0, 0, 0)
@@ -40,9 +45,26 @@ struct DetailFigures {
     glm::dvec3 origin{0};   // anywhere in the matter
 };
 
-// amount: 0..1, of edge / extinction; size: of bumps / radius. keep is 1. About 200 ms of one core.
-DetailField make_detail(const DetailFigures& figures, double amount, double size,
-                        std::uint64_t seed, int threads);
+// Of the seed alone. About 200 ms of one core.
+DetailTile make_detail_tile(std::uint64_t seed, int threads);
+
+// The tiles of the last few seeds, for other times and cameras of the same clouds. Thread-safe.
+class DetailTiles {
+  public:
+    DetailTile of(std::uint64_t seed, int threads);
+
+  private:
+    static constexpr std::size_t kKept = 8;
+    struct Entry {
+        std::uint64_t seed;
+        DetailTile tile;
+    };
+    std::mutex mutex_;
+    std::list<Entry> entries_;  // most recently used first
+};
+
+// amount: 0..1, of edge / extinction; size: of bumps / radius. keep is 1.
+DetailField make_detail(const DetailFigures& figures, double amount, double size, DetailTile tile);
 
 // n at a point, trilinear between voxels.
 float bumps_at(const DetailField& field, const glm::dvec3& point);

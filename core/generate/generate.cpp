@@ -56,7 +56,7 @@ std::vector<Piece> cut_into_pieces(const Scene& scene, const std::vector<ModelPa
                     0,
                     0,
                     0,
-                    cloud.density.value_or(scene_density),
+                    made[k].extinctions ? 1.0 : cloud.density.value_or(scene_density),
                     cloud.fill.value_or(scene->fill)};
         if (cloud.model != CloudModel::kCubes) {
             add_pieces(pieces, piece, piece.ready->positions.size(), total);
@@ -119,6 +119,8 @@ Status run_models(const Scene& scene, int threads, const Deadline& deadline, boo
         const Motion motion = motion_of(cloud, scene->time);
         ModelRequest request;
         request.key = keyed(cloud.seed.value_or(scene->seed), k);
+        request.place = k;
+        request.density = cloud.density.value_or(scene->density.value_or(kDefaultDensity));
         request.time = scene->time;
         request.threads = threads;
         request.coarse = coarse;

@@ -23,10 +23,13 @@ struct ModelRequest {
     // coordinates; none: from where the automatic camera will stand (core/survey/survey.h), the whole cloud in the picture.
     double pixel_angle = 0;
     std::optional<glm::dvec3> eye;
+    std::uint64_t place = 0;  // the cloud's number in the scene
+    double density = 1;       // the cloud's or else the scene's: extinction, 1/unit
 };
 
 struct ModelParticles {
     ReadyParticles particles;  // densities multiply the cloud's density; colours are empty
+    bool extinctions = false;  // densities are extinctions, 1/unit, whatever the cloud's density is
     // Relative error, rms over rms of a picture, of what was left out or made coarser than the description says; 0: none.
     double error = 0;
     // Not 0 where the particles depend on the eye: tells such sets apart.

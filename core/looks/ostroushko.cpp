@@ -1,15 +1,59 @@
+// The picture of Ostroushko et al. (document 003): rays through the hierarchy of spheres, front to back. Each sphere lets
+// T f + 1 - f through (equations 1-3) and shows its bump-mapped surface (equation 4) for the rest. Spheres above a level bound
+// those below, and one that looks smaller than a pixel is a leaf.
+//
+// Ours, where the source says nothing: light (sun and sky on a diffuse surface, as it reaches a sphere through the upper levels
+// of all clouds), a ground that hides, and a tile's rays going down the tree together.
+#include <atomic>
+#include <cmath>
+
+#include "core/draw/backdrop.h"
 #include "core/looks/looks.h"
+#include "core/looks/ostroushko_tile.h"
+#include "core/parallel.h"
 
 namespace awan {
 
-Result<Image> ostroushko_look(const Scene& scene, const View&, int, const Deadline&) {
-    Image image{scene->image.width, scene->image.height, false, {}};
+looks::LookScene looks::look_scene(const Scene& scene, const View& view) {
+    LookScene look;
+    look.clouds = look_clouds(scene, view.eye);
+    look.light = look_light(scene);
+    look.view = view;
+    look.width = scene->image.width;
+    look.height = scene->image.height;
+    look.pixel_angle = 2 * view.tan_half_fov / look.height;
+    look.ground = scene->ground && view.eye.y > scene->ground->height;
+    if (look.ground) look.ground_height = scene->ground->height;
+    return look;
+}
+
+Result<Image> ostroushko_look(const Scene& scene, const View& view, int threads,
+                              const Deadline& deadline) {
+    const looks::LookScene look = looks::look_scene(scene, view);
+    Image image{look.width, look.height, false, {}};
     image.pixels.resize(4 * image.pixel_count());
+    const int columns = (look.width + looks::kTileSide - 1) / looks::kTileSide;
+    const int rows = (look.height + looks::kTileSide - 1) / looks::kTileSide;
+    std::atomic<bool> late{false};
+    parallel_for(threads, static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns),
+                 [&](std::size_t tile) {
+                     if (late.load(std::memory_order_relaxed) || deadline.over()) {
+                         late = true;
+                         return;
+                     }
+                     const auto index = static_cast<int>(tile);
+                     looks::draw_tile(look, index % columns * looks::kTileSide,
+                                      index / columns * looks::kTileSide, image.pixels.data());
+                 });
+    if (auto error = deadline.over()) return *error;
+    if (scene->image.background == Background::kSky)
+        lay_under(image, make_backdrop(scene, view, look.width, look.height, bare_ground(*scene),
+                                       threads));
     return image;
 }
 
-double ostroushko_look_ms(const Scene&, const View&, int) {
-    return 1;
+double ostroushko_look_ms(const Scene& scene, const View&, int threads) {
+    return 1e-3 * scene->image.width * scene->image.height / threads;
 }
 
 }  // namespace awan

@@ -2,12 +2,14 @@
 
 namespace awan {
 
-std::shared_ptr<const DetailField> detail_of(const Scene& scene, const Survey& survey,
-                                             int threads) {
+std::shared_ptr<const DetailField> detail_of(const Scene& scene, const Survey& survey, int threads,
+                                             DetailTiles* tiles) {
     const Detail asked = scene->detail.value_or(Detail{});
     if (!(asked.amount > 0) || !(survey.detail.extinction > 0) || !(survey.detail.radius > 0))
         return nullptr;
-    DetailField field = make_detail(survey.detail, asked.amount, asked.size, scene->seed, threads);
+    DetailField field = make_detail(
+        survey.detail, asked.amount, asked.size,
+        tiles ? tiles->of(scene->seed, threads) : make_detail_tile(scene->seed, threads));
     // Of this realisation, not of their mean: a cloud of few bumps would have more or less than it was given.
     const DensityVolume& volume = survey.volume;
     double whole = 0, kept = 0;

@@ -1,0 +1,120 @@
+#include "core/generate/ellipsoids/formations.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/generate/keyed_random.h"
+
+namespace awan {
+namespace {
+
+// Numbers in (0, 1) for one ellipsoid, by what they are for.
+struct Draws {
+    std::uint64_t key;
+    double operator()(std::uint64_t purpose) const {
+        return unit_open(static_cast<std::uint32_t>(keyed(key, purpose) >> 32));
+    }
+};
+enum Purpose : std::uint64_t { kSizeX, kSizeY, kSizeZ, kParent, kTurn, kTilt, kWhich };
+
+// From the centre to the surface along a unit vector.
+double reach(const PlacedEllipsoid& one, const glm::dvec3& direction) {
+    const glm::dvec3 d(direction.x * one.turn.cos - direction.z * one.turn.sin, direction.y,
+                       direction.z * one.turn.cos + direction.x * one.turn.sin);
+    const glm::dvec3 u = d / one.radii;
+    return 1 / std::sqrt(glm::dot(u, u));
+}
+
+// Level, by degrees from +z towards +x.
+glm::dvec3 level(double degrees) {
+    const SinCos turn = exact_sincos_degrees(degrees);
+    return {turn.sin, 0, turn.cos};
+}
+
+// Up to `spread` degrees from upward, to any side.
+glm::dvec3 upward(const Formation& formation, const Draws& draws) {
+    const SinCos tilt = exact_sincos_degrees(formation.spread * draws(kTilt));
+    const glm::dvec3 side = level(360 * draws(kTurn));
+    return {side.x * tilt.sin, tilt.cos, side.z * tilt.sin};
+}
+
+// Along `heading` and back, with `spread` to both sides.
+glm::dvec3 onward(const Formation& formation, const Draws& draws) {
+    const double way = draws(kWhich) < 0.5 ? 0 : 180;
+    return level(formation.heading + way + formation.spread * (2 * draws(kTurn) - 1));
+}
+
+glm::dvec3 drawn_radii(const Formation& formation, const Draws& draws) {
+    const auto one = [&](Purpose purpose) {
+        return 1 + formation.variation * (2 * draws(purpose) - 1);
+    };
+    return formation.radii * glm::dvec3(one(kSizeX), one(kSizeY), one(kSizeZ));
+}
+
+// One of the earlier ones, first .. last.
+int earlier(const Draws& draws, int first, int last) {
+    return first + std::min(static_cast<int>(draws(kParent) * (last - first + 1)), last - first);
+}
+
+void add_formation(std::vector<PlacedEllipsoid>& all, const Formation& formation,
+                   const Translucence& translucence, std::uint64_t key) {
+    const int first = static_cast<int>(all.size());
+    const int count = static_cast<int>(formation.count);
+    // Of a combined one about a third is the patch below.
+    const int base = formation.kind == FormationKind::kHorizontal ? count
+                     : formation.kind == FormationKind::kVertical ? 1
+                                                                  : (count + 2) / 3;
+    for (int i = 0; i < count; ++i) {
+        const Draws draws{keyed(key, static_cast<std::uint64_t>(i))};
+        PlacedEllipsoid one;
+        one.center = formation.center;
+        one.radii = drawn_radii(formation, draws);
+        one.translucence = translucence;
+        if (i > 0) {
+            const bool lies = i < base;
+            // A row goes on from one of its last three; towers stand on the patch, more of them in its middle, and on
+            // what stands already.
+            const int last = first + i - 1;
+            one.linked_to = lies ? earlier(draws, std::max(first, last - 2), last)
+                            : formation.kind == FormationKind::kVertical
+                                ? earlier(draws, std::max(first, last - 4), last)
+                                : earlier(draws, first, last);
+            const PlacedEllipsoid& parent = all[static_cast<std::size_t>(one.linked_to)];
+            if (!lies) {
+                // Smaller with every step up, as turrets are.
+                const double rise = parent.center.y - formation.center.y;
+                const double shrink =
+                    std::max(0.45, 0.88 - 0.06 * std::max(rise, 0.0) / formation.radii.y);
+                one.radii *= shrink;
+            }
+            const glm::dvec3 way = lies ? onward(formation, draws) : upward(formation, draws);
+            one.center = parent.center +
+                         way * ((1 - formation.link) * (reach(parent, way) + reach(one, way)));
+        }
+        all.push_back(one);
+    }
+}
+
+}  // namespace
+
+std::vector<PlacedEllipsoid> placed_ellipsoids(const EllipsoidsCloud& cloud, std::uint64_t key) {
+    std::vector<PlacedEllipsoid> all;
+    for (std::size_t i = 0; i < cloud.formations.size(); ++i)
+        add_formation(all, cloud.formations[i], cloud.translucence, keyed(key, i));
+    if (cloud.formations.empty() && cloud.ellipsoids.empty() && !cloud.plane)
+        add_formation(all, Formation{}, cloud.translucence, keyed(key, 0));
+    for (const Ellipsoid& given : cloud.ellipsoids) {
+        PlacedEllipsoid one;
+        one.center = given.center;
+        one.radii = given.radii;
+        one.turn = exact_sincos_degrees(given.rotate_y);
+        const Translucence& own = cloud.translucence;
+        one.translucence = {given.threshold.value_or(own.threshold),
+                            given.threshold_edge.value_or(own.threshold_edge),
+                            given.range.value_or(own.range)};
+        all.push_back(one);
+    }
+    return all;
+}
+
+}  // namespace awan

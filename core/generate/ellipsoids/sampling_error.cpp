@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/generate/ellipsoids/lattice.h"
+#include "core/parallel.h"
+
+namespace awan {
+namespace {
+
+constexpr int kLines = 8;  // along either axis
+constexpr int kStepsPerCell = 4;
+constexpr int kReach = 3;  // cells; a Gaussian has 3e-5 of itself left there
+
+// The texture and the ellipsoids as they are, along an upright line through a column's middle.
+double exact_depth(const LatticeField& lattice, int x, int z,
+                   const std::vector<PlacedEllipsoid>& ellipsoids, const TextureFunction& texture) {
+    glm::dvec3 p = lattice.origin + lattice.cell * glm::dvec3(x, -0.5, z);
+    const double bottom = p.y;
+    std::vector<const PlacedEllipsoid*> met;
+    for (const PlacedEllipsoid& one : ellipsoids) {
+        const glm::dvec3 half = one.half_box();
+        if (std::abs(p.x - one.center.x) <= half.x && std::abs(p.z - one.center.z) <= half.z)
+            met.push_back(&one);
+    }
+    if (met.empty()) return 0;
+    const int steps = kStepsPerCell * lattice.ny;
+    const double step = lattice.cell / kStepsPerCell;
+    double depth = 0;
+    for (int i = 0; i < steps; ++i) {
+        p.y = bottom + (i + 0.5) * step;
+        double opaque = 0;
+        std::optional<TextureValue> value;
+        for (const PlacedEllipsoid* one : met) {
+            const glm::dvec3 u = one->to_unit(p);
+            const double g = limb_in_space(glm::dot(u, u));
+            if (g < 0) continue;
+            if (!value) value = texture_at(texture, p);
+            opaque = std::max(opaque, opacity(*value, threshold_at(one->translucence, g),
+                                              one->translucence.range));
+        }
+        depth += opaque * step;
+    }
+    return depth;
+}
+
+// Sums of the Gaussians' densities over upright columns.
+std::vector<double> columns_of(const LatticeField& lattice, const ReadyParticles& particles) {
+    const auto width = static_cast<std::size_t>(lattice.nx);
+    std::vector<double> columns(width * static_cast<std::size_t>(lattice.nz), 0.0);
+    for (std::size_t i = 0; i < particles.positions.size(); ++i) {
+        const glm::dvec3 at = (particles.positions[i] - lattice.origin) / lattice.cell;
+        const auto x = static_cast<std::size_t>(std::clamp(std::lround(at.x), 0l, lattice.nx - 1l));
+        const auto z = static_cast<std::size_t>(std::clamp(std::lround(at.z), 0l, lattice.nz - 1l));
+        columns[z * width + x] += static_cast<double>(particles.densities[i]);
+    }
+    return columns;
+}
+
+// The Gaussians' depth there, over the density where opaque.
+double lattice_depth(const LatticeField& lattice, int x, int z, const std::vector<double>& columns,
+                     const std::array<double, 2 * kReach + 1>& weights) {
+    double depth = 0;
+    for (int dz = -kReach; dz <= kReach; ++dz)
+        for (int dx = -kReach; dx <= kReach; ++dx) {
+            const int cx = x + dx, cz = z + dz;
+            if (cx < 0 || cz < 0 || cx >= lattice.nx || cz >= lattice.nz) continue;
+            depth += columns[static_cast<std::size_t>(cz) * static_cast<std::size_t>(lattice.nx) +
+                             static_cast<std::size_t>(cx)] *
+                     weights[static_cast<std::size_t>(dx + kReach)] *
+                     weights[static_cast<std::size_t>(dz + kReach)];
+        }
+    return depth * std::sqrt(2 * std::numbers::pi) * kLatticeS * lattice.cell;
+}
+
+}  // namespace
+
+double sampling_error(const LatticeField& lattice, const ReadyParticles& particles, double density,
+                      const std::vector<PlacedEllipsoid>& ellipsoids,
+                      const TextureFunction& texture, int threads, const Deadline& deadline) {
+    if (lattice.values.empty() || !(density > 0)) return 0;
+    std::array<double, 2 * kReach + 1> weights{};
+    for (int k = -kReach; k <= kReach; ++k)
+        weights[static_cast<std::size_t>(k + kReach)] =
+            std::exp(-0.5 * (k / kLatticeS) * (k / kLatticeS));
+    const std::vector<double> columns = columns_of(lattice, particles);
+    std::array<double, kLines * kLines> exact{}, made{};
+    parallel_for(threads, exact.size(), [&](std::size_t i) {
+        if (deadline.over()) return;
+        const int along_x = static_cast<int>(i) % kLines, along_z = static_cast<int>(i) / kLines;
+        const int x = (2 * along_x + 1) * lattice.nx / (2 * kLines);
+        const int z = (2 * along_z + 1) * lattice.nz / (2 * kLines);
+        exact[i] = exact_depth(lattice, x, z, ellipsoids, texture);
+        made[i] = lattice_depth(lattice, x, z, columns, weights) / density;
+    });
+    double wrong = 0, all = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        wrong += (made[i] - exact[i]) * (made[i] - exact[i]);
+        all += exact[i] * exact[i];
+    }
+    // Nothing met by a line: nothing lost that they show.
+    return all > 0 ? std::sqrt(wrong / all) : 0;
+}
+
+}  // namespace awan

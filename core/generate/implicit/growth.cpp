@@ -1,0 +1,150 @@
+#include "core/generate/implicit/growth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "core/generate/implicit/noise.h"
+#include "core/generate/keyed_random.h"
+
+namespace awan {
+namespace {
+
+double uniform(std::uint64_t key, std::uint64_t number) {  // -1 .. 1
+    return 2 * unit_open(static_cast<std::uint32_t>(keyed(key, number) >> 32)) - 1;
+}
+
+glm::dvec3 uniform_vector(std::uint64_t key, std::uint64_t number) {
+    const double x = uniform(key, number), y = uniform(key, number + 1),
+                 z = uniform(key, number + 2);
+    return {x, y, z};
+}
+
+// How strong the turbulence is where a particle is, and where it pushes.
+struct Air {
+    double strength;
+    glm::dvec3 force;
+};
+
+// Bumps of the turbulence are twice a particle's radius.
+Air air_at(const Octaves& octaves, const glm::dvec3& position) {
+    using lanes::all;
+    const glm::vec3 p(position / 2.0);
+    const lanes::Vec at{all(p.x), all(p.y), all(p.z)};
+    const lanes::Vec push = brownian3(octaves, at);
+    return {static_cast<double>(turbulence(octaves, at)[0]),
+            {static_cast<double>(push.x[0]), static_cast<double>(push.y[0]),
+             static_cast<double>(push.z[0])}};
+}
+
+class Colony {
+  public:
+    Colony(const ImplicitGrowth& growth, std::uint64_t key)
+        : growth_(growth), octaves_(octaves_of(keyed(key, 1), 3, 0.5, 0, 0, 0, 0)) {
+        for (std::uint64_t i = 0; i < growth.seeds; ++i) {
+            GrownParticle& seed = particles.emplace_back();
+            seed.key = keyed(keyed(key, 0), i);
+            seed.position = growth.spread * uniform_vector(seed.key, 0);
+            seed.velocity = growth.velocity;
+            seed.size = 0.85 + 0.15 * uniform(seed.key, 3);
+            seed.birth = -growth.lifetime / 5;
+        }
+        grow_to(0);
+    }
+
+    std::vector<GrownParticle> particles;
+
+    // From `time` over dt seconds.
+    void step(double time, double dt) {
+        const std::size_t count = particles.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            if (time - particles[i].birth >= growth_.lifetime) particles[i].dormant = true;
+            if (!particles[i].dormant) move(i, time, dt);
+        }
+        grow_to(time + dt);
+    }
+
+  private:
+    void move(std::size_t i, double time, double dt) {
+        const Air air = air_at(octaves_, particles[i].position);
+        GrownParticle& p = particles[i];
+        // Drag taken at the step's end, which no length of step makes unstable.
+        p.velocity += dt * (growth_.force + growth_.turbulence * air.force);
+        p.velocity /= 1 + growth_.drag * dt;
+        p.position = glm::clamp(p.position + dt * p.velocity, -kGrowthReach, kGrowthReach);
+        p.fertility += dt * growth_.rate * air.strength;
+        if (p.fertility < 1) return;
+        p.fertility = std::min(p.fertility - 1, 1.0);  // one child a step
+        if (particles.size() < growth_.most) bear(i, time + dt);
+    }
+
+    void bear(std::size_t parent, double time) {
+        GrownParticle child;
+        const GrownParticle& p = particles[parent];
+        child.key = keyed(p.key, 100 + static_cast<std::uint64_t>(particles.size()));
+        child.size = p.size * growth_.shrink;
+        // At the parent's side, rather above than below.
+        glm::dvec3 away = uniform_vector(child.key, 0);
+        away.y = 0.6 * away.y + 0.35;
+        child.position = glm::clamp(p.position + 0.8 * p.size * away, -kGrowthReach, kGrowthReach);
+        child.velocity = p.velocity + 0.5 * growth_.velocity;
+        child.birth = time;
+        particles.push_back(child);
+    }
+
+    void grow_to(double time) {
+        for (GrownParticle& p : particles)
+            p.share = smoothstep((time - p.birth) / (growth_.lifetime / 2));
+    }
+
+    const ImplicitGrowth& growth_;
+    Octaves octaves_;
+};
+
+}  // namespace
+
+std::vector<GrownParticle> grown(const ImplicitGrowth& growth, std::uint64_t key, double time) {
+    Colony colony(growth, key);
+    const double dt = growth.duration / kGrowthSteps;
+    const double at = std::clamp(time, 0.0, growth.duration) / dt;
+    const int whole = std::min(static_cast<int>(at), kGrowthSteps);
+    for (int i = 0; i < whole; ++i) colony.step(i * dt, dt);
+    const double part = std::min(at - whole, 1.0);
+    if (whole == kGrowthSteps || part <= 0) return colony.particles;
+    // Where they are between two steps; who is born in this one is not there yet.
+    std::vector<GrownParticle> now = colony.particles;
+    colony.step(whole * dt, dt);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const GrownParticle& next = colony.particles[i];
+        now[i].position += part * (next.position - now[i].position);
+        now[i].velocity += part * (next.velocity - now[i].velocity);
+        now[i].share += part * (next.share - now[i].share);
+        now[i].dormant = next.dormant;
+    }
+    return now;
+}
+
+Element element_of(const GrownParticle& particle, const ImplicitGrowth& growth,
+                   const Frame& frame) {
+    const double radius = growth.radius * particle.size * (0.4 + 0.6 * particle.share);
+    return sphere_element(growth.center + growth.radius * particle.position, radius,
+                          growth.weight * particle.share, frame);
+}
+
+Box growth_box(const ImplicitGrowth& growth, std::uint64_t key) {
+    Box box;
+    const auto add = [&](const Colony& colony) {
+        for (const GrownParticle& p : colony.particles)
+            box.add(growth.center + growth.radius * p.position, glm::dvec3(growth.radius * p.size));
+    };
+    Colony colony(growth, key);
+    add(colony);
+    const double dt = growth.duration / kGrowthSteps;
+    for (int i = 0; i < kGrowthSteps; ++i) {
+        colony.step(i * dt, dt);
+        add(colony);
+    }
+    return box;
+}
+
+}  // namespace awan

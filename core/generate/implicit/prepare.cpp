@@ -1,0 +1,244 @@
+// From a cloud's description to its field at one time.
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "core/exact_math.h"
+#include "core/generate/implicit/field.h"
+#include "core/generate/implicit/growth.h"
+#include "core/generate/keyed_random.h"
+
+namespace awan {
+namespace {
+
+// What is random in a cloud, each by a key of its own.
+enum Purpose : std::uint64_t { kGrowthKey, kTurbulenceKey, kMovingKey, kPathKey };
+
+// Largest value of u f(h(u)) over 0 <= u <= 1, f rising, a little more rather than less.
+template <typename F>
+double most_over_ball(const F& f) {
+    double most = 0;
+    constexpr int kSteps = 64;
+    for (int i = 0; i < kSteps; ++i) {
+        const double u0 = static_cast<double>(i) / kSteps, u1 = u0 + 1.0 / kSteps, s = u0 * u0;
+        most = std::max(most, u1 * f((1 - s) * (1 - s) * (1 - s * 4 / 9)));
+    }
+    return most;
+}
+
+Box ball_around(const glm::dvec3& at, double reach) {
+    Box box;
+    box.add(at, glm::dvec3(reach));
+    return box;
+}
+
+Box widened(const Box& box, const glm::dvec3& low, const glm::dvec3& high) {
+    return {box.min + low, box.max + high};
+}
+
+// The box and what lies within `ball` and at most `most` from it: where matter of the box is seen after a warp that moves
+// nothing outside the ball, and where points of it come to by a vortex, which leaves all within that is within.
+Box warped_within(const Box& box, const Box& ball, double most) {
+    Box result = box;
+    const Box wide = widened(box, glm::dvec3(-most), glm::dvec3(most));
+    if (!touch(wide, ball)) return result;
+    result.add(Box{glm::max(wide.min, ball.min), glm::min(wide.max, ball.max)});
+    return result;
+}
+
+void prepare_noise(const ImplicitCloud& cloud, const ImplicitSettings& s, std::uint64_t key,
+                   double time, double cell, ImplicitField& f) {
+    f.noise_scale = static_cast<float>(1 / s.noise_size);
+    const double length = glm::length(s.jet);
+    f.stretch_axis = length > 0 ? glm::vec3(s.jet / length) : glm::vec3(1, 0, 0);
+    f.stretch_less = static_cast<float>(1 / s.stretch - 1);
+    const SwirlPath path = swirl_path(time * cloud.swirl, cloud.printed_swirl);
+    f.path_scale = glm::vec3(path.scale);
+    const Octaves one = octaves_of(keyed(key, kPathKey), 1, 1, 0, 0, 0, 0);
+    f.path_noise = one.lattice[0];
+    const double cells = cell / (s.mean_radius * s.noise_size);
+    const auto octaves = [&](Purpose purpose) {
+        return octaves_of(keyed(key, purpose), static_cast<int>(s.octaves), s.gain, cells,
+                          path.offset.x, path.offset.y, path.offset.z);
+    };
+    f.octaves = octaves(kTurbulenceKey);
+    f.moving = octaves(kMovingKey);
+}
+
+void prepare_flow(const ImplicitFlow& flow, double share, const Frame& frame, PreparedFlow& to) {
+    to.any = true;
+    to.min = glm::vec3((flow.min - frame.middle) / frame.unit);
+    for (int i = 0; i < 3; ++i) {
+        to.size[i] = static_cast<int>(flow.size[i]);
+        to.steps[i] =
+            static_cast<float>((flow.size[i] - 1) / ((flow.max[i] - flow.min[i]) / frame.unit));
+    }
+    for (const glm::dvec3& v : flow.vectors) {
+        const glm::dvec3 full = v / frame.unit;
+        to.low = glm::min(to.low, full);
+        to.high = glm::max(to.high, full);
+        to.vectors.emplace_back(full * share);
+    }
+}
+
+void prepare_warps(const ImplicitCloud& cloud, const ImplicitSettings& s, double time,
+                   const Box& macro, ImplicitField& f) {
+    const double share =
+        cloud.warp_to > cloud.warp_from
+            ? smoothstep((time - cloud.warp_from) / (cloud.warp_to - cloud.warp_from))
+            : 1.0;
+    const Frame& frame = f.frame;
+    f.jet = glm::vec3(s.jet * share);
+    f.jet_turbulence = static_cast<float>(s.jet_turbulence * share);
+    f.jet_floor = static_cast<float>(macro.min.y);
+    f.jet_slope = static_cast<float>(1 / std::max(macro.max.y - macro.min.y, 1e-6));
+    if (cloud.flow) prepare_flow(*cloud.flow, share, frame, f.flow);
+    for (const ImplicitAttractor& a : cloud.attractors) {
+        const glm::dvec3 at = (a.at - frame.middle) / frame.unit;
+        const double reach = a.reach / frame.unit, strength = std::abs(a.strength);
+        f.attractors.push_back({glm::vec3(at), static_cast<float>(a.strength * share),
+                                static_cast<float>(1 / reach), ball_around(at, reach),
+                                reach * most_over_ball([=](double h) { return strength * h; })});
+    }
+    for (const ImplicitVortex& v : cloud.vortices) {
+        const glm::dvec3 at = (v.at - frame.middle) / frame.unit;
+        const double reach = v.reach / frame.unit;
+        const double radians = std::abs(v.angle) * std::numbers::pi / 180;
+        f.vortices.push_back(
+            {glm::vec3(at), glm::vec3(glm::normalize(v.axis)),
+             static_cast<float>(v.angle / 360 * share), static_cast<float>(1 / reach),
+             ball_around(at, reach),
+             reach * most_over_ball([=](double h) { return std::min(2.0, radians * h); })});
+    }
+    f.warped = s.jet != glm::dvec3(0) || s.jet_turbulence > 0 || cloud.flow ||
+               !cloud.attractors.empty() || !cloud.vortices.empty();
+}
+
+// How far back along the jet stream a point is taken: low <= shift <= high.
+void jet_range(const ImplicitSettings& s, glm::dvec3& low, glm::dvec3& high) {
+    const glm::dvec3 most = s.jet + s.jet_turbulence * glm::dvec3(0.2, 0.3, 0.25);
+    low = glm::min(glm::min(s.jet, most), glm::dvec3(0));
+    high = glm::max(glm::max(s.jet, most), glm::dvec3(0));
+}
+
+// Where matter of the macrostructure is seen: the steps of density() (field.cpp), back.
+Box seen_box(const ImplicitSettings& s, const Box& macro, const ImplicitField& f) {
+    Box box = macro;
+    if (box.empty()) return box;
+    for (std::size_t i = f.vortices.size(); i-- > 0;)
+        box = warped_within(box, f.vortices[i].ball, f.vortices[i].most);
+    for (std::size_t i = f.attractors.size(); i-- > 0;)
+        box = warped_within(box, f.attractors[i].ball, f.attractors[i].most);
+    box = widened(box, f.flow.low, f.flow.high);
+    glm::dvec3 low, high;
+    jet_range(s, low, high);
+    box = widened(box, low, high);
+    box = widened(box, glm::dvec3(-s.displacement), glm::dvec3(s.displacement));
+    if (f.has_base)
+        box.min.y = std::max(box.min.y, static_cast<double>(f.base) - 0.25 * s.displacement);
+    return box;
+}
+
+}  // namespace
+
+// As printed: theta = 2 pi frame / 600, path = (.005 sin theta frame, .01215 frame, .0035 sin theta frame), scale =
+// (.5 + .01 frame, .5, .0073 frame); the noise's place is n - (path.x, path.y, -path.z) + peach (scale.x, .5, -scale.z).
+// Both x and z swing with the sine (the cosine is computed and never used), so that the "swirl" is a line that grows for
+// ever, and the scales tear the noise to pieces after some hundred frames. The steady path is an ellipse that rises, and the
+// scales stay those of frame 0.
+SwirlPath swirl_path(double frame, bool printed) {
+    const double degrees = 0.6 * frame;
+    const double sine = exact_sincos_degrees(degrees).sin,
+                 cosine = exact_sincos_degrees(degrees).cos;
+    SwirlPath path;
+    const double rise = 0.01215 * frame;
+    if (printed) {
+        path.offset = {-0.005 * sine * frame, -rise, 0.0035 * sine * frame};
+        path.scale = {0.5 + 0.01 * frame, 0.5, -0.0073 * frame};
+    } else {
+        path.offset = {-0.5 * sine, -rise, 0.35 * (1 - cosine)};
+        path.scale = {0.5, 0.5, 0};
+    }
+    return path;
+}
+
+ImplicitField prepare_field(const ImplicitCloud& cloud, std::uint64_t key, double time,
+                            double cell) {
+    const ImplicitSettings s = resolved(cloud);
+    const std::uint64_t growth_key = keyed(key, kGrowthKey);
+    ImplicitField f{};
+    Box all;
+    for (const ImplicitPrimitive& primitive : s.primitives) all.add(box_at_all_times(primitive));
+    if (cloud.growth) all.add(growth_box(*cloud.growth, growth_key));
+    f.frame.unit = s.mean_radius;
+    if (!all.empty()) f.frame.middle = (all.min + all.max) / 2.0;
+
+    for (const ImplicitPrimitive& primitive : s.primitives)
+        add_elements(primitive, cloud.smooth_keys, time, f.frame, f.elements);
+    if (cloud.growth)
+        for (const GrownParticle& particle : grown(*cloud.growth, growth_key, time))
+            f.elements.push_back(element_of(particle, *cloud.growth, f.frame));
+
+    f.amount = static_cast<float>(s.amount);
+    f.exponent = static_cast<float>(s.exponent);
+    f.blend = static_cast<float>(s.blend);
+    f.displacement = static_cast<float>(s.displacement);
+    f.diagonal = cloud.diagonal;
+    prepare_noise(cloud, s, key, time, cell, f);
+    Box macro;
+    if (!all.empty())
+        macro = {(all.min - f.frame.middle) / f.frame.unit,
+                 (all.max - f.frame.middle) / f.frame.unit};
+    prepare_warps(cloud, s, time, macro, f);
+    for (int i = 0; i < 3; ++i)
+        f.ripple[i] = s.ripple[i] > 0 ? static_cast<float>(1 / s.ripple[i]) : 0;
+    const bool rippled = s.ripple != glm::dvec3(0);
+    f.ripple_depth = rippled ? static_cast<float>(s.ripple_depth) : 0;
+    f.ripple_turns = static_cast<float>(s.ripple_turbulence / (2 * std::numbers::pi));
+    f.has_base = s.base.has_value();
+    f.base_inverse = 5;
+    if (s.base) f.base = static_cast<float>((*s.base - f.frame.middle.y) / f.frame.unit);
+    f.box = seen_box(s, macro, f);
+    return f;
+}
+
+Box box_of(const ImplicitField& field) {
+    const Frame& frame = field.frame;
+    if (field.box.empty()) return {};
+    return {frame.middle + frame.unit * field.box.min, frame.middle + frame.unit * field.box.max};
+}
+
+std::vector<std::uint32_t> elements_near(const ImplicitField& field, const Box& box) {
+    const Frame& frame = field.frame;
+    Box at{(box.min - frame.middle) / frame.unit, (box.max - frame.middle) / frame.unit};
+    const auto most = static_cast<double>(field.displacement);
+    at = widened(at, glm::dvec3(-most), glm::dvec3(most));
+    if (field.warped) {
+        ImplicitSettings jet;
+        jet.jet = glm::dvec3(field.jet);
+        jet.jet_turbulence = static_cast<double>(field.jet_turbulence);
+        glm::dvec3 low, high;
+        jet_range(jet, low, high);
+        at = widened(at, -high, -low);
+        at = widened(at, -field.flow.high, -field.flow.low);
+        // An attractor shows what is outside its ball within it.
+        for (const PreparedAttractor& a : field.attractors)
+            if (touch(at, a.ball)) at = widened(at, glm::dvec3(-a.most), glm::dvec3(a.most));
+        for (const PreparedVortex& v : field.vortices) at = warped_within(at, v.ball, v.most);
+    }
+    // Boxes are double, points float.
+    at = widened(at, glm::dvec3(-1e-4), glm::dvec3(1e-4));
+    std::vector<std::uint32_t> list;
+    bool open = false;  // a skeleton has pieces in the list and its last is yet to come
+    for (std::uint32_t i = 0; i < field.elements.size(); ++i) {
+        const Element& e = field.elements[i];
+        const bool near = e.weight != 0 && touch(e.box, at);
+        if (near || (open && e.last)) list.push_back(i);
+        open = (open || near) && !e.last;
+    }
+    return list;
+}
+
+}  // namespace awan

@@ -1,0 +1,125 @@
+#include "core/generate/implicit/sampling.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "core/scene/limits.h"
+
+namespace awan {
+namespace {
+
+// A piece of work, of cells near enough to each other to share their elements.
+constexpr int kBlock[3] = {32, 8, 8};
+
+int blocks_along(int cells, int axis) {
+    return (cells + kBlock[axis] - 1) / kBlock[axis];
+}
+
+void sample_block(const ImplicitField& field, const int first[3], LatticeField& lattice) {
+    const int last[3] = {std::min(first[0] + kBlock[0], lattice.nx),
+                         std::min(first[1] + kBlock[1], lattice.ny),
+                         std::min(first[2] + kBlock[2], lattice.nz)};
+    const auto place = [&](int i, int j, int k) {
+        return lattice.origin + lattice.cell * glm::dvec3(i, j, k);
+    };
+    Box box;
+    box.add(place(first[0], first[1], first[2]));
+    box.add(place(last[0] - 1, last[1] - 1, last[2] - 1));
+    const std::vector<std::uint32_t> near = elements_near(field, box);
+    for (int k = first[2]; k < last[2]; ++k)
+        for (int j = first[1]; j < last[1]; ++j)
+            row_densities(field, near, {place(first[0], j, k), lattice.cell, last[0] - first[0]},
+                          &lattice.values[lattice.index(first[0], j, k)]);
+}
+
+// Sums along an axis, of a lattice or of pairs of its cells: `group` cells a side become one.
+std::vector<double> columns(const LatticeField& lattice, int axis, int group) {
+    const int n[3] = {lattice.nx, lattice.ny, lattice.nz};
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const auto side = [&](int a) { return (n[a] + group - 1) / group; };
+    std::vector<double> sums(static_cast<std::size_t>(side(u)) * static_cast<std::size_t>(side(v)));
+    int at[3];
+    for (at[2] = 0; at[2] < n[2]; ++at[2])
+        for (at[1] = 0; at[1] < n[1]; ++at[1])
+            for (at[0] = 0; at[0] < n[0]; ++at[0])
+                sums[static_cast<std::size_t>(at[v] / group) * static_cast<std::size_t>(side(u)) +
+                     static_cast<std::size_t>(at[u] / group)] +=
+                    static_cast<double>(lattice.values[lattice.index(at[0], at[1], at[2])]);
+    return sums;
+}
+
+}  // namespace
+
+LatticeField lattice_over(const ImplicitField& field, std::uint64_t resolution) {
+    LatticeField lattice;
+    const Box box = box_of(field);
+    if (box.empty()) return lattice;
+    const glm::dvec3 size = box.max - box.min;
+    const double longest = std::max({size.x, size.y, size.z});
+    lattice.cell = std::clamp(longest / static_cast<double>(resolution),
+                              limits::kMinRadius / (2 * kLatticeS) * 1.001,
+                              limits::kMaxRadius / (2 * kLatticeS) * 0.999);
+    const auto cells = [&](double length) {
+        // A longest side of exactly so many cells is not one more by rounding.
+        const double count = std::ceil(length / lattice.cell - 1e-6);
+        return static_cast<int>(std::clamp(count, 1.0, static_cast<double>(resolution)));
+    };
+    lattice.nx = cells(size.x), lattice.ny = cells(size.y), lattice.nz = cells(size.z);
+    lattice.origin =
+        (box.min + box.max) / 2.0 -
+        lattice.cell * 0.5 * glm::dvec3(lattice.nx - 1, lattice.ny - 1, lattice.nz - 1);
+    return lattice;
+}
+
+LatticeField coarser(const LatticeField& lattice) {
+    LatticeField half;
+    half.cell = 2 * lattice.cell;
+    half.origin = lattice.origin + 0.5 * lattice.cell;
+    half.nx = (lattice.nx + 1) / 2, half.ny = (lattice.ny + 1) / 2, half.nz = (lattice.nz + 1) / 2;
+    return half;
+}
+
+Status sample(const ImplicitField& field, int threads, const Deadline& deadline,
+              LatticeField& lattice) {
+    lattice.values.assign(static_cast<std::size_t>(lattice.nx) *
+                              static_cast<std::size_t>(lattice.ny) *
+                              static_cast<std::size_t>(lattice.nz),
+                          0.0f);
+    const int bx = blocks_along(lattice.nx, 0), by = blocks_along(lattice.ny, 1),
+              bz = blocks_along(lattice.nz, 2);
+    std::atomic<bool> late{false};
+    parallel_for(
+        threads,
+        static_cast<std::size_t>(bx) * static_cast<std::size_t>(by) * static_cast<std::size_t>(bz),
+        [&](std::size_t i) {
+            if (late.load(std::memory_order_relaxed) || deadline.over()) {
+                late = true;
+                return;
+            }
+            const int block = static_cast<int>(i);
+            const int first[3] = {block % bx * kBlock[0], block / bx % by * kBlock[1],
+                                  block / (bx * by) * kBlock[2]};
+            sample_block(field, first, lattice);
+        });
+    return deadline.over();
+}
+
+// A picture sees sums along lines. Of the sums along the three axes, what a lattice is wrong by is about the difference from
+// one twice as coarse times kShare, measured against lattices three times as fine for every preset (implicit_test).
+double sampling_error(const LatticeField& lattice, const LatticeField& half) {
+    constexpr double kShare = 0.5;
+    double difference = 0, all = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::vector<double> fine = columns(lattice, axis, 2), coarse = columns(half, axis, 1);
+        for (std::size_t i = 0; i < fine.size(); ++i) {
+            const double d = fine[i] - 8 * coarse[i];
+            difference += d * d;
+            all += fine[i] * fine[i];
+        }
+    }
+    return all > 0 ? kShare * std::sqrt(difference / all) : 0.0;
+}
+
+}  // namespace awan

@@ -1,0 +1,25 @@
+// An implicit cloud's density on a lattice.
+#pragma once
+
+#include "core/deadline.h"
+#include "core/generate/implicit/field.h"
+#include "core/generate/lattice_particles.h"
+
+namespace awan {
+
+// The lattice of `resolution` cells along the longest side of box_of(field): the same at all times, so that a moving cloud
+// moves through it and not with it. Values are not filled in; of an empty field it has no cells.
+LatticeField lattice_over(const ImplicitField& field, std::uint64_t resolution);
+
+// One with cells twice as large over the same place, each over eight of the other's.
+LatticeField coarser(const LatticeField& lattice);
+
+// Fills in the values. The same for every number of threads. Fails when the deadline is over.
+Status sample(const ImplicitField& field, int threads, const Deadline& deadline,
+              LatticeField& lattice);
+
+// What a picture of `lattice` is wrong by, rms over rms, from how far `half` (coarser(), sampled as coarsely) is from it: see
+// sampling.cpp.
+double sampling_error(const LatticeField& lattice, const LatticeField& half);
+
+}  // namespace awan

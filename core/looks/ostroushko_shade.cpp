@@ -1,0 +1,69 @@
+#include "core/looks/ostroushko_shade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "core/exact_math.h"
+#include "core/generate/keyed_random.h"
+#include "core/light/ground_light.h"
+
+namespace awan::looks {
+namespace {
+
+constexpr int kWaves = 3;        // of the relief
+constexpr double kSteepest = 4;   // of their frequencies, radians over the radius, along each axis
+constexpr double kBump = 0.08;    // height of a wave, radii
+
+double part(std::uint64_t bits, int from) {  // 16 of them, -1..1
+    return static_cast<double>(bits >> from & 0xffffu) / 0x8000 - 1;
+}
+
+}  // namespace
+
+LookLight look_light(const Scene& scene) {
+    LookLight light;
+    const Outside outside = outside_of(scene);
+    light.to_sun = outside.to_sun;
+    light.sun = outside.sun / std::numbers::pi;
+    const SkyMeans sky = means_of(outside.sky, 12);
+    light.above = sky.above;
+    light.below = sky.below;
+    if (scene->ground)
+        light.below = scene->ground->albedo *
+                      (light.sun * std::max(light.to_sun.y, 0.0) +
+                       sky.irradiance_up / std::numbers::pi);
+    // What is scattered forward goes on: similarity, depth (1 - albedo g).
+    light.softened = 1 - scene->medium.albedo * std::max(scene->medium.g, 0.0);
+    light.albedo = scene->medium.albedo;
+    return light;
+}
+
+glm::dvec3 bumped(const glm::dvec3& normal, std::uint64_t key) {
+    glm::dvec3 slope(0);
+    for (std::uint64_t i = 0; i < kWaves; ++i) {
+        const std::uint64_t bits = keyed(key, i);
+        const glm::dvec3 wave =
+            kSteepest * glm::dvec3(part(bits, 0), part(bits, 16), part(bits, 32));
+        const double phase = std::numbers::pi * part(bits, 48);
+        slope += kBump * exact_sin(glm::dot(wave, normal) + phase) * wave;
+    }
+    slope -= glm::dot(slope, normal) * normal;
+    return glm::normalize(normal - slope);
+}
+
+Reaching reaching(const std::vector<LookCloud>& clouds, const LookLight& light,
+                  const glm::dvec3& point) {
+    return {light_through(clouds, point, light.to_sun, light.softened),
+            light_through(clouds, point, {0, 1, 0}, light.softened)};
+}
+
+glm::dvec3 shade(const LookLight& light, const Reaching& share, const glm::dvec3& normal) {
+    const double facing = std::max(glm::dot(normal, light.to_sun), 0.0);
+    const double up = (1 + normal.y) / 2;
+    return light.albedo * (share.sun * facing * light.sun + share.sky * up * light.above +
+                           (1 - up) * light.below);
+}
+
+}  // namespace awan::looks

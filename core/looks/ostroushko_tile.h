@@ -1,0 +1,67 @@
+// One tile of the look of Ostroushko et al. (document 003): the spheres that its rays may meet, from the front, and what the rays
+// bring home.
+#pragma once
+
+#include <vector>
+
+#include "core/looks/ostroushko_shade.h"
+
+namespace awan::looks {
+
+inline constexpr int kTileSide = 8;  // pixels
+
+// What all tiles share.
+struct LookScene {
+    std::vector<LookCloud> clouds;
+    LookLight light;
+    View view;
+    int width = 0, height = 0;  // pixels
+    double pixel_angle = 0;     // radians
+    bool ground = false;        // rays end at a plane
+    double ground_height = 0;
+    double finest_pixels = 1;  // a sphere of less in diameter is a leaf
+};
+
+LookScene look_scene(const Scene& scene, const View& view);
+
+// A leaf, or a sphere that looks no larger than a pixel.
+struct LookSphere {
+    glm::dvec3 center;  // relative to the eye, the scene's axes
+    double radius;
+    double near;   // least distance at which any ray can meet it
+    double sigma;  // extinction in it, that of its leaves spread over it
+    std::uint64_t key;
+    std::uint32_t place;  // where light reaches it
+};
+
+// Light is followed to spheres of this level and above, those below have their ancestor's: shadows are no finer (kUpperLevels).
+inline constexpr int kLitLevel = 6;
+struct LitPlace {
+    glm::dvec3 point;  // as LookSphere::center
+    bool known = false;
+    Reaching share;
+};
+
+struct Cone {
+    glm::dvec3 axis;  // unit, from the eye
+    double sine, cosine;  // of half its angle, at most a right one
+};
+// Whether a ball may meet it; never false where it does.
+bool may_meet(const Cone& cone, const glm::dvec3& center, double radius);
+
+struct ConeSpheres {
+    std::vector<LookSphere> spheres;
+    std::vector<std::uint32_t> order;  // of all of them, nearest first
+    std::vector<LitPlace> places;
+};
+
+// Unit direction of a pixel's middle ray.
+glm::dvec3 ray_of(const LookScene& scene, int x, int y);
+
+// All that a cone of rays may meet; of the scene's axes.
+ConeSpheres spheres_in_cone(const LookScene& scene, const Cone& cone);
+
+// Of the pixels from (x, y) on that lie in the picture. pixels: 4 a pixel, premultiplied, rows of `width`.
+void draw_tile(const LookScene& scene, int x, int y, float* pixels);
+
+}  // namespace awan::looks
