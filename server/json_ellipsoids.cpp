@@ -1,6 +1,7 @@
 // The fields of a cloud of model "ellipsoids".
 #include "core/scene/ellipsoids.h"
 
+#include "core/scene/limits.h"
 #include "server/json_models.h"
 
 namespace awan {
@@ -268,6 +269,14 @@ std::span<const Field> ellipsoids_part_fields(ObjectKind kind) {
         default:
             return {};
     }
+}
+
+const List& ellipsoids_list(ListKind kind) {
+    static constexpr List kFormations{
+        .wanted = "an object", .most = limits::kMaxEllipsoids, .object = ObjectKind::kFormation};
+    static constexpr List kEllipsoids{
+        .wanted = "an object", .most = limits::kMaxEllipsoids, .object = ObjectKind::kEllipsoid};
+    return kind == ListKind::kFormations ? kFormations : kEllipsoids;
 }
 
 void write_ellipsoids(const EllipsoidsCloud& cloud, ObjectText& text) {

@@ -502,10 +502,6 @@ const List& list_at(ListKind kind) {
                                       s.cloud->ready.colors.emplace_back(
                                           to_float(v.x), to_float(v.y), to_float(v.z));
                                   }};
-    static constexpr List kFormations{
-        .wanted = "an object", .most = limits::kMaxEllipsoids, .object = ObjectKind::kFormation};
-    static constexpr List kEllipsoids{
-        .wanted = "an object", .most = limits::kMaxEllipsoids, .object = ObjectKind::kEllipsoid};
     switch (kind) {
         case ListKind::kCubes:
             return kCubes;
@@ -530,9 +526,8 @@ const List& list_at(ListKind kind) {
         case ListKind::kImplicitVectors:
             return implicit_list(kind);
         case ListKind::kFormations:
-            return kFormations;
         case ListKind::kEllipsoids:
-            return kEllipsoids;
+            return ellipsoids_list(kind);
         case ListKind::kNone:
             break;
     }

@@ -21,6 +21,7 @@ const List& implicit_list(ListKind kind);
 void begin_implicit(ObjectKind kind, ImplicitCloud& cloud);
 std::span<const Field> ellipsoids_fields();
 std::span<const Field> ellipsoids_part_fields(ObjectKind kind);  // of the objects in it
+const List& ellipsoids_list(ListKind kind);                      // and of its lists
 
 // Members of the model's object that are not the default.
 void write_automaton(const AutomatonCloud& cloud, ObjectText& text);

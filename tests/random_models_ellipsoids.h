@@ -8,6 +8,7 @@
 #include "tests/random_scenes.h"
 
 namespace awan::test {
+namespace ellipsoids_dice {
 
 inline SineTexture random_texture(Dice& dice, double usual) {
     SineTexture texture;
@@ -56,7 +57,10 @@ inline glm::dvec3 random_place(Dice& dice, double size) {
     return glm::dvec3(x, y, z) * size;
 }
 
+}  // namespace ellipsoids_dice
+
 inline Cloud random_ellipsoids(Dice& dice, const Whereabouts& where) {
+    using namespace ellipsoids_dice;
     Cloud cloud;
     cloud.model = CloudModel::kEllipsoids;
     // The model's own lengths are of middling size (limits.h); the rest is the cloud's scale.

@@ -29,7 +29,7 @@ double specular(const glm::dvec3& normal, const glm::dvec3& to_sun, const glm::d
 // --- one ellipsoid and one ray
 
 // As the unit sphere about the origin, seen from an eye.
-struct Sphere {
+struct UnitSphere {
     glm::dmat3 to_unit{1};  // of directions, scene to unit sphere
     glm::dvec3 eye{0};      // in the sphere's space
 };
@@ -43,7 +43,7 @@ struct SphereHit {
 // the picture, over its value at the conic's own centre; the two are the same where the rays are parallel. Under
 // perspective the conic's centre is not where the centre is seen, and where the ellipsoid reaches behind the eye the conic is a
 // hyperbola, that has no largest value: limb_on_picture().
-std::optional<SphereHit> hit(const Sphere& sphere, const glm::dvec3& direction);
+std::optional<SphereHit> hit(const UnitSphere& sphere, const glm::dvec3& direction);
 
 // The source's f(x, z) = a1 x^2 + a2 z^2 + a3 xz + a4 x + a5 z + a6 for directions forward + x right + z up, scaled so that its value
 // at its centre is 1; none where the conic is no ellipse. Zero on the silhouette.
@@ -53,7 +53,7 @@ struct LimbCurve {
         return a1 * x * x + a2 * z * z + a3 * x * z + a4 * x + a5 * z + a6;
     }
 };
-std::optional<LimbCurve> limb_on_picture(const Sphere& sphere, const View& view);
+std::optional<LimbCurve> limb_on_picture(const UnitSphere& sphere, const View& view);
 
 // --- the scene as the look sees it
 
@@ -63,7 +63,7 @@ struct PixelBox {
 };
 
 struct SeenEllipsoid {
-    Sphere sphere;
+    UnitSphere sphere;
     PlacedEllipsoid placed;
     std::size_t cloud = 0;
     PixelBox box;  // it shows nowhere else

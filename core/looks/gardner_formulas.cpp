@@ -23,7 +23,7 @@ double specular(const glm::dvec3& normal, const glm::dvec3& to_sun, const glm::d
     return mirrored > 0 ? std::pow(std::min(mirrored, 1.0), shininess) : 0;
 }
 
-std::optional<SphereHit> hit(const Sphere& sphere, const glm::dvec3& direction) {
+std::optional<SphereHit> hit(const UnitSphere& sphere, const glm::dvec3& direction) {
     const glm::dvec3 d = sphere.to_unit * direction;
     const double squared = glm::dot(d, d);
     // By the cross product: b keeps its digits from far away, where the eye's distance squared has none left.
@@ -41,7 +41,7 @@ std::optional<SphereHit> hit(const Sphere& sphere, const glm::dvec3& direction) 
     return SphereHit{distance, at / glm::length(at), limb};
 }
 
-std::optional<LimbCurve> limb_on_picture(const Sphere& sphere, const View& view) {
+std::optional<LimbCurve> limb_on_picture(const UnitSphere& sphere, const View& view) {
     // |eye x d|^2 < |d|^2 inside of the silhouette, d linear in x and z.
     const glm::dvec3 base = sphere.to_unit * view.forward, x = sphere.to_unit * view.right,
                      z = sphere.to_unit * view.up;

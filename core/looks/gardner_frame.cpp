@@ -10,8 +10,8 @@
 namespace awan::gardner {
 namespace {
 
-Sphere sphere_of(const PlacedEllipsoid& one, const Motion& motion, const glm::dvec3& eye) {
-    Sphere sphere;
+UnitSphere sphere_of(const PlacedEllipsoid& one, const Motion& motion, const glm::dvec3& eye) {
+    UnitSphere sphere;
     // Columns: where the scene's axes go. Motion::back without its translation, then the ellipsoid's own turn and radii.
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 e(0);

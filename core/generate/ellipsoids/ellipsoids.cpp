@@ -43,6 +43,12 @@ void add_corners(const SkyPlane& plane, ReadyParticles& particles) {
                     plane.density, particles);
 }
 
+void append(const ReadyParticles& more, ReadyParticles& all) {
+    all.positions.insert(all.positions.end(), more.positions.begin(), more.positions.end());
+    all.radii.insert(all.radii.end(), more.radii.begin(), more.radii.end());
+    all.densities.insert(all.densities.end(), more.densities.begin(), more.densities.end());
+}
+
 ModelParticles coarse_particles(const EllipsoidsCloud& cloud,
                                 const std::vector<PlacedEllipsoid>& ellipsoids) {
     ModelParticles made;
@@ -70,18 +76,19 @@ Result<ModelParticles> ellipsoids_particles(const EllipsoidsCloud& cloud,
     const glm::dvec3 shift = request.time * cloud.drift;
     if (!ellipsoids.empty()) {
         const TextureFunction texture = texture_function(cloud.texture, true, shift);
-        const OpacityLattice lattice =
-            lattice_of(ellipsoids, cloud.resolution, texture, request.threads, deadline);
-        made.error = sampling_error(lattice, ellipsoids, texture, request.threads, deadline);
+        const LatticeField opacity =
+            opacity_of(ellipsoids, cloud.resolution, texture, request.threads, deadline);
         if (auto error = deadline.over()) return *error;
-        add_particles(lattice, cloud.density, made.particles);
+        made.particles = particles_of(opacity, cloud.density, request.threads);
+        made.error = sampling_error(opacity, made.particles, cloud.density, ellipsoids, texture,
+                                    request.threads, deadline);
     }
     if (cloud.plane) {
         const TextureFunction texture = texture_function(cloud.plane->texture, false, shift);
-        const OpacityLattice lattice = lattice_of(*cloud.plane, texture, request.threads, deadline);
-        if (auto error = deadline.over()) return *error;
-        add_particles(lattice, cloud.plane->density, made.particles);
+        const LatticeField opacity = opacity_of(*cloud.plane, texture, request.threads, deadline);
+        append(particles_of(opacity, cloud.plane->density, request.threads), made.particles);
     }
+    if (auto error = deadline.over()) return *error;
     return made;
 }
 

@@ -3,65 +3,65 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <numbers>
 
 #include "core/parallel.h"
 
 namespace awan {
 namespace {
 
-constexpr double kSpread = 0.65;  // s of a Gaussian, cells
 // A cell sees the texture over a blob of this standard deviation: what is finer than two cells is gone, instead of turning up
 // as something coarser.
 constexpr double kCellBlur = 0.5;
+constexpr float kLeastOpacity = 1e-3f;
 
-std::size_t layer_size(const OpacityLattice& lattice) {
-    return static_cast<std::size_t>(lattice.cells.x) * static_cast<std::size_t>(lattice.cells.z);
+struct Blur {
+    double x, z;
+};
+Blur blur_of_cell(const TextureFunction& texture, double cell) {
+    return {blur_of_blob(texture, false, kCellBlur * cell),
+            blur_of_blob(texture, true, kCellBlur * cell)};
 }
 
-void make_room(OpacityLattice& lattice) {
-    lattice.values.assign(layer_size(lattice) * static_cast<std::size_t>(lattice.cells.y), 0.0f);
+glm::dvec3 sample(const LatticeField& lattice, int i, int j, int k) {
+    return lattice.origin + lattice.cell * glm::dvec3(i, j, k);
 }
 
 struct Range {
     int first, last;  // last is one past
 };
-// Cells whose middles may lie within `half` of `center`.
-Range cells_within(double center, double half, double origin, double side, int count) {
-    const double low = std::floor((center - half - origin) / side - 0.5);
-    const double high = std::ceil((center + half - origin) / side + 0.5);
+// Samples that may lie within `half` of `center`, along one axis.
+Range samples_within(double center, double half, double origin, double cell, int count) {
+    const double low = std::floor((center - half - origin) / cell);
+    const double high = std::ceil((center + half - origin) / cell) + 1;
     return {static_cast<int>(std::clamp(low, 0.0, static_cast<double>(count))),
             static_cast<int>(std::clamp(high, 0.0, static_cast<double>(count)))};
 }
 
-// Of one level layer.
-void fill_layer(OpacityLattice& lattice, int y, const std::vector<PlacedEllipsoid>& ellipsoids,
-                const TextureFunction& texture) {
-    const double sigma = kCellBlur * lattice.cell;
-    const double blur_x = blur_of_blob(texture, false, sigma),
-                 blur_z = blur_of_blob(texture, true, sigma);
-    // The texture of a cell is the same for all ellipsoids that hold it; mean < 0: not known yet.
-    std::vector<TextureValue> known(layer_size(lattice), TextureValue{-1, 0});
-    std::vector<char> seen(known.size(), 0);
-    const std::size_t first = lattice.index(0, y, 0);
+// Of one upright layer.
+void fill_layer(LatticeField& lattice, int k, const std::vector<PlacedEllipsoid>& ellipsoids,
+                const TextureFunction& texture, const Blur& blur) {
+    const std::size_t first = lattice.index(0, 0, k);
+    // The texture of a cell is the same for all ellipsoids that hold it.
+    const std::size_t size = lattice.index(0, 0, k + 1) - first;
+    std::vector<TextureValue> known(size);
+    std::vector<char> is_known(size, 0);
     for (const PlacedEllipsoid& one : ellipsoids) {
         const glm::dvec3 half = one.half_box();
-        const double height = lattice.middle(0, y, 0).y - one.center.y;
-        if (std::abs(height) > half.y) continue;
+        if (std::abs(sample(lattice, 0, 0, k).z - one.center.z) > half.z) continue;
         const Range xs =
-            cells_within(one.center.x, half.x, lattice.origin.x, lattice.cell, lattice.cells.x);
-        const Range zs =
-            cells_within(one.center.z, half.z, lattice.origin.z, lattice.cell, lattice.cells.z);
-        for (int z = zs.first; z < zs.last; ++z)
-            for (int x = xs.first; x < xs.last; ++x) {
-                const glm::dvec3 p = lattice.middle(x, y, z);
+            samples_within(one.center.x, half.x, lattice.origin.x, lattice.cell, lattice.nx);
+        const Range ys =
+            samples_within(one.center.y, half.y, lattice.origin.y, lattice.cell, lattice.ny);
+        for (int j = ys.first; j < ys.last; ++j)
+            for (int i = xs.first; i < xs.last; ++i) {
+                const glm::dvec3 p = sample(lattice, i, j, k);
                 const glm::dvec3 u = one.to_unit(p);
                 const double g = limb_in_space(glm::dot(u, u));
                 if (g < 0) continue;
-                const std::size_t at = lattice.index(x, y, z), in_layer = at - first;
-                if (seen[in_layer] == 0) {
-                    seen[in_layer] = 1;
-                    known[in_layer] = texture_at(texture, p, blur_x, blur_z);
+                const std::size_t at = lattice.index(i, j, k), in_layer = at - first;
+                if (is_known[in_layer] == 0) {
+                    is_known[in_layer] = 1;
+                    known[in_layer] = texture_at(texture, p, blur.x, blur.z);
                 }
                 const double opaque = opacity(known[in_layer], threshold_at(one.translucence, g),
                                               one.translucence.range);
@@ -70,11 +70,25 @@ void fill_layer(OpacityLattice& lattice, int y, const std::vector<PlacedEllipsoi
     }
 }
 
+// Mean over a cell's height, of a plane where its texture is `value`. Heights from the plane.
+double opacity_of_cell(const SkyPlane& plane, const TextureValue& value, double low, double high) {
+    const double half = plane.thickness / 2;
+    const double from = std::max(low, -half), to = std::min(high, half);
+    if (!(to > from)) return 0;
+    constexpr int kHeights = 4;
+    double sum = 0;
+    for (int i = 0; i < kHeights; ++i) {
+        const double off = (from + (i + 0.5) / kHeights * (to - from)) / half;
+        sum += opacity(value, plane.threshold + plane.range * off * off, plane.range);
+    }
+    return sum / kHeights * (to - from) / (high - low);
+}
+
 }  // namespace
 
-OpacityLattice lattice_of(const std::vector<PlacedEllipsoid>& ellipsoids, std::uint64_t resolution,
-                          const TextureFunction& texture, int threads, const Deadline& deadline) {
-    OpacityLattice lattice;
+LatticeField opacity_of(const std::vector<PlacedEllipsoid>& ellipsoids, std::uint64_t resolution,
+                        const TextureFunction& texture, int threads, const Deadline& deadline) {
+    LatticeField lattice;
     if (ellipsoids.empty()) return lattice;
     glm::dvec3 low = ellipsoids[0].center, high = low;
     for (const PlacedEllipsoid& one : ellipsoids) {
@@ -84,64 +98,56 @@ OpacityLattice lattice_of(const std::vector<PlacedEllipsoid>& ellipsoids, std::u
     }
     const glm::dvec3 size = high - low;
     const auto most = static_cast<double>(resolution);
-    lattice.cell = lattice.layer = std::max({size.x, size.y, size.z}) / most;
-    for (int axis = 0; axis < 3; ++axis)
-        lattice.cells[axis] =
-            static_cast<int>(std::clamp(std::ceil(size[axis] / lattice.cell - 1e-9), 1.0, most));
-    lattice.origin = 0.5 * (low + high) - 0.5 * lattice.cell * glm::dvec3(lattice.cells);
-    make_room(lattice);
-    parallel_for(threads, static_cast<std::size_t>(lattice.cells.y), [&](std::size_t y) {
-        if (!deadline.over()) fill_layer(lattice, static_cast<int>(y), ellipsoids, texture);
+    lattice.cell = std::max({size.x, size.y, size.z}) / most;
+    const glm::dvec3 cells = glm::clamp(glm::ceil(size / lattice.cell - 1e-9), 1.0, most);
+    lattice.nx = static_cast<int>(cells.x);
+    lattice.ny = static_cast<int>(cells.y);
+    lattice.nz = static_cast<int>(cells.z);
+    lattice.origin = 0.5 * (low + high) - 0.5 * lattice.cell * (cells - 1.0);
+    lattice.values.assign(lattice.index(0, 0, lattice.nz), 0.0f);
+    const Blur blur = blur_of_cell(texture, lattice.cell);
+    parallel_for(threads, static_cast<std::size_t>(lattice.nz), [&](std::size_t k) {
+        if (!deadline.over()) fill_layer(lattice, static_cast<int>(k), ellipsoids, texture, blur);
     });
     return lattice;
 }
 
-OpacityLattice lattice_of(const SkyPlane& plane, const TextureFunction& texture, int threads,
-                          const Deadline& deadline) {
-    OpacityLattice lattice;
-    const auto side = static_cast<int>(plane.resolution);
-    lattice.cell = plane.extent / side;
-    const int layers = std::max(1, static_cast<int>(std::ceil(plane.thickness / lattice.cell)));
-    lattice.cells = {side, layers, side};
-    lattice.layer = plane.thickness / layers;
-    lattice.origin = {-plane.extent / 2, plane.altitude - plane.thickness / 2, -plane.extent / 2};
-    make_room(lattice);
-    const double sigma = kCellBlur * lattice.cell;
-    const double blur_x = blur_of_blob(texture, false, sigma),
-                 blur_z = blur_of_blob(texture, true, sigma);
-    parallel_for(threads, static_cast<std::size_t>(side), [&](std::size_t row) {
+LatticeField opacity_of(const SkyPlane& plane, const TextureFunction& texture, int threads,
+                        const Deadline& deadline) {
+    LatticeField lattice;
+    lattice.nx = lattice.nz = static_cast<int>(plane.resolution);
+    lattice.cell = plane.extent / lattice.nx;
+    lattice.ny =
+        std::clamp(static_cast<int>(std::ceil(plane.thickness / lattice.cell)), 1, lattice.nx);
+    const glm::dvec3 cells(lattice.nx, lattice.ny, lattice.nz);
+    lattice.origin = glm::dvec3(0, plane.altitude, 0) - 0.5 * lattice.cell * (cells - 1.0);
+    lattice.values.assign(lattice.index(0, 0, lattice.nz), 0.0f);
+    const Blur blur = blur_of_cell(texture, lattice.cell);
+    parallel_for(threads, static_cast<std::size_t>(lattice.nz), [&](std::size_t row) {
         if (deadline.over()) return;
-        const int z = static_cast<int>(row);
-        for (int x = 0; x < side; ++x) {
-            const glm::dvec3 p = lattice.middle(x, 0, z);
+        const int k = static_cast<int>(row);
+        for (int i = 0; i < lattice.nx; ++i) {
+            const glm::dvec3 p = sample(lattice, i, 0, k);
             const double out = std::max(std::abs(p.x), std::abs(p.z)) / (plane.extent / 2);
             const double edge = std::clamp((1 - out) * 10, 0.0, 1.0);
-            const TextureValue value = texture_at(texture, p, blur_x, blur_z);
-            for (int y = 0; y < layers; ++y) {
-                const double off = layers == 1 ? 0 : 2 * (y + 0.5) / layers - 1;
-                const double threshold = plane.threshold + plane.range * off * off;
-                lattice.values[lattice.index(x, y, z)] =
-                    static_cast<float>(edge * opacity(value, threshold, plane.range));
+            const TextureValue value = texture_at(texture, p, blur.x, blur.z);
+            for (int j = 0; j < lattice.ny; ++j) {
+                const double low = (j - 0.5 * lattice.ny) * lattice.cell;
+                lattice.values[lattice.index(i, j, k)] = static_cast<float>(
+                    edge * opacity_of_cell(plane, value, low, low + lattice.cell));
             }
         }
     });
     return lattice;
 }
 
-void add_particles(const OpacityLattice& lattice, double density, ReadyParticles& particles) {
-    // (2 pi)^1.5 s^3 of them fill a cell; a layer may be thinner than a cell.
-    const double whole = std::pow(2 * std::numbers::pi, 1.5) * kSpread * kSpread * kSpread;
-    const double scale = density / whole * (lattice.layer / lattice.cell);
-    const auto radius = static_cast<float>(2 * kSpread * lattice.cell);
-    for (int y = 0; y < lattice.cells.y; ++y)
-        for (int z = 0; z < lattice.cells.z; ++z)
-            for (int x = 0; x < lattice.cells.x; ++x) {
-                const auto value = static_cast<double>(lattice.values[lattice.index(x, y, z)]);
-                if (!(value >= kLeastOpacity)) continue;
-                particles.positions.push_back(lattice.middle(x, y, z));
-                particles.radii.push_back(radius);
-                particles.densities.push_back(static_cast<float>(scale * value));
-            }
+ReadyParticles particles_of(LatticeField opacity, double density, int threads) {
+    for (float& value : opacity.values)
+        value =
+            value > kLeastOpacity ? static_cast<float>(density * static_cast<double>(value)) : 0.0f;
+    LatticeOptions options;
+    options.sharpen = true;
+    return lattice_particles(opacity, options, threads);
 }
 
 }  // namespace awan

@@ -13,10 +13,11 @@ constexpr int kLines = 8;  // along either axis
 constexpr int kStepsPerCell = 4;
 constexpr int kReach = 3;  // cells; a Gaussian has 3e-5 of itself left there
 
-// The texture and the ellipsoids as they are, along the line through the middles of a column.
-double exact_depth(const OpacityLattice& lattice, int x, int z,
+// The texture and the ellipsoids as they are, along an upright line through a column's middle.
+double exact_depth(const LatticeField& lattice, int x, int z,
                    const std::vector<PlacedEllipsoid>& ellipsoids, const TextureFunction& texture) {
-    glm::dvec3 p = lattice.middle(x, 0, z);
+    glm::dvec3 p = lattice.origin + lattice.cell * glm::dvec3(x, -0.5, z);
+    const double bottom = p.y;
     std::vector<const PlacedEllipsoid*> met;
     for (const PlacedEllipsoid& one : ellipsoids) {
         const glm::dvec3 half = one.half_box();
@@ -24,18 +25,19 @@ double exact_depth(const OpacityLattice& lattice, int x, int z,
             met.push_back(&one);
     }
     if (met.empty()) return 0;
-    const int steps = kStepsPerCell * lattice.cells.y;
-    const double step = lattice.layer / kStepsPerCell;
+    const int steps = kStepsPerCell * lattice.ny;
+    const double step = lattice.cell / kStepsPerCell;
     double depth = 0;
     for (int i = 0; i < steps; ++i) {
-        p.y = lattice.origin.y + (i + 0.5) * step;
-        double opaque = 0, value = -1;
+        p.y = bottom + (i + 0.5) * step;
+        double opaque = 0;
+        std::optional<TextureValue> value;
         for (const PlacedEllipsoid* one : met) {
             const glm::dvec3 u = one->to_unit(p);
             const double g = limb_in_space(glm::dot(u, u));
             if (g < 0) continue;
-            if (value < 0) value = texture_at(texture, p).mean;
-            opaque = std::max(opaque, opacity({value, 0}, threshold_at(one->translucence, g),
+            if (!value) value = texture_at(texture, p);
+            opaque = std::max(opaque, opacity(*value, threshold_at(one->translucence, g),
                                               one->translucence.range));
         }
         depth += opaque * step;
@@ -43,49 +45,61 @@ double exact_depth(const OpacityLattice& lattice, int x, int z,
     return depth;
 }
 
-// The Gaussians' depth there.
-double lattice_depth(const OpacityLattice& lattice, int x, int z,
+// Sums of the Gaussians' densities over upright columns.
+std::vector<double> columns_of(const LatticeField& lattice, const ReadyParticles& particles) {
+    const auto width = static_cast<std::size_t>(lattice.nx);
+    std::vector<double> columns(width * static_cast<std::size_t>(lattice.nz), 0.0);
+    for (std::size_t i = 0; i < particles.positions.size(); ++i) {
+        const glm::dvec3 at = (particles.positions[i] - lattice.origin) / lattice.cell;
+        const auto x = static_cast<std::size_t>(std::clamp(std::lround(at.x), 0l, lattice.nx - 1l));
+        const auto z = static_cast<std::size_t>(std::clamp(std::lround(at.z), 0l, lattice.nz - 1l));
+        columns[z * width + x] += static_cast<double>(particles.densities[i]);
+    }
+    return columns;
+}
+
+// The Gaussians' depth there, over the density where opaque.
+double lattice_depth(const LatticeField& lattice, int x, int z, const std::vector<double>& columns,
                      const std::array<double, 2 * kReach + 1>& weights) {
     double depth = 0;
     for (int dz = -kReach; dz <= kReach; ++dz)
         for (int dx = -kReach; dx <= kReach; ++dx) {
             const int cx = x + dx, cz = z + dz;
-            if (cx < 0 || cz < 0 || cx >= lattice.cells.x || cz >= lattice.cells.z) continue;
-            double column = 0;
-            for (int y = 0; y < lattice.cells.y; ++y)
-                column += static_cast<double>(lattice.values[lattice.index(cx, y, cz)]);
-            depth += column * weights[static_cast<std::size_t>(dx + kReach)] *
+            if (cx < 0 || cz < 0 || cx >= lattice.nx || cz >= lattice.nz) continue;
+            depth += columns[static_cast<std::size_t>(cz) * static_cast<std::size_t>(lattice.nx) +
+                             static_cast<std::size_t>(cx)] *
+                     weights[static_cast<std::size_t>(dx + kReach)] *
                      weights[static_cast<std::size_t>(dz + kReach)];
         }
-    return depth * lattice.layer;
+    return depth * std::sqrt(2 * std::numbers::pi) * kLatticeS * lattice.cell;
 }
 
 }  // namespace
 
-double sampling_error(const OpacityLattice& lattice, const std::vector<PlacedEllipsoid>& ellipsoids,
+double sampling_error(const LatticeField& lattice, const ReadyParticles& particles, double density,
+                      const std::vector<PlacedEllipsoid>& ellipsoids,
                       const TextureFunction& texture, int threads, const Deadline& deadline) {
-    if (lattice.values.empty()) return 0;
+    if (lattice.values.empty() || !(density > 0)) return 0;
     std::array<double, 2 * kReach + 1> weights{};
-    for (int k = -kReach; k <= kReach; ++k) {
-        const double off = k / 0.65;
+    for (int k = -kReach; k <= kReach; ++k)
         weights[static_cast<std::size_t>(k + kReach)] =
-            std::exp(-off * off / 2) / (0.65 * std::sqrt(2 * std::numbers::pi));
-    }
+            std::exp(-0.5 * (k / kLatticeS) * (k / kLatticeS));
+    const std::vector<double> columns = columns_of(lattice, particles);
     std::array<double, kLines * kLines> exact{}, made{};
     parallel_for(threads, exact.size(), [&](std::size_t i) {
         if (deadline.over()) return;
         const int along_x = static_cast<int>(i) % kLines, along_z = static_cast<int>(i) / kLines;
-        const int x = (2 * along_x + 1) * lattice.cells.x / (2 * kLines);
-        const int z = (2 * along_z + 1) * lattice.cells.z / (2 * kLines);
+        const int x = (2 * along_x + 1) * lattice.nx / (2 * kLines);
+        const int z = (2 * along_z + 1) * lattice.nz / (2 * kLines);
         exact[i] = exact_depth(lattice, x, z, ellipsoids, texture);
-        made[i] = lattice_depth(lattice, x, z, weights);
+        made[i] = lattice_depth(lattice, x, z, columns, weights) / density;
     });
     double wrong = 0, all = 0;
     for (std::size_t i = 0; i < exact.size(); ++i) {
         wrong += (made[i] - exact[i]) * (made[i] - exact[i]);
         all += exact[i] * exact[i];
     }
-    // Nothing met by a line, and nothing made either: nothing lost that they show.
+    // Nothing met by a line: nothing lost that they show.
     return all > 0 ? std::sqrt(wrong / all) : 0;
 }
 
