@@ -17,7 +17,7 @@ export const automaton = {
   fields: [
     { kind: "vector", member: "cells", label: "Grid", unit: "cells", standard: [96, 32, 96], step: 8 },
     { member: "cell", label: "Cell size", min: 0.1, max: 50, log: true, standard: 5 },
-    { member: "warm_up", label: "Warm-up steps", hint: "Made before second 0", min: 0, max: 200, step: 1, standard: 40 },
+    { member: "warm_up", label: "Warm-up", hint: "Steps made before second 0", min: 0, max: 200, step: 1, standard: 40 },
     { member: "steps_per_second", label: "Steps / second", min: 0, max: 10, step: 0.1, standard: 1 },
     { kind: "section", title: "Wet air", fields: [
       { member: "humidity", label: "Vapour", hint: "Chance a step that the middle of a parcel becomes humid", ...share, max: 0.5, standard: 0.1 },
@@ -32,7 +32,7 @@ export const automaton = {
         { kind: "vector", member: "smallest", label: "Smallest radii", unit: "cells", standard: [5, 5, 5] },
         { kind: "vector", member: "largest", label: "Largest radii", unit: "cells", standard: [15, 13, 15] },
       ] },
-      { kind: "select", member: "overlap", label: "Where they overlap", choices: [["deepest", "the deepest counts"], ["first", "the first counts"]], standard: "deepest" },
+      { kind: "select", member: "overlap", label: "Overlap", choices: [["deepest", "the deepest counts"], ["first", "the first counts"]], standard: "deepest" },
       { kind: "table", member: "ellipsoids", title: "Placed parcels", noun: "parcel", one: "a parcel",
         why: "With none of its own the model takes 30 random ones.", fresh: { center: [48, 6, 48], radii: [14, 10, 14] },
         columns: [...triple("centre", "center", 0), ...triple("radii", "radii", 8)] },
@@ -48,7 +48,7 @@ export const automaton = {
     { kind: "section", title: "From cells to matter", fields: [
       { kind: "vector", member: "smooth", label: "Smoothing", unit: "cells", standard: [1, 1, 1] },
       { member: "smooth_steps", label: "… over steps", min: 1, max: 8, step: 1, standard: 1 },
-      { member: "metaball_radius", label: "Metaball radius", min: 1.5, max: 8, step: 0.1, hint: "In cells", standard: 2 },
+      { member: "metaball_radius", label: "Metaballs", min: 1.5, max: 8, step: 0.1, hint: "Radius of each cell’s, in cells", standard: 2 },
       { member: "threshold", label: "Threshold", ...share, standard: 0 },
     ] },
   ],

@@ -30,14 +30,14 @@ export const ellipsoids = {
     { kind: "vector", member: "drift", label: "Texture drifts", unit: "units/s", step: 0.1, standard: [0, 0, 0] },
     { member: "resolution", label: "Resolution", min: 8, max: 160, step: 1, standard: 64 },
     { kind: "section", title: "Single ellipsoids", fields: [
-      { kind: "table", member: "ellipsoids", title: "Ellipsoids", noun: "ellipsoid", one: "an ellipsoid", fresh: { center: [0, 0, 0], radii: [3, 2, 3] },
+      { kind: "table", member: "ellipsoids", title: "Ellipsoids", bare: true, noun: "ellipsoid", one: "an ellipsoid", fresh: { center: [0, 0, 0], radii: [3, 2, 3] },
         columns: [...triple("centre", "center", 0), ...triple("radii", "radii", 1), { title: "turn, °", member: "rotate_y", standard: 0, step: 5 }] },
     ] },
     { kind: "section", title: "Texture", fields: texture(1) },
     { kind: "section", title: "Translucence", fields: [
       { member: "threshold", label: "In the middle", hint: "Threshold of the texture, T1", min: -0.5, max: 1, step: 0.01, standard: 0.1 },
       { member: "threshold_edge", label: "At the edge", hint: "Threshold of the texture on the silhouette, T2", min: -0.5, max: 1.5, step: 0.01, standard: 0.8 },
-      { member: "range", label: "Clear to opaque", hint: "Range of the texture, D", min: 0.01, max: 1, step: 0.01, standard: 0.2 },
+      { member: "range", label: "Fade", hint: "Range of the texture, D", min: 0.01, max: 1, step: 0.01, standard: 0.2 },
       { member: "density", label: "Density factor", min: 0.1, max: 100, log: true, standard: 10 },
     ] },
     { kind: "section", title: "Sky plane", fields: [
@@ -46,7 +46,7 @@ export const ellipsoids = {
         { member: "extent", label: "Extent", min: 10, max: 1000, log: true, standard: 120 },
         { member: "thickness", label: "Thickness", min: 0, max: 10, step: 0.1, standard: 1.5 },
         { member: "threshold", label: "Threshold", min: -0.5, max: 1, step: 0.01, standard: 0.3 },
-        { member: "range", label: "Clear to opaque", hint: "Range of the texture, D", min: 0.01, max: 1, step: 0.01, standard: 0.3 },
+        { member: "range", label: "Fade", hint: "Range of the texture, D", min: 0.01, max: 1, step: 0.01, standard: 0.3 },
         { member: "density", label: "Density factor", min: 0.1, max: 100, log: true, standard: 10 },
         ...texture(0.3),
       ] },

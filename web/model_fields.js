@@ -104,7 +104,7 @@ function makeSwitch(context, spec) {
     },
   });
   const inner = makeFields({ ...context, base: place }, spec.fields);
-  const box = el("div", { class: "inner", role: "group", "aria-label": spec.label }, ...inner.map(({ element }) => element));
+  const box = el("div", { class: "inner" }, ...inner.map(({ element }) => element));
   const element = el("div", { class: "switched" },
     el("div", { class: "field checkbox" }, input, el("label", { for: id }, spec.label)), box);
   return {

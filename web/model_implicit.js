@@ -32,7 +32,7 @@ export const implicit = {
     { member: "amount", label: "Amount p1", min: 0, max: 3, step: 0.01, standard: ofPreset("amount") },
     { member: "exponent", label: "Exponent p2", min: 0.1, max: 4, step: 0.05, standard: ofPreset("exponent") },
     { member: "blend", label: "Blend p3", min: 0, max: 1, step: 0.01, standard: ofPreset("blend") },
-    { member: "displacement", label: "Displacement p4", min: 0, max: 2, step: 0.01, standard: ofPreset("displacement") },
+    { member: "displacement", label: "Displace p4", min: 0, max: 2, step: 0.01, standard: ofPreset("displacement") },
     { member: "swirl", label: "Swirl", hint: "Of the turbulence in time: frames a second, 30 is video", min: 0, max: 30, step: 0.5, standard: 3 },
     { member: "resolution", label: "Resolution", min: 16, max: 160, step: 1, standard: 72 },
     { kind: "section", title: "Shapes", fields: [
@@ -53,7 +53,7 @@ export const implicit = {
       { member: "octaves", label: "Octaves", min: 1, max: 10, step: 1, standard: ofPreset("octaves") },
       { member: "gain", label: "Gain", min: 0, max: 1, step: 0.01, standard: ofPreset("gain") },
       { member: "stretch", label: "Stretch", min: 1, max: 30, log: true, standard: ofPreset("stretch") },
-      { kind: "select", member: "displace", label: "Displaces", choices: [["every_way", "every way"], ["diagonal", "diagonally: as printed"]], standard: "every_way" },
+      { kind: "select", member: "displace", label: "Direction", choices: [["every_way", "every way"], ["diagonal", "diagonally: as printed"]], standard: "every_way" },
       { kind: "vector", member: "jet", label: "Jet stream", step: 0.1, standard: ofPreset("jet") },
       { member: "jet_turbulence", label: "… turbulence", min: 0, max: 5, step: 0.05, standard: ofPreset("jet_turbulence") },
       { kind: "vector", member: "ripple", label: "Ripples", step: 0.05, standard: ofPreset("ripple") },

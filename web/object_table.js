@@ -23,7 +23,8 @@ function head(columns) {
     el("tr", {}, ...columns.filter(({ over }) => over).map(({ title }) => th({ scope: "col" }, title))));
 }
 
-// spec: { title, noun, pointer(), fresh, columns: [{ title, over, member, step, choices, standard }], why }
+// spec: { title, noun, pointer(), fresh, columns: [{ title, over, member, step, choices, standard }], why,
+// bare: the title is only for those who listen }
 export function createObjectTable(store, spec) {
   const { pointer, noun, columns } = spec;
   const list = () => {
@@ -90,7 +91,7 @@ export function createObjectTable(store, spec) {
 
   const table = el("table", {}, el("caption", { class: "unseen" }, spec.title), head(columns), body);
   const scroll = el("div", { class: "table-scroll short", tabindex: "0", role: "region", "aria-label": spec.title }, table);
-  const element = el("div", { class: "list" }, el("h3", {}, spec.title), spec.why ? el("p", { class: "why" }, spec.why) : null,
+  const element = el("div", { class: "list" }, spec.bare ? null : el("h3", {}, spec.title), spec.why ? el("p", { class: "why" }, spec.why) : null,
     scroll, more, el("div", { class: "table-tools" }, add));
   return {
     element,

@@ -132,9 +132,10 @@ async function askPlan() {
   }
 }
 
+let rung = ""; // of the last picture
 function textFor(reduction) {
   if (reduction === 1) return store.text;
-  const scene = time.playing ? time.playedScene() : store.scene;
+  const scene = time.playing ? time.playedScene(/^transport-/.test(rung) ? "transport-16" : null) : store.scene;
   const side = (member) => Math.max(1, Math.round(atOrDefault(scene, `/image/${member}`) / reduction));
   return compactJson(withAt(withAt(scene, "/image/width", side("width")), "/image/height", side("height")));
 }
@@ -154,6 +155,7 @@ const loop = createRenderLoop({
     figures.picture(said, Math.round(width / reduction), Math.round(height / reduction));
     problem = null;
     showProblem();
+    rung = said.rung ?? "";
     if (full) askPlan();
     time.shown();
   },

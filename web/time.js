@@ -60,7 +60,7 @@ export function createTime(store, { show, failed, copy, note }) {
   const range = el("input", { type: "range", "aria-label": "Time", step: "any" });
   const number = numberInput({
     id: "seconds", "aria-label": "Time, seconds", digits: 4,
-    get: () => short(playing ? playing.time : timeOf(store.scene)), set: (value, options) => moveTo(value, options),
+    get: () => (playing ? Number(playing.time.toFixed(1)) : timeOf(store.scene)), set: (value, options) => moveTo(value, options),
   });
   stepByArrows(number.input, 0.1);
   const ends = el("span", { class: "unit", "aria-hidden": "true" });
@@ -125,10 +125,11 @@ export function createTime(store, { show, failed, copy, note }) {
     show();
   }
   // The sequence's own planning is for its three frames; a frame that passes by needs only its own.
-  function playedScene() {
+  // `rung`: the quickest that looks like the document's own, or null.
+  function playedScene(rung) {
     const { sequence: _left, ...scene } = store.scene;
     const camera = isAutomatic(scene) && steady.camera ? { camera: steady.camera } : {};
-    return { ...scene, ...camera, time: short(playing.time) };
+    return { ...scene, ...camera, ...(rung ? { accuracy: { rung } } : {}), time: short(playing.time) };
   }
   document.addEventListener("visibilitychange", () => {
     if (document.hidden) pause();
