@@ -45,6 +45,22 @@ export function somethingMoves(scene) {
   });
 }
 
+// Models that sample a lattice: cells along its longest side where the document says nothing.
+const LATTICES = { implicit: 72, ellipsoids: 64 };
+const kCoarsest = 32; // the shape is still the same
+
+// For a picture of reduced size: its pixels are larger, so the cells may be.
+export function coarser(scene, reduction) {
+  if (!Array.isArray(scene.clouds)) return scene;
+  const clouds = scene.clouds.map((cloud) => {
+    const own = cloud?.[cloud.model];
+    const cells = own?.resolution ?? LATTICES[cloud?.model];
+    if (own === null || typeof own !== "object" || !LATTICES[cloud.model] || !(cells > kCoarsest)) return cloud;
+    return { ...cloud, [cloud.model]: { ...own, resolution: Math.max(kCoarsest, Math.round(cells / Math.sqrt(reduction))) } };
+  });
+  return { ...scene, clouds };
+}
+
 // Which cloud is being edited.
 export function createChoice(store) {
   let index = 0;
@@ -65,6 +81,10 @@ export function createModels(store, choice, { changed, bounds, note }) {
   let kept = []; // a cloud, by model: what it was when that model was left
   let said = null; // whether place and motion said something, when last looked at
 
+  let keptAccuracy; // a look has none
+
+  const withoutLook = ({ look: _look, ...scene }) =>
+    (_look === undefined || keptAccuracy === undefined ? scene : { accuracy: keptAccuracy, ...scene });
   const changeClouds = (change) => store.update((scene) => {
     const listed = withCloudList(scene);
     return { ...listed, clouds: change(listed.clouds) };
@@ -89,11 +109,11 @@ export function createModels(store, choice, { changed, bounds, note }) {
     const { index, model } = choice;
     let left = false;
     store.update((scene) => {
-      const { clouds, ...rest } = withCloudList(scene);
+      const { clouds, ...rest } = withoutLook(withCloudList(scene));
       const alone = clouds.length === 1;
       const { model: _old, ...cloud } = clouds[index];
       const [shared, matter] = split(cloud, SHARED);
-      const [around, elsewhere] = split(rest, alone ? [...SURROUNDINGS, "look"] : ["look"]);
+      const [around, elsewhere] = split(rest, alone ? SURROUNDINGS : []);
       kept[index] = { ...kept[index], [model]: { matter, around } };
       left = Object.keys(around).length > 0;
       const before = kept[index][name];
@@ -147,13 +167,13 @@ export function createModels(store, choice, { changed, bounds, note }) {
     const names = new Set(cloudsOf(store.scene).map(({ cloud }) => LOOKS[modelOf(cloud)]));
     return names.size === 1 ? [...names][0] : undefined;
   };
-  let keptAccuracy; // a look has none
   const look = select(store, {
     label: "Look", pointer: () => "/look", choices: [["physical", "physical: light as it is"]], get: lookNow,
-    set: (name) => store.update(({ look: _look, accuracy, ...scene }) => {
+    set: (name) => store.update((scene) => {
+      if (name === "physical") return withoutLook(scene);
+      const { accuracy, ...rest } = scene;
       if (accuracy !== undefined) keptAccuracy = accuracy;
-      if (name !== "physical") return { ...scene, look: name };
-      return keptAccuracy === undefined ? scene : { ...scene, accuracy: keptAccuracy };
+      return { ...rest, look: name };
     }),
   });
   const looks = look.element.querySelector("select");
@@ -233,7 +253,10 @@ export function createModels(store, choice, { changed, bounds, note }) {
   return {
     elements: [cloudGroup, ...panels.map((panel) => panel.element)],
     refresh,
-    forget() { kept = []; }, // the document is another one
+    forget() { // the document is another one
+      kept = [];
+      keptAccuracy = undefined;
+    },
     // Shows the cloud that holds the place of a pointer.
     reveal(pointer) {
       const [, k] = /^\/clouds\/(\d+)/.exec(pointer) ?? [];

@@ -172,7 +172,7 @@ export function createTime(store, { show, failed, copy, note }) {
     },
   });
   const limits = [ofSequence("From, s", "from"), ofSequence("To, s", "to"), ofSequence("Frames", "frames")];
-  const command = ([what, line]) => el("div", { class: "command" }, el("code", { tabindex: "0", "aria-label": `${what}: ${line}` }, line), el("button", {
+  const command = ([what, line]) => el("div", { class: "command" }, el("code", { tabindex: "0", role: "group", "aria-label": what }, line), el("button", {
     type: "button", "aria-label": `Copy the command: ${what}`,
     onclick: async () => {
       try {
