@@ -23,10 +23,11 @@ const LOOKS = { spheres: "ostroushko", ellipsoids: "gardner" };
 const FRESH_CUBES = [{ particles: 200, size: [8, 2, 6], center: [0, 0, 0], radius: 1.5 }];
 const ofModel = (name) => (name === "cubes" ? { cubes: FRESH_CUBES } : name === "particles" ? { positions: [[0, 0, 0]], radii: [1] } : { [name]: {} });
 
-// What a cloud of any model may have; the rest of it is its model's.
+// What every model may have.
 const SHARED = ["translate", "scale", "rotate_y", "velocity", "density", "seed", "fill"];
-// Models have sizes of their own, from 10 units to 500: what surrounds an only cloud of one of them
-// would drown or lose one of another.
+// Models have sizes of their own, from 10 units to 500. What of a cloud goes with it to another model;
+// and what of the scene does not, where it is the only cloud: it would drown or lose the other.
+const KEPT = ["translate", "rotate_y", "velocity", "seed"];
 const SURROUNDINGS = ["camera", "ground", "haze", "density"];
 
 const split = (object, names) => {
@@ -112,7 +113,7 @@ export function createModels(store, choice, { changed, bounds, note }) {
       const { clouds, ...rest } = withoutLook(withCloudList(scene));
       const alone = clouds.length === 1;
       const { model: _old, ...cloud } = clouds[index];
-      const [shared, matter] = split(cloud, SHARED);
+      const [shared, matter] = split(cloud, KEPT);
       const [around, elsewhere] = split(rest, alone ? SURROUNDINGS : []);
       kept[index] = { ...kept[index], [model]: { matter, around } };
       left = Object.keys(around).length > 0;

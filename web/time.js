@@ -138,6 +138,7 @@ export function createTime(store, { show, failed, copy, note }) {
   function refreshBar() {
     const [from, to] = spanOf(store.scene);
     bar.hidden = !playing && at(store.scene, "/sequence") === undefined && !somethingMoves(store.scene);
+    byId("space-plays").hidden = bar.hidden;
     if (play.textContent !== (playing ? "Pause" : "Play")) play.textContent = playing ? "Pause" : "Play";
     play.classList.toggle("playing", playing !== null);
     const time = playing ? playing.time : timeOf(store.scene);
