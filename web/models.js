@@ -23,8 +23,7 @@ const LOOKS = { spheres: "ostroushko", ellipsoids: "gardner" };
 const FRESH_CUBES = [{ particles: 200, size: [8, 2, 6], center: [0, 0, 0], radius: 1.5 }];
 const ofModel = (name) => (name === "cubes" ? { cubes: FRESH_CUBES } : name === "particles" ? { positions: [[0, 0, 0]], radii: [1] } : { [name]: {} });
 
-// What every model may have.
-const SHARED = ["translate", "scale", "rotate_y", "velocity", "density", "seed", "fill"];
+const PLACE = ["translate", "scale", "rotate_y", "velocity"];
 // Models have sizes of their own, from 10 units to 500. What of a cloud goes with it to another model;
 // and what of the scene does not, where it is the only cloud: it would drown or lose the other.
 const KEPT = ["translate", "rotate_y", "velocity", "seed"];
@@ -246,7 +245,7 @@ export function createModels(store, choice, { changed, bounds, note }) {
     readyMade.textContent = `${(cloud.positions?.length ?? 0).toLocaleString("en")} particles; edit them as JSON below.`;
     placement.forEach((field) => field.refresh());
     // Unfolded where it says something; then as the reader leaves it.
-    const says = Array.isArray(store.scene.clouds) && (count > 1 || SHARED.some((member) => cloud[member] !== undefined));
+    const says = Array.isArray(store.scene.clouds) && (count > 1 || PLACE.some((member) => cloud[member] !== undefined));
     if (said !== says) placementBox.open = said = says;
     panels.forEach((panel) => panel.refresh());
   }

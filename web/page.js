@@ -181,9 +181,9 @@ function refreshControls() {
   byId("undo").disabled = !store.canUndo;
   byId("redo").disabled = !store.canRedo;
 }
-store.subscribe(({ moving, preset, same }) => {
+store.subscribe(({ moving, preset, replaced, same }) => {
   planFlight?.abort();
-  if (preset) {
+  if (replaced) {
     time.forget();
     models.forget();
     choice.index = 0;
