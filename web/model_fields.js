@@ -7,7 +7,7 @@
 //   { kind: "select", member, label, choices, standard }
 //   { kind: "vector", member, label, standard, step, unit }       three numbers
 //   { kind: "switch", member, label, fresh, fields }              an object that may be left out
-//   { kind: "section", title, fields }                            folded away
+//   { kind: "section", title, fields }                            folded away until the document has some of it
 //   { kind: "table", member, title, one, fresh, columns }         a list of objects, a row each
 //   { kind: "cards", member, title, one, fresh, fields }          a list of objects, a box each
 //
@@ -120,9 +120,17 @@ function makeSwitch(context, spec) {
 
 function makeSection(context, spec) {
   const inner = makeFields(context, spec.fields);
+  const element = el("details", { class: "section" }, el("summary", {}, el("h3", {}, spec.title)), ...inner.map((field) => field.element));
+  const isIn = ({ member }) => member !== undefined && at(context.store.scene, `${context.base()}/${member}`) !== undefined;
+  let said = false; // whether the document said something of it, when last looked at
   return {
-    element: el("details", { class: "section" }, el("summary", {}, el("h3", {}, spec.title)), ...inner.map(({ element }) => element)),
-    refresh() { inner.forEach((field) => field.refresh()); },
+    element,
+    refresh() {
+      const says = spec.fields.some(isIn);
+      if (says && !said) element.open = true;
+      said = says;
+      inner.forEach((field) => field.refresh());
+    },
   };
 }
 
