@@ -10,9 +10,12 @@ const ofPreset = (member) => (own) => presetOf(own)[member];
 const triple = (over, member, standard, step = 1) => ["x", "y", "z"].map((title, axis) => ({ title, over, member: `${member}/${axis}`, standard, step }));
 const shapesOfItsOwn = (own) => Array.isArray(own.primitives) || (own.growth !== null && typeof own.growth === "object");
 
-// Cylinders and segments need a line, and only they may have one; only ellipsoids have radii.
+// Cylinders and segments need a line, and only they may have one; only ellipsoids have radii, and no core.
 function reshaped({ points, radii, ...row }, shape) {
-  if (shape === "ellipsoid") return { ...row, shape, ...(radii ? { radii } : {}) };
+  if (shape === "ellipsoid") {
+    const { core: _solid, ...soft } = row;
+    return { ...soft, shape, ...(radii ? { radii } : {}) };
+  }
   if (shape === "sphere") return { ...row, shape };
   const along = row.radius ?? 1;
   const two = points?.length >= 2 ? (shape === "cylinder" ? points.slice(0, 2) : points) : [[-along, 0, 0], [along, 0, 0]];
