@@ -69,7 +69,8 @@ export function vector(store, { label, pointer, get, set, step = 1, unit = "" })
     return field;
   });
   const element = el("div", { class: "field vector", role: "group", "aria-label": label }, el("span", { class: "name" }, label),
-    el("span", { class: "axes" }, ...axes.map(({ input }) => input)), unit ? el("span", { class: "unit", "aria-hidden": "true" }, unit) : null);
+    el("span", { class: "axes" }, ...axes.map(({ input }, i) => el("span", { "data-axis": "xyz"[i] }, input))),
+    unit ? el("span", { class: "unit", "aria-hidden": "true" }, unit) : null);
   return {
     element,
     refresh() {
