@@ -112,6 +112,11 @@ export const modelTests = {
     await settled(page);
     assert.notEqual((await look(page)).hash, before.hash);
     assert.equal(sent().clouds[0].implicit.primitives.length, 8);
+    for (const shape of ["segment", "cylinder", "ellipsoid", "sphere"]) {
+      await panel.getByLabel("primitive 2, shape", { exact: true }).selectOption(shape);
+      await settled(page);
+      assert.equal(await page.textContent("#alert"), "", shape);
+    }
     await model(page).selectOption("ellipsoids");
     await group(page, MODELS.ellipsoids.title).getByRole("button", { name: "Add a formation" }).click();
     await group(page, MODELS.ellipsoids.title).getByLabel("Ellipsoids, number").fill("5");

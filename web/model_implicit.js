@@ -10,6 +10,18 @@ const ofPreset = (member) => (own) => presetOf(own)[member];
 const triple = (over, member, standard, step = 1) => ["x", "y", "z"].map((title, axis) => ({ title, over, member: `${member}/${axis}`, standard, step }));
 const shapesOfItsOwn = (own) => Array.isArray(own.primitives) || (own.growth !== null && typeof own.growth === "object");
 
+// Cylinders and segments need a line, and only they may have one; only ellipsoids have radii, and no core.
+function reshaped({ points, radii, ...row }, shape) {
+  if (shape === "ellipsoid") {
+    const { core: _solid, ...soft } = row;
+    return { ...soft, shape, ...(radii ? { radii } : {}) };
+  }
+  if (shape === "sphere") return { ...row, shape };
+  const along = row.radius ?? 1;
+  const two = points?.length >= 2 ? (shape === "cylinder" ? points.slice(0, 2) : points) : [[-along, 0, 0], [along, 0, 0]];
+  return { ...row, shape, points: two };
+}
+
 // The primitives of a preset are not in the document until someone wants to change them.
 function copyButton({ store, base, own }) {
   const button = el("button", {
@@ -41,7 +53,7 @@ export const implicit = {
         why: "With none of its own the cloud has the preset’s. Points, rotation and keys: as JSON below.",
         fresh: { shape: "sphere", center: [0, 0, 0], radius: 30 },
         columns: [
-          { title: "shape", member: "shape", standard: "sphere", choices: ["sphere", "ellipsoid", "cylinder", "segment"].map((name) => [name, name]) },
+          { title: "shape", member: "shape", standard: "sphere", change: reshaped, choices: ["sphere", "ellipsoid", "cylinder", "segment"].map((name) => [name, name]) },
           ...triple("centre", "center", 0), { title: "radius", member: "radius", standard: 1 },
           { title: "weight", member: "weight", standard: 1, step: 0.1 }, { title: "core", member: "core", standard: 0 },
           ...triple("× radius", "radii", 1, 0.05),

@@ -138,6 +138,7 @@ export function createTime(store, { show, failed, copy, note }) {
   function refreshBar() {
     const [from, to] = spanOf(store.scene);
     bar.hidden = !playing && at(store.scene, "/sequence") === undefined && !somethingMoves(store.scene);
+    byId("space-plays").hidden = bar.hidden;
     if (play.textContent !== (playing ? "Pause" : "Play")) play.textContent = playing ? "Pause" : "Play";
     play.classList.toggle("playing", playing !== null);
     const time = playing ? playing.time : timeOf(store.scene);
@@ -172,7 +173,7 @@ export function createTime(store, { show, failed, copy, note }) {
     },
   });
   const limits = [ofSequence("From, s", "from"), ofSequence("To, s", "to"), ofSequence("Frames", "frames")];
-  const command = ([what, line]) => el("div", { class: "command" }, el("code", { tabindex: "0", "aria-label": `${what}: ${line}` }, line), el("button", {
+  const command = ([what, line]) => el("div", { class: "command" }, el("code", { tabindex: "0", role: "group", "aria-label": what }, line), el("button", {
     type: "button", "aria-label": `Copy the command: ${what}`,
     onclick: async () => {
       try {
