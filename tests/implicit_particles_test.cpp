@@ -121,7 +121,9 @@ TEST(ImplicitParticles, TheStatedErrorIsAboutThatToAFinerLattice) {
         fill(cloud, 1, best);
         fill(cloud, 1, fine);
         fill(cloud, 1, half);
-        const double stated = sampling_error(fine, half);
+        ImplicitField field = prepare_field(cloud, 1, 0);
+        limit_octaves(cloud, 1, 0, fine.cell, field);
+        const double stated = sampling_error(fine, half, field);
         // The best one's mean over each of the 40's cells, four of its own a side.
         std::vector<double> sums(fine.values.size());
         for (int k = 0; k < best.nz; ++k)

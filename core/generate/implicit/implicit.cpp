@@ -23,7 +23,8 @@ Result<ModelParticles> implicit_particles(const ImplicitCloud& cloud, const Mode
     if (Status late = fill(lattice)) return *late;
     if (!request.coarse) {
         if (Status late = fill(half)) return *late;
-        made.error = sampling_error(lattice, half);
+        limit_octaves(cloud, request.key, request.time, lattice.cell, field);
+        made.error = sampling_error(lattice, half, field);
     }
     const float largest = *std::max_element(lattice.values.begin(), lattice.values.end());
     LatticeOptions options;

@@ -126,8 +126,8 @@ struct Octaves {
     std::array<NoiseLattice, kMostOctaves> lattice;
     std::array<float, kMostOctaves> frequency{};
     std::array<float, kMostOctaves> weight{};
-    float rest =
-        0;  // the mean of what octaves too fine for the lattice would add to the turbulence
+    // Of what octaves too fine for the lattice would add to the turbulence: its mean, and what it varies by.
+    float rest = 0, rest_rms = 0;
 };
 
 // Turbulence (Perlin 1985): the sum of |noise|, >= 0.
