@@ -15,8 +15,6 @@ namespace {
 constexpr int kWaves = 3;        // of the relief
 constexpr double kSteepest = 4;  // of their frequencies, radians over the radius, along each axis
 constexpr double kBump = 0.06;   // height of a wave, radii
-constexpr double kSteepest = 4;  // of their frequencies, radians over the radius, along each axis
-constexpr double kBump = 0.08;   // height of a wave, radii
 
 double part(std::uint64_t bits, int from) {  // 16 of them, -1..1
     return static_cast<double>(bits >> from & 0xffffu) / 0x8000 - 1;
