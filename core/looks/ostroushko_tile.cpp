@@ -4,7 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numeric>
 #include <span>
+#include <utility>
 
 namespace awan::looks {
 namespace {
@@ -25,8 +27,8 @@ struct Gathering {
         const double r = node.sphere.radius;
         if (!may_meet(cone, v, r)) return;
         const double near = std::max(glm::length(v) - r, 0.0);
-        const bool leaf = level == cloud.levels ||
-                          2 * r < near * scene.pixel_angle * scene.finest_pixels;
+        const bool leaf =
+            level == cloud.levels || 2 * r < near * scene.pixel_angle * scene.finest_pixels;
         if (place == kNowhere && (leaf || level == kLitLevel)) {
             place = static_cast<std::uint32_t>(found.places.size());
             found.places.push_back({from_eye(v), false, {}});
@@ -64,20 +66,18 @@ class Tracer {
         Traced traced;
         waiting_.clear();  // the nearest last
         for (const std::uint32_t i : some) {
-            const LookSphere& sphere = found_.spheres[i];
-            if (sphere.near >= end) break;
-            while (!waiting_.empty() && waiting_.back().hit.enter <= sphere.near &&
+            const glm::dvec4& ball = found_.balls[i];
+            Meeting meeting{{}, i};
+            if (!meets(glm::dvec3(ball), ball.w, ray, meeting.hit)) continue;
+            if (meeting.hit.enter >= end) continue;
+            while (!waiting_.empty() && waiting_.back().hit.enter <= found_.spheres[i].near &&
                    traced.left > kOpaque)
                 take_nearest(ray, traced);
             if (traced.left <= kOpaque) return traced;
-            Meeting meeting{{}, i};
-            if (!meets(sphere.center, sphere.radius, ray, meeting.hit)) continue;
-            if (meeting.hit.enter >= end) continue;
             meeting.hit.leave = std::min(meeting.hit.leave, end);
             const auto place =
-                std::find_if(waiting_.rbegin(), waiting_.rend(), [&](const Meeting& one) {
-                    return one.hit.enter > meeting.hit.enter;
-                });
+                std::find_if(waiting_.rbegin(), waiting_.rend(),
+                             [&](const Meeting& one) { return one.hit.enter > meeting.hit.enter; });
             waiting_.insert(place.base(), meeting);
         }
         while (!waiting_.empty() && traced.left > kOpaque) take_nearest(ray, traced);
@@ -99,8 +99,8 @@ class Tracer {
         const glm::dvec3 outward = meeting.hit.enter * ray - sphere.center;
         const double length = glm::length(outward);
         const glm::dvec3 normal = length > 0 ? outward / length : -ray;
-        traced.radiance += traced.left * (1 - kept) *
-                           shade(scene_.light, place.share, bumped(normal, sphere.key));
+        traced.radiance +=
+            traced.left * (1 - kept) * shade(scene_.light, place.share, bumped(normal, sphere.key));
         traced.left *= kept;
     }
 
@@ -116,9 +116,8 @@ struct Block {
 
 Cone cone_of(const LookScene& scene, const Block& block) {
     const int right = block.right - 1, bottom = block.bottom - 1;
-    const glm::dvec3 corners[] = {
-        ray_of(scene, block.x, block.y), ray_of(scene, right, block.y),
-        ray_of(scene, block.x, bottom), ray_of(scene, right, bottom)};
+    const glm::dvec3 corners[] = {ray_of(scene, block.x, block.y), ray_of(scene, right, block.y),
+                                  ray_of(scene, block.x, bottom), ray_of(scene, right, bottom)};
     Cone cone{glm::normalize(corners[0] + corners[1] + corners[2] + corners[3]), 0, 1};
     for (const glm::dvec3& corner : corners)
         cone.cosine = std::min(cone.cosine, glm::dot(cone.axis, corner));
@@ -138,9 +137,9 @@ void draw_block(const LookScene& scene, const Block& block, const ConeSpheres& f
         const double end = scene.ground && ray.y < 0 ? std::max(drop / ray.y, 0.0)
                                                      : std::numeric_limits<double>::infinity();
         const Traced traced = tracer.trace(ray, end, some);
-        float* const pixel =
-            pixels + 4 * (static_cast<std::size_t>(block.y) * static_cast<std::size_t>(scene.width) +
-                          static_cast<std::size_t>(block.x));
+        float* const pixel = pixels + 4 * (static_cast<std::size_t>(block.y) *
+                                               static_cast<std::size_t>(scene.width) +
+                                           static_cast<std::size_t>(block.x));
         for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(traced.radiance[c]);
         pixel[3] = static_cast<float>(1 - (traced.left > kOpaque ? traced.left : 0));
         return;
@@ -160,8 +159,7 @@ void draw_block(const LookScene& scene, const Block& block, const ConeSpheres& f
         const Cone cone = cone_of(scene, quarter);
         fewer.clear();
         for (const std::uint32_t i : some)
-            if (may_meet(cone, found.spheres[i].center, found.spheres[i].radius))
-                fewer.push_back(i);
+            if (may_meet(cone, glm::dvec3(found.balls[i]), found.balls[i].w)) fewer.push_back(i);
         draw_block(scene, quarter, found, fewer, tracer, pixels);
     }
 }
@@ -201,8 +199,14 @@ ConeSpheres spheres_in_cone(const LookScene& scene, const Cone& cone) {
     std::sort(sorted.begin(), sorted.end(), [](const Place& a, const Place& b) {
         return a.near != b.near ? a.near < b.near : a.sphere < b.sphere;
     });
-    found.order.reserve(sorted.size());
-    for (const Place& place : sorted) found.order.push_back(place.sphere);
+    std::vector<LookSphere> spheres;
+    spheres.reserve(sorted.size());
+    found.balls.reserve(sorted.size());
+    for (const Place& place : sorted) {
+        spheres.push_back(found.spheres[place.sphere]);
+        found.balls.emplace_back(spheres.back().center, spheres.back().radius);
+    }
+    found.spheres = std::move(spheres);
     return found;
 }
 
@@ -210,8 +214,10 @@ void draw_tile(const LookScene& scene, int x, int y, float* pixels) {
     const Block block{x, y, std::min(x + kTileSide, scene.width),
                       std::min(y + kTileSide, scene.height)};
     ConeSpheres found = spheres_in_cone(scene, cone_of(scene, block));
+    std::vector<std::uint32_t> all(found.spheres.size());
+    std::iota(all.begin(), all.end(), 0u);
     Tracer tracer(scene, found);
-    draw_block(scene, block, found, found.order, tracer, pixels);
+    draw_block(scene, block, found, all, tracer, pixels);
 }
 
 }  // namespace awan::looks
