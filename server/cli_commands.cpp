@@ -40,34 +40,6 @@ Status write_particles(const std::string& path, const std::string& format,
 
 }  // namespace
 
-int run_render(const RenderCommand& command) {
-    auto draft = read_scene_file(command.scene);
-    if (!draft) return report_error(command.scene, draft.error());
-    ImageSettings& image = draft->image;
-    if (command.width) image.width = *command.width;
-    if (command.height) image.height = *command.height;
-    if (command.rung || command.error || command.time_ms)
-        draft->accuracy = {command.error, command.time_ms, command.rung};
-    if (command.background == "sky") image.background = Background::kSky;
-    if (command.background == "transparent") image.background = Background::kTransparent;
-    const auto format = output_format(command.output, command.format, {"png", "exr"},
-                                      image.format == ImageFormat::kExr ? "exr" : "png");
-    if (!format) return bad_usage(format.error().message);
-    if (binary_to_terminal(command.output))
-        return bad_usage("-o -: an image is not written to a terminal");
-    image.format = *format == "exr" ? ImageFormat::kExr : ImageFormat::kPng;
-    if (const Status wrong = begin_with_state(command.state, *draft))
-        return report_error(command.scene, *wrong);
-
-    auto scene = validate(std::move(draft).value());
-    if (!scene) return report_error(command.scene, scene.error());
-    auto bytes = render_bytes(*scene, command);
-    if (!bytes) return report_error(command.scene, bytes.error());
-    if (const Status failed = write_output(command.output, *bytes))
-        return report_error("", *failed);
-    return kExitFine;
-}
-
 int run_particles(const ParticlesCommand& command) {
     const auto format =
         output_format(command.output, command.format, {"json", "csv", "ply", "awn"}, "json");

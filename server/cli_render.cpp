@@ -106,6 +106,8 @@ Status render_frames(const Scene& scene, const std::vector<std::uint64_t>& frame
 int run_render(const RenderCommand& command) {
     auto draft = read_scene_file(command.scene);
     if (!draft) return report_error(command.scene, draft.error());
+    if (const Status wrong = begin_with_state(command.state, *draft))
+        return report_error(command.scene, *wrong);
     ImageSettings& image = draft->image;
     if (command.width) image.width = *command.width;
     if (command.height) image.height = *command.height;

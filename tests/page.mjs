@@ -9,9 +9,9 @@ import path from "node:path";
 import {
   cell, choose, context, download, faults, group, look, open, origin, particles, renders, scratch, settled,
 } from "./page_browser.mjs";
+import { modelTests } from "./page_models.mjs";
 
 // In order; each leaves the page usable for the next.
-
 const tests = {
   async "shows a picture of the first preset"(page) {
     const names = await page.$$eval("#preset option", (options) => options.map((o) => o.value).filter(Boolean));
@@ -28,7 +28,7 @@ const tests = {
     await choose(page, "cumulus"); // 615 particles in 23 cubes; what follows counts them
     assert.equal(await particles(page), 615);
     await group(page, "Picture").locator("summary").click();
-    await page.getByLabel("Size", { exact: true }).selectOption("640 × 360"); // quicker
+    await group(page, "Picture").getByLabel("Size", { exact: true }).selectOption("640 × 360"); // quicker
     await settled(page);
     assert.equal((await look(page)).width, 640);
   },
@@ -174,7 +174,7 @@ const tests = {
     await text.fill(JSON.stringify(scene).replace('"seed":7', '"seed":18446744073709551615'));
     await settled(page);
     assert.equal(await group(page, "Sun").getByLabel("Elevation, °").inputValue(), "50");
-    assert.equal(await page.getByLabel("Seed").inputValue(), "18446744073709551615");
+    assert.equal(await group(page, "Matter").getByLabel("Seed").inputValue(), "18446744073709551615");
     await group(page, "Matter").getByLabel("Forward g", { exact: true }).press("ArrowLeft");
     assert.match(await text.inputValue(), /"seed": 18446744073709551615/, "64 bits survive an edit elsewhere");
     await text.fill('{ "cubes": [ ');
@@ -305,6 +305,8 @@ const tests = {
     await page.waitForSelector("#sweep:not([open])", { state: "attached" });
     await choose(page, "cumulus");
   },
+
+  ...modelTests,
 
   async "works by keyboard alone"(page) {
     await page.goto(`${origin}/#cumulus`);

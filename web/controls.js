@@ -1,5 +1,6 @@
 // Single controls. Each is { element, refresh(scene) }; each names its place in the document with
-// data-pointer, so that errors find it (problems.js), and writes through the store.
+// data-pointer, so that errors find it (problems.js), and writes through the store. Where `pointer` is
+// a function, the place depends on what is being edited (which cloud, which row).
 
 import { atOrDefault } from "./document.js";
 import { el, freshId, plain } from "./dom.js";
@@ -44,12 +45,27 @@ export function numberInput({ get, set, optional = false, digits = 12, ...attrib
   return { input, refresh };
 }
 
+const placeOf = (pointer) => (typeof pointer === "function" ? pointer : () => pointer);
+
+// `step` is "any" so that every number is valid; the arrow keys then would step by one.
+export function stepByArrows(input, step) {
+  input.addEventListener("keydown", (event) => {
+    const sign = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (!sign || Number.isNaN(input.valueAsNumber)) return;
+    event.preventDefault();
+    const stepped = input.valueAsNumber + sign * step * (event.shiftKey ? 10 : 1);
+    input.value = plain(Number(stepped.toFixed(6)), 12);
+    input.dispatchEvent(new Event("input", { bubbles: true }));
+  });
+}
+
 // A slider with a number field beside it. The slider covers the useful range; the number may leave
 // it. `log`: equal ratios take equal ways. get and set default to the value at the pointer.
 export function slider(store, spec) {
-  const { label, pointer, min, max, step, unit = "", log = false } = spec;
-  const get = spec.get ?? (() => atOrDefault(store.scene, pointer));
-  const set = spec.set ?? ((value, options) => store.set(pointer, value, options));
+  const { label, min, max, step, unit = "", log = false } = spec;
+  const place = placeOf(spec.pointer);
+  const get = spec.get ?? (() => atOrDefault(store.scene, place()));
+  const set = spec.set ?? ((value, options) => store.set(place(), value, options));
   const id = freshId("slider");
   const to = log ? Math.log : (x) => x;
   const from = log ? (x) => Number(Math.exp(x).toPrecision(3)) : (x) => x;
@@ -63,18 +79,19 @@ export function slider(store, spec) {
 
   function refresh() {
     const value = get();
+    element.dataset.pointer = place();
     number.refresh();
     if (typeof value !== "number") return;
-    const place = to(value);
+    const position = to(value);
     // Its own last event put it there; moving it by a rounding error would make it jump.
     if (document.activeElement !== range || Math.abs(from(range.valueAsNumber) - value) > 1e-9 * Math.abs(value)) {
-      range.value = String(place);
+      range.value = String(position);
     }
-    const span = (Math.max(to(min), Math.min(to(max), place)) - to(min)) / (to(max) - to(min));
+    const span = (Math.max(to(min), Math.min(to(max), position)) - to(min)) / (to(max) - to(min));
     range.style.setProperty("--fill", `${100 * span}%`);
     range.setAttribute("aria-valuetext", `${plain(value, 4)} ${unit}`.trim());
   }
-  const element = el("div", { class: "field slider", "data-pointer": pointer },
+  const element = el("div", { class: "field slider" },
     el("label", { for: id }, label), range, number.input, el("span", { class: "unit", "aria-hidden": "true" }, unit));
   return { element, refresh };
 }
@@ -92,6 +109,38 @@ export function numberField(store, { label, pointer, optional = false, get, set,
     refresh() {
       element.dataset.pointer = pointer();
       number.refresh();
+    },
+  };
+}
+
+// A seed has 64 bits, more than a number field can hold exactly. `placeholder`: what none of it means.
+export function seedField(store, { label = "Seed", pointer = () => "/seed", get, set, placeholder, another = false }) {
+  const id = freshId("seed");
+  const value = get ?? (() => atOrDefault(store.scene, pointer()));
+  const put = set ?? ((seed) => store.set(pointer(), seed));
+  const input = el("input", { id, type: "text", inputmode: "numeric", autocomplete: "off", placeholder });
+  input.addEventListener("input", () => {
+    const text = input.value.trim();
+    const none = text === "" && placeholder !== undefined;
+    const whole = /^-?\d+$/.test(text);
+    input.classList.toggle("incomplete", !whole && !none);
+    if (none) put(undefined);
+    else if (whole) put(Number.isSafeInteger(Number(text)) ? Number(text) : BigInt(text));
+  });
+  const show = () => {
+    if (document.activeElement !== input) input.value = String(value() ?? "");
+  };
+  input.addEventListener("blur", () => {
+    input.classList.remove("incomplete");
+    input.value = String(value() ?? "");
+  });
+  const element = el("div", { class: "field seed" }, el("label", { for: id }, label), input,
+    another ? el("button", { type: "button", onclick: () => put(crypto.getRandomValues(new Uint32Array(1))[0]) }, "Another") : null);
+  return {
+    element,
+    refresh() {
+      element.dataset.pointer = pointer();
+      show();
     },
   };
 }
@@ -114,10 +163,17 @@ export function select(store, { label, pointer, choices, get, set }) {
 }
 
 export function checkbox({ label, pointer, get, set }) {
+  const place = placeOf(pointer);
   const id = freshId("checkbox");
   const input = el("input", { type: "checkbox", id, onchange: () => set(input.checked) });
-  const element = el("div", { class: "field checkbox", "data-pointer": pointer }, input, el("label", { for: id }, label));
-  return { element, refresh() { input.checked = get(); } };
+  const element = el("div", { class: "field checkbox" }, input, el("label", { for: id }, label));
+  return {
+    element,
+    refresh() {
+      element.dataset.pointer = place();
+      input.checked = get();
+    },
+  };
 }
 
 // Documents hold linear light; the browser's colour fields hold 8-bit sRGB.

@@ -24,9 +24,11 @@ const DEFAULTS = {
   "/haze/height": 0,
   "/haze/albedo": 1,
   "/haze/g": 0.6,
-  "/detail/amount": 0.5,
-  "/detail/size": 0.5,
+  "/detail/amount": 0.7,
+  "/detail/size": 1.5,
   "/camera/fov": 40,
+  "/look": "physical",
+  "/time": 0,
   "/image/width": 800,
   "/image/height": 600,
   "/image/background": "sky",
@@ -69,6 +71,8 @@ export function cloudsOf(scene) {
   return [{ cloud: scene, pointer: "" }];
 }
 
+export const modelOf = (cloud) => cloud.model ?? "cubes";
+
 // As cloudsOf, in a document that has `clouds`, so that another can be added.
 export function withCloudList(scene) {
   if (Array.isArray(scene.clouds)) return scene;
@@ -84,6 +88,7 @@ export function whyNoLayout(scene) {
   if ((cloud.model ?? "cubes") !== "cubes") return `An .awn file holds cubes, not the model “${cloud.model}”.`;
   const shift = Array.isArray(cloud.translate) ? cloud.translate : [];
   const moved = shift.some((t) => t !== 0) || (cloud.scale ?? 1) !== 1 || (cloud.rotate_y ?? 0) !== 0;
+  if (Array.isArray(cloud.velocity) && cloud.velocity.some((v) => v !== 0)) return "An .awn file cannot say that its cloud moves.";
   if (moved) return "An .awn file cannot say that its cloud is moved, scaled or turned.";
   return "";
 }
@@ -102,7 +107,8 @@ export function sceneFromAwn(text) {
 const HISTORY = 200; // steps of undo
 const ONE_STEP_MS = 1000; // edits of one field this close together are undone together
 
-// Holds the document. Listeners get { moving }: true while a slider or a drag is under way.
+// Holds the document. Listeners get { moving, replaced }: whether a slider or a drag is under way, and
+// whether the document is another one.
 export function createStore() {
   let scene = { cubes: [] };
   let written = null; // the text as someone wrote it, while it still says the same as `scene`
@@ -113,14 +119,14 @@ export function createStore() {
   const listeners = [];
   const tell = (change) => listeners.forEach((listener) => listener(change));
 
-  function become(next, { key = null, moving = false, text = null, preset = null } = {}) {
+  function become(next, { key = null, moving = false, text = null, preset = null, replaced = false } = {}) {
     const now = performance.now();
     const together = key !== null && key === lastKey && now - lastTime < ONE_STEP_MS;
     if (!together) past = [...past.slice(1 - HISTORY), { scene, written }];
     future = [];
     [lastKey, lastTime] = [key, now];
     [scene, written] = [next, text];
-    tell({ moving, preset });
+    tell({ moving, preset, replaced });
   }
   function travel(from, to) {
     if (!from.length) return;
@@ -148,7 +154,7 @@ export function createStore() {
       if (value === null || typeof value !== "object" || Array.isArray(value)) {
         throw new TypeError("A scene document is a JSON object: { … }.");
       }
-      become(value, { text, preset, key });
+      become(value, { text, preset, key, replaced: key === null });
     },
     undo() { travel(past, future); },
     redo() { travel(future, past); },

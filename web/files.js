@@ -16,7 +16,7 @@ function save(blob, name) {
 }
 
 // Browsers give pages the clipboard only over https or from localhost; the old way works everywhere.
-async function copy(text) {
+export async function copy(text) {
   if (navigator.clipboard) return navigator.clipboard.writeText(text);
   const field = el("textarea", { class: "unseen" });
   field.value = text;

@@ -5,16 +5,18 @@ import { createAccuracyPanel } from "./accuracy.js";
 import * as api from "./api.js";
 import { boundsOfCubes } from "./camera.js";
 import { group } from "./controls.js";
-import { atOrDefault, createStore, withAt } from "./document.js";
+import { atOrDefault, cloudsOf, createStore, modelOf, withAt } from "./document.js";
 import { byId, el } from "./dom.js";
 import { createFigures } from "./figures.js";
-import { createFiles } from "./files.js";
+import { copy, createFiles } from "./files.js";
 import { compactJson } from "./json_text.js";
 import { createLayoutTable } from "./layout_table.js";
+import { coarser, createChoice, createModels } from "./models.js";
 import { cameraPanel, createPanels } from "./panels.js";
 import { createRenderLoop } from "./picture.js";
 import { clearMarks, focusProblem, markProblem, placeName } from "./problems.js";
 import { createStage } from "./stage.js";
+import { createTime } from "./time.js";
 
 const DRAFT = "awan.draft";
 
@@ -23,12 +25,13 @@ let measured = null; // { scene, bounds } of the last plan
 let problem = null; // what is wrong with the document as it stands
 let presetName = "";
 
-// The service's bounds while they are of the layout at hand, else an estimate. Edits share what
-// they do not touch, so the same list is the same layout.
+// The service's bounds while they are of the layout at hand, else an estimate; for models that only the
+// service can make, its last ones. Edits share what they do not touch, so the same list is the same layout.
 function bounds() {
   const { scene } = store;
   const current = measured && measured.scene.cubes === scene.cubes && measured.scene.clouds === scene.clouds;
-  return current ? measured.bounds : boundsOfCubes(scene);
+  const onlyCubes = cloudsOf(scene).every(({ cloud }) => modelOf(cloud) === "cubes");
+  return current || (measured && !onlyCubes) ? measured.bounds : boundsOfCubes(scene);
 }
 
 // --- the status line ---
@@ -56,11 +59,13 @@ function showProblem() {
 }
 function fail(error) {
   if (error.name === "AbortError") return;
+  time.forget();
   problem = { message: error.message, pointer: error.pointer ?? null };
   say("");
   showProblem();
 }
 byId("go-to-field").addEventListener("click", () => {
+  models.reveal(problem.pointer);
   layout.reveal(problem.pointer);
   showProblem();
   focusProblem(problem.pointer);
@@ -71,15 +76,24 @@ byId("go-to-field").addEventListener("click", () => {
 const camera = cameraPanel(store, bounds);
 const panels = createPanels(store, camera);
 const accuracy = createAccuracyPanel(store, { failed: fail, open: window.matchMedia("(min-width: 60rem)").matches });
-const layout = createLayoutTable(store);
+const choice = createChoice(store);
+const models = createModels(store, choice, { bounds, note: say, changed: refreshControls });
+const layout = createLayoutTable(store, choice);
 const figures = createFigures(store);
-const stage = createStage(camera.nudge);
+const time = createTime(store, { failed: fail, copy, note: say, show: () => loop.changed({ moving: true, playing: true }) });
+const stage = createStage({
+  nudge: camera.nudge,
+  toggle() {
+    if (time.canMove) time.toggle();
+    return time.canMove;
+  },
+});
 const files = createFiles(store, { name: () => presetName || "cloud", failed: fail, note: say });
 
 const text = el("textarea", { id: "json", rows: 24, spellcheck: "false", autocomplete: "off", "aria-label": "Scene document as JSON" });
 const jsonGroup = group("JSON", "", false, el("p", { class: "why" }, "The whole document. What is written here is what is sent."), text);
 jsonGroup.addEventListener("toggle", () => refreshText());
-byId("groups").append(...panels.map((panel) => panel.element), accuracy.element, layout.element, jsonGroup);
+byId("groups").append(...models.elements, time.element, ...panels.map((panel) => panel.element), accuracy.element, layout.element, jsonGroup);
 
 text.addEventListener("input", () => {
   try {
@@ -118,10 +132,12 @@ async function askPlan() {
   }
 }
 
+let rung = ""; // of the last picture
 function textFor(reduction) {
   if (reduction === 1) return store.text;
-  const side = (member) => Math.max(1, Math.round(atOrDefault(store.scene, `/image/${member}`) / reduction));
-  return compactJson(withAt(withAt(store.scene, "/image/width", side("width")), "/image/height", side("height")));
+  const scene = time.playing ? time.playedScene(/^transport-/.test(rung) ? "transport-16" : null) : store.scene;
+  const side = (member) => Math.max(1, Math.round(atOrDefault(scene, `/image/${member}`) / reduction));
+  return compactJson(withAt(withAt(coarser(scene, reduction), "/image/width", side("width")), "/image/height", side("height")));
 }
 
 const loop = createRenderLoop({
@@ -139,20 +155,25 @@ const loop = createRenderLoop({
     figures.picture(said, Math.round(width / reduction), Math.round(height / reduction));
     problem = null;
     showProblem();
+    rung = said.rung ?? "";
     if (full) askPlan();
+    time.shown();
   },
   failed: fail,
   busy(yes) {
     byId("stage").setAttribute("aria-busy", String(yes));
-    byId("busy").hidden = !yes;
+    byId("busy").hidden = !yes || time.playing;
   },
 });
 
 // --- following the document ---
 
 function refreshControls() {
+  models.refresh();
+  time.refresh();
   panels.forEach((panel) => panel.refresh());
   accuracy.refresh();
+  accuracy.element.hidden = atOrDefault(store.scene, "/look") !== "physical"; // a look has no error
   layout.refresh();
   figures.refresh();
   files.refresh();
@@ -160,12 +181,17 @@ function refreshControls() {
   byId("undo").disabled = !store.canUndo;
   byId("redo").disabled = !store.canRedo;
 }
-store.subscribe(({ moving, preset, same }) => {
+store.subscribe(({ moving, preset, replaced, same }) => {
   planFlight?.abort();
+  if (replaced) {
+    time.forget();
+    models.forget();
+    choice.index = 0;
+  }
   if (!same && !moving) follow(preset ?? "");
   refreshControls();
   if (problem) showProblem(); // rows may have been rebuilt
-  loop.changed({ moving });
+  loop.changed({ moving, playing: time.playing });
 });
 
 byId("undo").addEventListener("click", () => store.undo());

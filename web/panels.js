@@ -1,15 +1,15 @@
 // The groups of controls beside the picture: what can be set, and over what useful range.
 
 import { cameraOf, isAutomatic, kSteepest, orbitOf, sizeOf } from "./camera.js";
-import { checkbox, colour, group, numberField, select, slider } from "./controls.js";
-import { at, atOrDefault, withAt } from "./document.js";
-import { el, freshId } from "./dom.js";
+import { checkbox, colour, group, numberField, seedField, select, slider } from "./controls.js";
+import { at, atOrDefault, cloudsOf, modelOf, withAt } from "./document.js";
+import { el } from "./dom.js";
 import { detailPanel, groundPanel, hazePanel } from "./surroundings.js";
 
 const turn = (degrees) => ((degrees % 360) + 360) % 360;
 const SIZES = ["640 × 360", "960 × 600", "1280 × 720", "1920 × 1080", "3840 × 2160", "1024 × 1024"];
 
-const shownIf = (shown, { element, refresh }) => ({
+export const shownIf = (shown, { element, refresh }) => ({
   element,
   refresh() {
     element.hidden = !shown();
@@ -148,32 +148,6 @@ function skyPanel(store) {
   return { title: "Sky", pointer: "/sky", fields };
 }
 
-// A seed has 64 bits, more than a number field can hold exactly.
-function seedField(store) {
-  const id = freshId("seed");
-  const input = el("input", { id, type: "text", inputmode: "numeric", autocomplete: "off" });
-  const write = () => {
-    const whole = /^-?\d+$/.test(input.value.trim());
-    input.classList.toggle("incomplete", !whole);
-    if (!whole) return;
-    const seed = BigInt(input.value);
-    store.set("/seed", Number.isSafeInteger(Number(seed)) ? Number(seed) : seed);
-  };
-  const refresh = () => {
-    if (document.activeElement !== input) input.value = String(atOrDefault(store.scene, "/seed"));
-  };
-  input.addEventListener("input", write);
-  input.addEventListener("blur", () => {
-    input.classList.remove("incomplete");
-    refresh();
-  });
-  const another = el("button", {
-    type: "button",
-    onclick: () => store.set("/seed", crypto.getRandomValues(new Uint32Array(1))[0]),
-  }, "Another");
-  return { element: el("div", { class: "field seed", "data-pointer": "/seed" }, el("label", { for: id }, "Seed"), input, another), refresh };
-}
-
 function matterPanel(store) {
   const fields = [
     slider(store, { label: "Density", pointer: "/density", min: 0.001, max: 100, log: true }),
@@ -183,11 +157,11 @@ function matterPanel(store) {
       label: "Phase function", pointer: () => "/medium/phase",
       choices: [["henyey-greenstein", "Henyey–Greenstein"], ["cornette-shanks", "Cornette–Shanks"]],
     }),
-    select(store, {
+    shownIf(() => cloudsOf(store.scene).some(({ cloud }) => modelOf(cloud) === "cubes"), select(store, {
       label: "Filling", pointer: () => "/fill",
       choices: [["uniform", "uniform"], ["gardner", "gardner: with phase shift"], ["printed", "printed: as in the source"]],
-    }),
-    seedField(store),
+    })),
+    seedField(store, { another: true }),
   ];
   return { title: "Matter", pointer: "/medium", fields };
 }

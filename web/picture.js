@@ -2,7 +2,8 @@
 //  * one request is in flight at a time; a change waits kSettleMs for its fellows;
 //  * while a slider moves, the picture is made at reduced size; a small picture that is under way
 //    may finish if it is young (so that a long drag shows something), anything else is cancelled;
-//  * kIdleMs after the last movement the full picture is made.
+//  * kIdleMs after the last movement the full picture is made;
+//  * while time plays, small pictures are made one after the other, and none is cancelled.
 
 import { Problem } from "./api.js";
 
@@ -52,18 +53,18 @@ export function createRenderLoop({ render, shown, failed, busy }) {
       });
   }
 
-  function changed({ moving }) {
+  function changed({ moving, playing = false }) {
     clearTimeout(retryTimer);
     clearTimeout(idleTimer);
     idleTimer = 0;
     busy(true);
-    want = moving ? "preview" : "full";
-    if (moving) idleTimer = setTimeout(() => changed({ moving: false }), kIdleMs);
+    want = moving || playing ? "preview" : "full";
+    if (moving && !playing) idleTimer = setTimeout(() => changed({ moving: false }), kIdleMs);
     if (flight) {
-      const young = performance.now() - flight.started < kYoungMs;
-      if (!(moving && flight.kind === "preview" && young)) flight.controller.abort();
+      const young = playing || performance.now() - flight.started < kYoungMs;
+      if (!(want === "preview" && flight.kind === "preview" && young)) flight.controller.abort();
     }
-    if (!startTimer) startTimer = setTimeout(start, kSettleMs);
+    if (!startTimer) startTimer = setTimeout(start, playing ? 0 : kSettleMs);
   }
 
   return { changed };

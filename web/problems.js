@@ -3,10 +3,11 @@
 
 import { el, freshId } from "./dom.js";
 
-// Elements that stand for a place in the document carry its pointer in data-pointer.
+// Elements that stand for a place in the document carry its pointer in data-pointer. One that the
+// document at hand does not show (of another model, of a switch that is off) can show no problem.
 function elementAt(pointer) {
   for (let p = pointer; p; p = p.slice(0, p.lastIndexOf("/"))) {
-    const found = document.querySelector(`[data-pointer="${CSS.escape(p)}"]`);
+    const found = [...document.querySelectorAll(`[data-pointer="${CSS.escape(p)}"]`)].find((element) => !element.closest("[hidden]"));
     if (found) return found;
   }
   return document.querySelector('[data-pointer=""]'); // the document as text
@@ -28,7 +29,7 @@ function mark(element, text) {
   } else if (element.matches("details")) {
     element.querySelector("summary").after(message);
   } else {
-    element.append(message);
+    (element.closest(".field") ?? element).append(message); // an axis of a vector: beneath all three
   }
   const inputs = element.matches("details") ? [] : inputsOf(element);
   for (const input of inputs) {
@@ -67,6 +68,11 @@ export function focusProblem(pointer) {
   (input ?? element).scrollIntoView({ block: "center" });
 }
 
+// What one element of a list is called; "ellipsoids" is also the name of a model.
+const NOUNS = { cubes: "cube", clouds: "cloud", primitives: "primitive", formations: "formation", attractors: "attractor", vortices: "vortex", keys: "key" };
+const VECTORS = ["size", "center", "eye", "target", "up", "translate", "direction", "velocity", "radii", "cells", "smooth",
+  "smallest", "largest", "drift", "jet", "ripple", "rotate", "spread", "force", "at", "axis", "min", "max"];
+
 // "/cubes/3/size/1" -> "cube 4, size y": people count from one. What is no JSON pointer ("line 14")
 // stays as it is.
 export function placeName(pointer) {
@@ -76,9 +82,9 @@ export function placeName(pointer) {
   const axes = ["x", "y", "z"];
   parts.forEach((part, i) => {
     const list = parts[i - 1];
-    if (!/^\d+$/.test(part)) words.push({ cubes: "cube", clouds: "cloud" }[part] ?? part.replaceAll("_", " "));
-    else if (list === "cubes" || list === "clouds") words.push(`${Number(part) + 1},`);
-    else if (["size", "center", "eye", "target", "up", "translate", "direction"].includes(list)) words.push(axes[part] ?? part);
+    if (!/^\d+$/.test(part)) words.push(NOUNS[part] ?? part.replaceAll("_", " "));
+    else if (NOUNS[list] || (list === "ellipsoids" && i + 1 < parts.length)) words.push(`${Number(part) + 1},`);
+    else if (VECTORS.includes(list)) words.push(axes[part] ?? part);
     else words.push(String(Number(part) + 1));
   });
   return words.join(" ").replace(/,$/, "");

@@ -7,7 +7,8 @@ const DEGREES_PER_PIXEL = 0.35;
 const KEY_DEGREES = 5;
 const KEY_RATIO = 0.9;
 
-export function createStage(nudge) {
+// nudge(step, options): around the cloud. toggle(): play or pause; false when nothing can move.
+export function createStage({ nudge, toggle }) {
   const stage = byId("stage");
   const image = byId("picture");
   let url = null;
@@ -31,7 +32,7 @@ export function createStage(nudge) {
 
   // The box keeps the shape of the full picture, so that nothing moves when a small one is shown.
   function shape(width, height, transparent) {
-    if (width > 0 && height > 0) stage.style.setProperty("--ratio", String(width / height));
+    if (width > 0 && height > 0) byId("left").style.setProperty("--ratio", String(width / height));
     stage.classList.toggle("transparent", transparent);
   }
 
@@ -68,6 +69,10 @@ export function createStage(nudge) {
     "+": { nearer: KEY_RATIO }, "=": { nearer: KEY_RATIO }, "-": { nearer: 1 / KEY_RATIO },
   };
   stage.addEventListener("keydown", (event) => {
+    if (event.key === " " && event.target === stage && toggle()) {
+      event.preventDefault(); // the page would scroll
+      return;
+    }
     const step = KEYS[event.key];
     if (!step || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();

@@ -52,7 +52,7 @@ export const hazePanel = (store) => optional(store, {
 });
 
 export const detailPanel = (store) => optional(store, {
-  title: "Detail", pointer: "/detail", label: "Finer structure", fresh: { amount: 0.5, size: 0.5 },
+  title: "Detail", pointer: "/detail", label: "Finer structure", fresh: { amount: 0.7, size: 1.5 },
   sliders: [
     { label: "Amount", member: "amount", min: 0, max: 1, step: 0.01 },
     { label: "Bump size", member: "size", min: 0.05, max: 4, log: true },

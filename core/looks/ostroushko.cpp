@@ -13,12 +13,11 @@
 #include "core/parallel.h"
 
 namespace awan {
-namespace {
 
-looks::LookScene look_scene(const Scene& scene, const View& view) {
-    looks::LookScene look;
-    look.clouds = looks::look_clouds(scene, view.eye);
-    look.light = looks::look_light(scene);
+looks::LookScene looks::look_scene(const Scene& scene, const View& view) {
+    LookScene look;
+    look.clouds = look_clouds(scene, view.eye);
+    look.light = look_light(scene);
     look.view = view;
     look.width = scene->image.width;
     look.height = scene->image.height;
@@ -28,11 +27,9 @@ looks::LookScene look_scene(const Scene& scene, const View& view) {
     return look;
 }
 
-}  // namespace
-
 Result<Image> ostroushko_look(const Scene& scene, const View& view, int threads,
                               const Deadline& deadline) {
-    const looks::LookScene look = look_scene(scene, view);
+    const looks::LookScene look = looks::look_scene(scene, view);
     Image image{look.width, look.height, false, {}};
     image.pixels.resize(4 * image.pixel_count());
     const int columns = (look.width + looks::kTileSide - 1) / looks::kTileSide;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kWaves = 3;        // of the relief
 constexpr double kSteepest = 4;  // of their frequencies, radians over the radius, along each axis
-constexpr double kBump = 0.08;   // height of a wave, radii
+constexpr double kBump = 0.06;   // height of a wave, radii
 
 double part(std::uint64_t bits, int from) {  // 16 of them, -1..1
     return static_cast<double>(bits >> from & 0xffffu) / 0x8000 - 1;
@@ -59,7 +59,8 @@ Reaching reaching(const std::vector<LookCloud>& clouds, const LookLight& light,
 }
 
 glm::dvec3 shade(const LookLight& light, const Reaching& share, const glm::dvec3& normal) {
-    const double facing = std::max(glm::dot(normal, light.to_sun), 0.0);
+    // Light comes round a ball of cloud: half at its limb, none at its back.
+    const double facing = (1 + glm::dot(normal, light.to_sun)) / 2;
     const double up = (1 + normal.y) / 2;
     return light.albedo *
            (share.sun * facing * light.sun + share.sky * up * light.above + (1 - up) * light.below);

@@ -22,6 +22,8 @@ struct LookScene {
     double finest_pixels = 1;  // a sphere of less in diameter is a leaf
 };
 
+LookScene look_scene(const Scene& scene, const View& view);
+
 // A leaf, or a sphere that looks no larger than a pixel.
 struct LookSphere {
     glm::dvec3 center;  // relative to the eye, the scene's axes

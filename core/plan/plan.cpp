@@ -174,7 +174,7 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
                                lost_by_splats(plan));
         }
         double& whole = plan.forecasts.back().error;
-        whole = std::hypot(whole, survey.model_error);
+        if (whole > 0) whole = std::hypot(whole, survey.model_error);
         if (rung.method == Method::kSplats ||
             (!wants_splats(scene) && (paths || rung.method != Method::kPaths)))
             candidates.push_back(plan.forecasts.back());

@@ -61,7 +61,7 @@ struct ImplicitPrimitive {
 struct ImplicitGrowth {
     std::uint64_t seeds = 12;
     std::uint64_t most = 50;            // particles in all
-    double radius = 18;                 // of a full-grown seed, units
+    double radius = 54;                 // of a full-grown seed, units
     double shrink = 0.85;               // a full-grown child's radius over its parent's
     double weight = 1;                  // of each when full-grown
     glm::dvec3 center{0};               // of the seeds, units
@@ -71,7 +71,7 @@ struct ImplicitGrowth {
     double turbulence = 0.05;           // of the force, radii a second^2
     double drag = 0.12;                 // 1/second: what slows them
     double lifetime = 25;               // seconds from birth to rest; they are full-grown halfway
-    double rate = 0.3;                  // children a second, times the turbulence there
+    double rate = 0.175;                // children a second, times the turbulence there
     double duration = 60;               // seconds, from time 0; then all rests
 };
 
@@ -145,7 +145,7 @@ struct ImplicitCloud {
     // without these two.
     bool printed_swirl = false;
 
-    std::uint64_t resolution = 72;  // cells along the longest side
+    std::uint64_t resolution = 96;  // cells along the longest side
     double threshold = 0.004;       // of the largest density: cells below are left out
 };
 

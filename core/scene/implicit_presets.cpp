@@ -1,18 +1,19 @@
 // The presets of a cloud of model "implicit", and what an ImplicitCloud comes to with them.
 #include <cmath>
-#include <utility>
 
 #include "core/scene/implicit.h"
 
 namespace awan {
 namespace {
 
-// Sizes are those of real clouds where a unit is ten metres: with the default density, .2 a unit, a cumulus is opaque.
+// Places and radii below are in tens of metres, and a unit is kTen of them: 3.3 metres. With the default density, .2 a unit, a
+// cumulus has then the extinction of a real one, .06 a metre, and is opaque.
+constexpr double kTen = 3;
 
 ImplicitPrimitive sphere(glm::dvec3 center, double radius, double weight = 1) {
     ImplicitPrimitive primitive;
-    primitive.center = center;
-    primitive.radius = radius;
+    primitive.center = kTen * center;
+    primitive.radius = kTen * radius;
     primitive.weight = weight;
     return primitive;
 }
@@ -24,28 +25,28 @@ ImplicitPrimitive ellipsoid(glm::dvec3 center, double radius, glm::dvec3 radii, 
     return primitive;
 }
 
-ImplicitPrimitive segment(glm::dvec3 center, std::vector<glm::dvec3> points, double radius,
+ImplicitPrimitive segment(glm::dvec3 center, const std::vector<glm::dvec3>& points, double radius,
                           double weight = 1) {
     ImplicitPrimitive primitive = sphere(center, radius, weight);
     primitive.shape = ImplicitShape::kSegment;
-    primitive.points = std::move(points);
+    for (const glm::dvec3& p : points) primitive.points.push_back(kTen * p);
     return primitive;
 }
 
 // Nine spheres, as many as in the document's figure 9.2.
 ImplicitSettings cumulus() {
     ImplicitSettings s;
-    s.primitives = {sphere({-46, 6, 4}, 34),       sphere({-18, 10, -14}, 42, 1.2),
-                    sphere({12, 10, 8}, 46, 1.2),  sphere({44, 6, -6}, 36),
-                    sphere({72, 0, 4}, 24),        sphere({-74, -2, -4}, 22),
-                    sphere({-14, 40, 0}, 33, 1.1), sphere({22, 46, -4}, 30, 1.1),
-                    sphere({6, 68, -2}, 24)};
-    s.base = -8;
+    s.primitives = {sphere({-72, 0, 2}, 26),        sphere({-38, 6, -10}, 37, 1.1),
+                    sphere({-4, 8, 10}, 39, 1.2),   sphere({34, 4, -6}, 37, 1.1),
+                    sphere({68, -2, 6}, 26),        sphere({-32, 38, -4}, 31, 1.1),
+                    sphere({-26, 66, -6}, 23, 1.1), sphere({20, 34, 0}, 29, 1.1),
+                    sphere({30, 54, 4}, 19)};
+    s.base = kTen * -8;
     s.amount = 0.4;
     s.exponent = 0.5;
     s.blend = 0.4;
     s.displacement = 0.7;
-    s.noise_size = 1.1;
+    s.noise_size = 0.6;
     s.octaves = 6;
     return s;
 }
@@ -57,14 +58,13 @@ ImplicitSettings cirrus() {
                     segment({20, 4, 0}, {{-190, -4, 14}, {0, 0, 0}, {170, 6, 22}}, 36, 1),
                     segment({-30, -2, 66}, {{-120, -4, 0}, {40, 2, 8}, {160, 8, -6}}, 28, 0.8),
                     ellipsoid({30, 2, 10}, 100, {1.7, 0.14, 0.95}, 0.35)};
-    s.amount = 1.5;
-    s.exponent = 2.2;
-    s.blend = 0.05;
-    s.displacement = 0.6;
-    s.noise_size = 0.55;
+    s.amount = 1.2;
+    s.exponent = 3;
+    s.blend = 0;
+    s.displacement = 0.9;
+    s.noise_size = 0.4;
     s.octaves = 6;
-    s.gain = 0.55;
-    s.stretch = 6;
+    s.stretch = 5;
     s.jet = {2.2, 0, 0.5};
     s.jet_turbulence = 1.5;
     return s;
@@ -87,13 +87,13 @@ ImplicitSettings stratus() {
 ImplicitSettings mackerel() {
     ImplicitSettings s;
     s.primitives = {ellipsoid({0, 0, 0}, 170, {1, 0.045, 0.85}, 1)};
-    s.amount = 0.6;
+    s.amount = 2;
     s.exponent = 1.6;
     s.blend = 0.3;
     s.displacement = 0.05;
-    s.noise_size = 0.5;
+    s.noise_size = 0.35;
     s.octaves = 6;
-    s.ripple = {0.42, 0, 0.6};
+    s.ripple = {0.2, 0, 0.42};
     s.ripple_depth = 0.95;
     s.ripple_turbulence = 5;
     return s;

@@ -45,8 +45,8 @@ Status check_count(std::uint64_t value, std::uint64_t lowest, std::uint64_t high
 
 Span ratios_of(const SpheresCloud& cloud) {
     const bool cumulus = cloud.kind == SpheresKind::kCumulus;
-    return {cloud.ratio_min.value_or(cumulus ? 0.26 : 0.1),
-            cloud.ratio_max.value_or(cumulus ? 0.76 : 0.6)};
+    return {cloud.ratio_min.value_or(cumulus ? 0.26 : 0.2),
+            cloud.ratio_max.value_or(cumulus ? 0.76 : 0.7)};
 }
 
 Span shifts_of(const SpheresCloud& cloud) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "core/generate/models.h"
 #include "core/generate/spheres/cluster.h"
@@ -18,8 +19,23 @@ constexpr std::uint64_t kCoarseSpheres = 625;
 
 struct Part {
     std::vector<GaussianBlob> blobs;
-    std::uint64_t cut = 0;  // of them stand for more than a leaf
+    double mass = 0, cut_mass = 0;  // of all, and of those that stand for more than a leaf
 };
+
+// What cutting does to a picture, rms over rms. A cut cluster becomes a round blob as wide as it is, so what matters is how many
+// pixels wide spheres are cut, and how much of the cloud is in such: the third root of its mass, as they stand where the cloud
+// ends. Above all that was measured of clouds of 6 and 7 levels, of both kinds, of extinctions .2 and 2, lit by transport-32 in
+// pictures 300 pixels high, against all their leaves (spheres_cut_test does it smaller): cut at 1.5 pixels .009 and less, at 3
+// .036, at 6 .17, at 12 .34, at 24 .48. Where little is cut it is up to twenty times too high.
+double error_of_cut(double pixels, double mass_share) {
+    return std::cbrt(mass_share) * std::min(0.02 * pixels * std::sqrt(pixels), 0.7);
+}
+// Where a request names none: of a picture 1080 pixels high, 40 degrees.
+constexpr double kUsualPixel = 0.00067;
+
+double mass_of(const GaussianBlob& blob) {
+    return blob.peak * blob.s * blob.s * blob.s;
+}
 
 std::uint64_t bits(double value) {
     return std::bit_cast<std::uint64_t>(value + 0.0);
@@ -51,12 +67,14 @@ Result<ModelParticles> spheres_particles(const SpheresCloud& cloud, const ModelR
             Part& part = parts[task];
             if (level == tree.levels()) {
                 part.blobs.push_back(leaf_blob(node.sphere));
+                part.mass += mass_of(part.blobs.back());
                 return false;
             }
             if (!cut.cuts(node.sphere, tree.ratios())) return true;
             const auto below = static_cast<std::size_t>(tree.levels() - level - 1);
             part.blobs.push_back(cluster_blob(tree.children(node, level), moments[below]));
-            ++part.cut;
+            part.mass += mass_of(part.blobs.back());
+            part.cut_mass += mass_of(part.blobs.back());
             return false;
         });
     if (!whole) return *deadline.over();
@@ -65,10 +83,11 @@ Result<ModelParticles> spheres_particles(const SpheresCloud& cloud, const ModelR
     made.extinctions = true;
     const double sigma = extinction_of(cloud, request.density);
     std::size_t count = 0;
-    std::uint64_t cut_spheres = 0;
+    double mass = 0, cut_mass = 0;
     for (const Part& part : parts) {
         count += part.blobs.size();
-        cut_spheres += part.cut;
+        mass += part.mass;
+        cut_mass += part.cut_mass;
     }
     made.particles.positions.reserve(count);
     made.particles.radii.reserve(count);
@@ -80,7 +99,11 @@ Result<ModelParticles> spheres_particles(const SpheresCloud& cloud, const ModelR
             made.particles.densities.push_back(
                 static_cast<float>(std::min(blob.peak * sigma, limits::kMaxDensity)));
         }
-    if (cut_spheres > 0) made.variant = variant_of(cut);
+    if (cut_mass > 0) {
+        const double angle = request.pixel_angle > 0 ? request.pixel_angle : kUsualPixel;
+        made.variant = variant_of(cut);
+        made.error = error_of_cut(2 * cut.smallest / angle, cut_mass / mass);
+    }
     return made;
 }
 

@@ -1,0 +1,422 @@
+// The hierarchy of spheres of Ostroushko et al. and the Gaussians made of it.
+#include "core/scene/spheres.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "core/generate/generate.h"
+#include "core/generate/models.h"
+#include "core/generate/spheres/cluster.h"
+#include "core/generate/spheres/cut.h"
+#include "core/generate/spheres/subdivision.h"
+#include "core/scene/limits.h"
+#include "tests/random_models_spheres.h"
+#include "tests/scenes.h"
+
+namespace awan {
+namespace {
+
+SpheresCloud cloud_of(std::uint64_t levels) {
+    SpheresCloud cloud;
+    cloud.levels = levels;
+    return cloud;
+}
+
+ModelRequest request_of(std::uint64_t key, int threads = 1) {
+    ModelRequest request;
+    request.key = key;
+    request.threads = threads;
+    return request;
+}
+
+ReadyParticles particles_of(const SpheresCloud& cloud, const ModelRequest& request) {
+    auto made = spheres_particles(cloud, request, {});
+    EXPECT_TRUE(made.ok());
+    return made->particles;
+}
+
+double mass_of(const ReadyParticles& set) {
+    double mass = 0;
+    for (std::size_t i = 0; i < set.radii.size(); ++i)
+        mass += static_cast<double>(set.densities[i]) *
+                std::pow(static_cast<double>(set.radii[i]) / 2, 3);
+    return mass * std::pow(2 * std::numbers::pi, 1.5);
+}
+
+// Calls check(parent, child, level of the parent) for all of the tree.
+template <typename Check>
+void each_pair(const SphereTree& tree, const SphereNode& node, int level, const Check& check) {
+    if (level == tree.levels()) return;
+    for (const SphereNode& child : tree.children(node, level)) {
+        check(node, child, level);
+        each_pair(tree, child, level + 1, check);
+    }
+}
+
+// --- subdivision
+
+// The law that makes every sphere a bounding volume. Rounding: three additions of numbers no larger than the parent's place.
+TEST(Spheres, EveryChildLiesInItsParent) {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        test::Dice dice(seed);
+        const Cloud cloud = test::random_spheres(dice, {glm::dvec3(0), 100});
+        const double time = dice.between(0, 20);
+        const SphereTree tree(*cloud.spheres, seed, 0, time);
+        const double rounding = 1e-14 * tree.root().sphere.radius;
+        each_pair(tree, tree.root(), 0, [&](const SphereNode& p, const SphereNode& c, int) {
+            ASSERT_LE(glm::length(c.sphere.center - p.sphere.center) + c.sphere.radius,
+                      p.sphere.radius + rounding)
+                << seed;
+            ASSERT_GT(c.sphere.radius, 0);
+        });
+    }
+}
+
+// Unscaled, a corrected child touches its parent from within: (s D)^2 + f(s D, D)^2 = D^2.
+TEST(Spheres, ChildrenTouchTheirParentWhereAxesAreNotScaled) {
+    SpheresCloud cloud = cloud_of(4);
+    cloud.size = glm::dvec3(2);
+    const SphereTree tree(cloud, 5, 0, 0);
+    each_pair(tree, tree.root(), 0, [&](const SphereNode& p, const SphereNode& c, int) {
+        ASSERT_NEAR(glm::length(c.sphere.center - p.sphere.center) + c.sphere.radius,
+                    p.sphere.radius, 1e-14);
+    });
+}
+
+TEST(Spheres, TheFiveGoWhereTheSourceSays) {
+    const SphereDraw draw{0.4, 0.95, 1};
+    const glm::dvec3 axes(1, 0.5, 0.25), across(1);
+    const double along = 0.95 * 0.6, aside = std::sqrt(0.6 * 0.6 - along * along);
+    EXPECT_EQ(child_offset(0, draw, axes, across, 1), glm::dvec3(along, 0, aside));
+    EXPECT_EQ(child_offset(1, draw, axes, across, 1), glm::dvec3(-along, 0, aside));
+    EXPECT_EQ(child_offset(2, draw, axes, across, 1), glm::dvec3(aside, 0, along * 0.25));
+    EXPECT_EQ(child_offset(3, draw, axes, across, 1), glm::dvec3(aside, 0, -along * 0.25));
+    EXPECT_EQ(child_offset(4, draw, axes, across, -1), glm::dvec3(0, -along * 0.5, aside));
+    const SphereDraw other{0.4, 0.95, -1};
+    EXPECT_EQ(child_offset(4, other, axes, across, -1), glm::dvec3(-aside, -along * 0.5, 0));
+}
+
+// Without its root the printed f is an area: the same cloud drawn ten times as large throws its children ten times as far, in
+// parents' radii, and out of their parents. The fifth's f(s, D) is not even an area.
+TEST(Spheres, ThePrintedCoordinateLeavesTheParent) {
+    const double s = 0.9, ratio = 0.26;
+    const auto reach = [&](double radius, auto f) {
+        const double most = radius * (1 - ratio);
+        return std::hypot(s * most, f(s * most, most)) / radius;
+    };
+    EXPECT_LE(reach(100, other_coordinate), 1 - ratio + 1e-12);
+    EXPECT_DOUBLE_EQ(reach(1, other_coordinate), reach(1000, other_coordinate));
+    EXPECT_GT(reach(100, other_coordinate_printed), 10);
+    EXPECT_LT(reach(0.01, other_coordinate_printed), s * (1 - ratio) + 1e-4);
+    EXPECT_LT(other_coordinate_printed(s, 0.5), 0);  // s against a D of .5: no place at all
+}
+
+TEST(Spheres, AxesAreScaledAtTheFirstStepOnlyOrAtEvery) {
+    SpheresCloud cloud = cloud_of(3);
+    cloud.size = {10, 2, 6};
+    EXPECT_EQ(SphereTree(cloud, 1, 0, 0).axes(0), glm::dvec3(1, 0.2, 0.6));
+    EXPECT_EQ(SphereTree(cloud, 1, 0, 0).axes(1), glm::dvec3(1));
+    cloud.scaling = SpheresScaling::kEvery;
+    EXPECT_EQ(SphereTree(cloud, 1, 0, 0).axes(1), glm::dvec3(1, 0.2, 0.6));
+}
+
+// Scaled at every step, all centres stay within the cloud's sides; scaled at the first they do not, for a flat cloud.
+TEST(Spheres, OnlyScalingAtEveryStepKeepsAFlatCloudFlat) {
+    const auto highest = [](SpheresScaling scaling) {
+        double most = 0;
+        for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+            SpheresCloud cloud = cloud_of(4);
+            cloud.size = {100, 5, 100};
+            cloud.scaling = scaling;
+            const SphereTree tree(cloud, seed, 0, 0);
+            each_pair(tree, tree.root(), 0, [&](const SphereNode&, const SphereNode& c, int) {
+                most = std::max(most, std::abs(c.sphere.center.y));
+            });
+        }
+        return most;
+    };
+    EXPECT_LE(highest(SpheresScaling::kEvery), 2.5);
+    EXPECT_GT(highest(SpheresScaling::kFirst), 10);
+}
+
+TEST(Spheres, RatiosAndShiftsFillTheirRanges) {
+    SpheresCloud cloud = cloud_of(5);
+    cloud.size = glm::dvec3(2);
+    const SphereTree tree(cloud, 3, 0, 0);
+    double low = 1, high = 0, sum = 0, count = 0;
+    each_pair(tree, tree.root(), 0, [&](const SphereNode& p, const SphereNode& c, int) {
+        const double ratio = c.sphere.radius / p.sphere.radius;
+        low = std::min(low, ratio);
+        high = std::max(high, ratio);
+        sum += ratio;
+        ++count;
+    });
+    EXPECT_GE(low, 0.26);
+    EXPECT_LE(high, 0.76);
+    EXPECT_LT(low, 0.262);  // of 3905 draws; the chance of none in .002 of .5 is 2e-7
+    EXPECT_GT(high, 0.758);
+    EXPECT_NEAR(sum / count, 0.51, 0.5 / std::sqrt(12.0) / std::sqrt(count) * 5);  // five sigma
+}
+
+TEST(Spheres, GrowsUpwardOrAsPrinted) {
+    for (const bool up : {true, false}) {
+        SpheresCloud cloud = cloud_of(4);
+        cloud.growth = up ? SpheresGrowth::kUp : SpheresGrowth::kDown;
+        const SphereTree tree(cloud, 8, 0, 0);
+        double sum = 0;
+        each_pair(tree, tree.root(), 0, [&](const SphereNode& p, const SphereNode& c, int) {
+            const double rise = c.sphere.center.y - p.sphere.center.y;
+            EXPECT_GE(up ? rise : -rise, 0);
+            sum += rise;
+        });
+        EXPECT_NE(sum, 0);
+    }
+}
+
+// --- particles
+
+TEST(Spheres, AsManyLeavesAsTheSourceCounts) {
+    std::uint64_t expected = 1;
+    for (std::uint64_t levels = 0; levels <= 7; ++levels, expected *= 5) {
+        EXPECT_EQ(particles_of(cloud_of(levels), request_of(1)).positions.size(), expected);
+        EXPECT_EQ(most_particles(cloud_of(levels)), expected);
+    }
+    EXPECT_EQ(most_particles(cloud_of(10)), limits::kMaxSpheresParticles);
+}
+
+TEST(Spheres, NoLevelsIsOneSphereOfTheShortestSide) {
+    SpheresCloud cloud = cloud_of(0);
+    cloud.size = {8, 4, 6};
+    ModelRequest request = request_of(1);
+    request.density = 0.5;
+    const ReadyParticles set = particles_of(cloud, request);
+    ASSERT_EQ(set.positions.size(), 1u);
+    EXPECT_EQ(set.positions[0], glm::dvec3(0));
+    EXPECT_NEAR(set.radii[0], 2 * 2 * std::sqrt(kLeafVariance), 1e-6);
+    EXPECT_NEAR(mass_of(set), kLeafMass * 0.5 * 8, 1e-5);
+}
+
+// The two constants against sums over the disc of rule (3)'s thin limit, depth f sigma l.
+TEST(Spheres, ALeafHasTheMassAndWidthOfTheSourcesRule) {
+    double mass = 0, square = 0;
+    constexpr int kSteps = 200000;
+    for (int i = 0; i < kSteps; ++i) {
+        const double d = (i + 0.5) / kSteps, depth = (1 - d) * 2 * std::sqrt(1 - d * d);
+        mass += 2 * std::numbers::pi * d * depth / kSteps;
+        square += 2 * std::numbers::pi * d * d * d * depth / kSteps;
+    }
+    EXPECT_NEAR(kLeafMass, mass, 1e-8);
+    EXPECT_NEAR(kLeafVariance, square / mass / 2, 1e-8);
+    const GaussianBlob blob = leaf_blob({glm::dvec3(1, 2, 3), 5});
+    EXPECT_NEAR(blob.peak * std::pow(2 * std::numbers::pi, 1.5) * std::pow(blob.s, 3) / 125,
+                kLeafMass, 1e-12);
+}
+
+TEST(Spheres, VisualRangeIsWhereTwoPercentAreLeft) {
+    SpheresCloud cloud = cloud_of(3);
+    cloud.visual_range = 40;
+    ModelRequest request = request_of(4);
+    request.density = 123;  // not used then
+    const double ranged = mass_of(particles_of(cloud, request));
+    cloud.visual_range.reset();
+    request.density = -std::log(0.02) / 40;  // exp(-density * 40) = .02
+    // Float32 densities.
+    EXPECT_NEAR(mass_of(particles_of(cloud, request)) / ranged, 1, 1e-6);
+}
+
+TEST(Spheres, ExpectedMomentsAreThoseOfManyClouds) {
+    SpheresCloud cloud = cloud_of(4);
+    cloud.size = glm::dvec3(2);
+    for (const SpheresKind kind : {SpheresKind::kCumulus, SpheresKind::kCirrus}) {
+        cloud.kind = kind;
+        const int kClouds = 4000;
+        double mass = 0, square_mass = 0;
+        glm::dvec3 moment(0);
+        double second = 0;
+        for (int i = 0; i < kClouds; ++i) {
+            const SphereTree tree(cloud, static_cast<std::uint64_t>(i), 0, 0);
+            double own = 0;
+            // Three levels below the root: the moments of n = 3 by brute force.
+            each_pair(tree, tree.root(), 0, [&](const SphereNode&, const SphereNode& c, int level) {
+                if (level != 2) return;
+                const double m = std::pow(c.sphere.radius, 3);
+                own += m;
+                moment += m * c.sphere.center;
+                second += m * (glm::dot(c.sphere.center, c.sphere.center) +
+                               3 * kLeafVariance * c.sphere.radius * c.sphere.radius);
+            });
+            mass += own;
+            square_mass += own * own;
+        }
+        const ClusterMoments expected = cluster_moments(SphereTree(cloud, 1, 0, 0))[3];
+        // Five standard errors of the mean mass; its share for the other moments.
+        const double spread = std::sqrt(square_mass / kClouds - mass / kClouds * mass / kClouds) /
+                              std::sqrt(kClouds) / (mass / kClouds) * 5;
+        EXPECT_NEAR(mass / kClouds / expected.mass, 1, spread);
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_NEAR(moment[axis] / mass, expected.mean[axis], spread) << axis;
+        EXPECT_NEAR(second / mass / expected.square, 1, spread);
+    }
+}
+
+// A cluster of five leaves keeps mass, centre of mass and mean square exactly; 1e-12 is rounding.
+TEST(Spheres, AClusterOfLeavesKeepsItsMoments) {
+    const SphereTree tree(cloud_of(2), 9, 0, 0);
+    const auto children = tree.children(tree.children(tree.root(), 0)[3], 1);
+    const GaussianBlob blob = cluster_blob(children, ClusterMoments{});
+    double mass = 0, square = 0;
+    glm::dvec3 mean(0);
+    for (const SphereNode& node : children) {
+        const double m = std::pow(node.sphere.radius, 3);
+        mass += m;
+        mean += m * node.sphere.center;
+    }
+    mean /= mass;
+    for (const SphereNode& node : children) {
+        const double m = std::pow(node.sphere.radius, 3);
+        const glm::dvec3 v = node.sphere.center - mean;
+        square +=
+            m * (glm::dot(v, v) + 3 * kLeafVariance * node.sphere.radius * node.sphere.radius);
+    }
+    EXPECT_NEAR(glm::length(blob.center - mean) / glm::length(mean), 0, 1e-12);
+    EXPECT_NEAR(3 * blob.s * blob.s / (square / mass), 1, 1e-12);
+    EXPECT_NEAR(blob.peak * std::pow(2 * std::numbers::pi, 1.5) * std::pow(blob.s, 3) /
+                    (kLeafMass * mass),
+                1, 1e-12);
+}
+
+// --- morph
+
+SpheresCloud morphing(std::uint64_t levels) {
+    SpheresCloud cloud = cloud_of(levels);
+    cloud.morph = SpheresMorph{7, 10, 3};
+    return cloud;
+}
+
+ReadyParticles at_time(const SpheresCloud& cloud, std::uint64_t key, double time) {
+    ModelRequest request = request_of(key);
+    request.place = 2;
+    request.time = time;
+    return particles_of(cloud, request);
+}
+
+TEST(Spheres, AMorphGoesThroughItsRealisations) {
+    const SpheresCloud cloud = morphing(4);
+    const SpheresCloud still = cloud_of(4);
+    const auto same = [&](double time, std::uint64_t key) {
+        const ReadyParticles a = at_time(cloud, 99, time), b = at_time(still, key, 0);
+        return a.positions == b.positions && a.radii == b.radii && a.densities == b.densities;
+    };
+    EXPECT_TRUE(same(0, 99));
+    EXPECT_TRUE(same(-5, 99));
+    EXPECT_TRUE(same(10, keyed(7, 2)));  // what seed 7 makes of cloud 2
+    EXPECT_TRUE(same(20, keyed(8, 2)));
+    EXPECT_TRUE(same(30, keyed(9, 2)));
+    EXPECT_TRUE(same(1e6, keyed(9, 2)));
+    EXPECT_FALSE(same(5, 99));
+}
+
+TEST(Spheres, AMorphIsLinear) {
+    const SpheresCloud cloud = morphing(3);
+    const ReadyParticles a = at_time(cloud, 99, 0), b = at_time(cloud, 99, 10),
+                         m = at_time(cloud, 99, 2.5);
+    for (std::size_t i = 0; i < a.positions.size(); ++i) {
+        // Doubles of size 500; float32 radii.
+        EXPECT_LT(glm::length(0.75 * a.positions[i] + 0.25 * b.positions[i] - m.positions[i]), 1e-11);
+        EXPECT_NEAR(0.75F * a.radii[i] + 0.25F * b.radii[i], m.radii[i], 1e-6F * m.radii[i] * 4);
+    }
+}
+
+// --- always
+
+bool same_bytes(const ParticleSet& a, const ParticleSet& b) {
+    return a.center == b.center && a.radius == b.radius && a.density == b.density &&
+           a.variant == b.variant && a.error == b.error;
+}
+
+SceneDraft draft_of(const Cloud& cloud) {
+    SceneDraft draft;
+    draft.top_level_cubes = false;
+    draft.clouds.push_back(cloud);
+    return draft;
+}
+
+Cloud as_cloud(const SpheresCloud& spheres) {
+    Cloud cloud;
+    cloud.model = CloudModel::kSpheres;
+    cloud.spheres = std::make_shared<SpheresCloud>(spheres);
+    return cloud;
+}
+
+TEST(Spheres, ThreadsDoNotShow) {
+    SpheresCloud cloud = morphing(7);
+    SceneDraft draft = draft_of(as_cloud(cloud));
+    draft.time = 4;
+    const Scene scene = test::valid(draft);
+    const ParticleSet one = *generate(scene, 1, {});
+    EXPECT_GT(one.size(), 50000u);
+    for (const int threads : {2, 7}) {
+        EXPECT_TRUE(same_bytes(one, *generate(scene, threads, {}))) << threads;
+    }
+}
+
+// Places of all of a small cloud's spheres, as bits: the same on every machine.
+TEST(Spheres, HasTheSameBitsEverywhere) {
+    SpheresCloud cloud = cloud_of(5);
+    std::uint64_t hash = 0;
+    const ReadyParticles set = particles_of(cloud, request_of(1));
+    for (std::size_t i = 0; i < set.positions.size(); ++i) {
+        for (int axis = 0; axis < 3; ++axis)
+            hash = keyed(hash, std::bit_cast<std::uint64_t>(set.positions[i][axis] + 0.0));
+        hash = keyed(hash, std::bit_cast<std::uint32_t>(set.radii[i]));
+        hash = keyed(hash, std::bit_cast<std::uint32_t>(set.densities[i]));
+    }
+    EXPECT_EQ(hash, 0x79a17cafd10286deu) << std::hex << hash;
+}
+
+TEST(Spheres, RandomCloudsAreSound) {
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+        test::Dice dice(seed);
+        test::Whereabouts where;
+        where.size = dice.chance(0.7) ? dice.log_between(0.1, 1e3) : dice.log_between(1e-4, 1e5);
+        if (dice.chance(0.2)) where.middle = dice.any_vector(0.9 * limits::kMaxCoordinate);
+        SceneDraft draft = draft_of(test::random_spheres(dice, where));
+        draft.time = dice.chance(0.3) ? 0 : dice.any(limits::kMaxTime);
+        const Cloud cloud = draft.clouds[0];
+        const Scene scene = test::valid(draft);
+        const auto made = generate(scene, 1, {});
+        ASSERT_TRUE(made.ok()) << seed;
+        ASSERT_LE(made->size(), most_particles(cloud)) << seed;
+        ASSERT_GT(made->size(), 0u) << seed;
+        // Everything lies in the root sphere; .36 of a leaf's radius is its s, so that 2 s does not.
+        const SphereTree tree(*cloud.spheres, 1, 0, 0);
+        const double reach = 1.5 * tree.root().sphere.radius * cloud.scale;
+        for (std::size_t i = 0; i < made->size(); ++i) {
+            ASSERT_LE(glm::length(made->center[i] - cloud.translate),
+                      reach + 1e-15 * limits::kMaxCoordinate)
+                << seed;
+            const double own = static_cast<double>(made->radius[i]) / cloud.scale;
+            ASSERT_GE(own, limits::kMinRadius) << seed;
+            ASSERT_LE(own, limits::kMaxRadius) << seed;
+            ASSERT_GE(made->density[i], 0) << seed;
+            ASSERT_LE(made->density[i], static_cast<float>(limits::kMaxDensity)) << seed;
+        }
+        ASSERT_TRUE(made->error >= 0 && made->error <= 1) << seed;
+        ASSERT_TRUE(same_bytes(*made, *generate(scene, 2, {}))) << seed;
+    }
+}
+
+TEST(Spheres, GivesUpWhenNobodyWaits) {
+    Deadline over;
+    over.until = Deadline::Clock::now();
+    const auto made = spheres_particles(cloud_of(8), request_of(1, 2), over);
+    ASSERT_FALSE(made.ok());
+    EXPECT_EQ(made.error().code, ErrorCode::kOverDeadline);
+}
+
+}  // namespace
+}  // namespace awan

@@ -1,0 +1,224 @@
+// Controls from descriptions: model_*.js say what a cloud of each model has, this makes fields of it.
+// A description's `member` is its place within the object at hand ("wind/mutation"); where that object
+// is in the document, `base()` says, for the cloud that is being edited changes.
+//
+//   { member, label, min, max, step | log, unit, standard }      a slider
+//   { kind: "number", member, label, standard, unit, empty }      a number; `empty`: what none of it means
+//   { kind: "select", member, label, choices, standard }
+//   { kind: "vector", member, label, standard, step, unit }       three numbers
+//   { kind: "switch", member, label, fresh, fields }              an object that may be left out
+//   { kind: "section", title, fields }                            folded away until the document has some of it
+//   { kind: "table", member, title, one, fresh, columns }         a list of objects, a row each
+//   { kind: "cards", member, title, one, fresh, fields }          a list of objects, a box each
+//
+// Any may have a `hint`, shown by the pointer. `standard` is what the service takes where the document says nothing; a function of the model's own
+// object where that depends on another field of it.
+
+import { select, slider, stepByArrows, numberInput } from "./controls.js";
+import { at, withAt } from "./document.js";
+import { el, freshId } from "./dom.js";
+import { createObjectTable } from "./object_table.js";
+
+const standardOf = (spec, own) => (typeof spec.standard === "function" ? spec.standard(own) : spec.standard);
+
+// Within these: `store`, `base()` the pointer to the object, `own()` the object of the model.
+const pointerOf = ({ base }, spec) => () => `${base()}/${spec.member}`;
+const valueOf = (context, spec) => at(context.store.scene, pointerOf(context, spec)()) ?? standardOf(spec, context.own());
+
+function makeSlider(context, spec) {
+  return slider(context.store, { ...spec, pointer: pointerOf(context, spec), get: () => valueOf(context, spec) });
+}
+
+function makeNumber(context, spec) {
+  const id = freshId("number");
+  const place = pointerOf(context, spec);
+  const optional = spec.standard === undefined;
+  const number = numberInput({
+    id, optional, placeholder: spec.empty,
+    get: () => valueOf(context, spec), set: (value, options) => context.store.set(place(), value, options),
+  });
+  stepByArrows(number.input, spec.step ?? 1);
+  const element = el("div", { class: "field number" }, el("label", { for: id }, spec.label), number.input,
+    spec.unit ? el("span", { class: "unit", "aria-hidden": "true" }, spec.unit) : null);
+  return {
+    element,
+    refresh() {
+      element.dataset.pointer = place();
+      number.refresh();
+    },
+  };
+}
+
+function makeSelect(context, spec) {
+  return select(context.store, { ...spec, pointer: pointerOf(context, spec), get: () => valueOf(context, spec) });
+}
+
+// Three numbers in a row. Writing one writes all: a document has whole vectors only.
+export function vector(store, { label, pointer, get, set, step = 1, unit = "" }) {
+  const write = set ?? ((value, options) => store.set(pointer(), value, options));
+  const axes = ["x", "y", "z"].map((axis, i) => {
+    const field = numberInput({
+      "aria-label": `${label}, ${axis}`, title: axis, digits: 5,
+      get: () => get()?.[i],
+      set: (value, options) => {
+        const before = get();
+        write([0, 1, 2].map((k) => (k === i ? value : before?.[k] ?? 0)), options);
+      },
+    });
+    stepByArrows(field.input, step);
+    return field;
+  });
+  const element = el("div", { class: "field vector", role: "group", "aria-label": label }, el("span", { class: "name" }, label),
+    el("span", { class: "axes" }, ...axes.map(({ input }, i) => el("span", { "data-axis": "xyz"[i] }, input))),
+    unit ? el("span", { class: "unit", "aria-hidden": "true" }, unit) : null);
+  return {
+    element,
+    refresh() {
+      element.dataset.pointer = pointer();
+      axes.forEach(({ input, refresh }, i) => {
+        input.dataset.pointer = `${pointer()}/${i}`;
+        refresh();
+      });
+    },
+  };
+}
+
+function makeVector(context, spec) {
+  return vector(context.store, { ...spec, pointer: pointerOf(context, spec), get: () => valueOf(context, spec) });
+}
+
+// Off, the object is not there; what it was is kept for when it is on again.
+function makeSwitch(context, spec) {
+  const { store } = context;
+  const place = pointerOf(context, spec);
+  const now = () => {
+    const value = at(store.scene, place());
+    return value !== null && typeof value === "object" ? value : null;
+  };
+  let kept = spec.fresh;
+  const id = freshId("switch");
+  const input = el("input", {
+    type: "checkbox", id,
+    onchange: () => {
+      if (!input.checked) kept = now() ?? kept;
+      store.set(place(), input.checked ? structuredClone(kept) : undefined);
+    },
+  });
+  const inner = makeFields({ ...context, base: place }, spec.fields);
+  const box = el("div", { class: "inner" }, ...inner.map(({ element }) => element));
+  const element = el("div", { class: "switched" },
+    el("div", { class: "field checkbox" }, input, el("label", { for: id }, spec.label)), box);
+  return {
+    element,
+    refresh() {
+      element.dataset.pointer = place();
+      box.hidden = now() === null;
+      input.checked = !box.hidden;
+      if (!box.hidden) inner.forEach((field) => field.refresh());
+    },
+  };
+}
+
+function makeSection(context, spec) {
+  const inner = makeFields(context, spec.fields);
+  const element = el("details", { class: "section" }, el("summary", {}, el("h3", {}, spec.title)), ...inner.map((field) => field.element));
+  const isIn = ({ member }) => member !== undefined && at(context.store.scene, `${context.base()}/${member}`) !== undefined;
+  let said = false; // whether the document said something of it, when last looked at
+  return {
+    element,
+    refresh() {
+      const says = spec.fields.some(isIn);
+      if (says && !said) element.open = true;
+      said = says;
+      inner.forEach((field) => field.refresh());
+    },
+  };
+}
+
+function makeTable(context, spec) {
+  return createObjectTable(context.store, { ...spec, pointer: pointerOf(context, spec) });
+}
+
+const kCardsShown = 12; // documents with more are not written by hand
+
+function makeCards(context, spec) {
+  const { store } = context;
+  const place = pointerOf(context, spec);
+  const list = () => {
+    const value = at(store.scene, place());
+    return Array.isArray(value) ? value : [];
+  };
+  const change = (next) => store.update((scene) => withAt(scene, place(), next.length ? next : undefined));
+  const box = el("div", { class: "cards" });
+  const add = el("button", {
+    type: "button",
+    onclick: () => {
+      change([...list(), structuredClone(spec.fresh)]);
+      box.lastElementChild?.querySelector("input, select")?.focus();
+    },
+  }, `Add ${spec.one}`);
+  const more = el("p", { class: "why", hidden: true });
+  let cards = [];
+
+  function build(index) {
+    const inner = makeFields({ ...context, base: () => `${place()}/${index}` }, spec.fields);
+    const drop = el("button", {
+      type: "button", class: "delete", "aria-label": `Delete ${spec.noun} ${index + 1}`,
+      onclick: () => {
+        change(list().filter((_one, i) => i !== index));
+        (box.children[Math.min(index, box.children.length - 1)]?.querySelector(".delete") ?? add).focus();
+      },
+    }, "Delete");
+    const element = el("fieldset", { class: "card" }, el("legend", {}, `${spec.noun[0].toUpperCase()}${spec.noun.slice(1)} ${index + 1}`),
+      ...inner.map((field) => field.element), drop);
+    return {
+      element,
+      refresh() {
+        element.dataset.pointer = `${place()}/${index}`;
+        inner.forEach((field) => field.refresh());
+      },
+    };
+  }
+
+  const element = el("div", { class: "list" }, el("h3", {}, spec.title), spec.why ? el("p", { class: "why" }, spec.why) : null,
+    box, more, el("div", { class: "table-tools" }, add));
+  return {
+    element,
+    refresh() {
+      element.dataset.pointer = place();
+      const count = Math.min(list().length, kCardsShown);
+      if (count !== cards.length) {
+        cards = Array.from({ length: count }, (_unused, i) => build(i));
+        box.replaceChildren(...cards.map((card) => card.element));
+      }
+      cards.forEach((card) => card.refresh());
+      more.hidden = list().length <= kCardsShown;
+      more.textContent = `${list().length - kCardsShown} more: edit them as JSON below.`;
+    },
+  };
+}
+
+const MAKERS = {
+  number: makeNumber, select: makeSelect, vector: makeVector, switch: makeSwitch,
+  section: makeSection, table: makeTable, cards: makeCards, slider: makeSlider,
+};
+
+// A field that only some documents have says so by `when(own)`.
+function shownWhen(context, { when }, field) {
+  if (!when) return field;
+  return {
+    element: field.element,
+    refresh() {
+      field.element.hidden = !when(context.own());
+      if (!field.element.hidden) field.refresh();
+    },
+  };
+}
+
+export function makeFields(context, specs) {
+  return specs.map((spec) => {
+    const field = spec.make ? spec.make(context) : MAKERS[spec.kind ?? "slider"](context, spec);
+    if (spec.hint) field.element.title = spec.hint;
+    return shownWhen(context, spec, field);
+  });
+}
