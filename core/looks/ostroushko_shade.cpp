@@ -13,8 +13,8 @@ namespace awan::looks {
 namespace {
 
 constexpr int kWaves = 3;        // of the relief
-constexpr double kSteepest = 4;   // of their frequencies, radians over the radius, along each axis
-constexpr double kBump = 0.06;    // height of a wave, radii
+constexpr double kSteepest = 4;  // of their frequencies, radians over the radius, along each axis
+constexpr double kBump = 0.06;   // height of a wave, radii
 
 double part(std::uint64_t bits, int from) {  // 16 of them, -1..1
     return static_cast<double>(bits >> from & 0xffffu) / 0x8000 - 1;
@@ -31,9 +31,8 @@ LookLight look_light(const Scene& scene) {
     light.above = sky.above;
     light.below = sky.below;
     if (scene->ground)
-        light.below = scene->ground->albedo *
-                      (light.sun * std::max(light.to_sun.y, 0.0) +
-                       sky.irradiance_up / std::numbers::pi);
+        light.below = scene->ground->albedo * (light.sun * std::max(light.to_sun.y, 0.0) +
+                                               sky.irradiance_up / std::numbers::pi);
     // What is scattered forward goes on: similarity, depth (1 - albedo g).
     light.softened = 1 - scene->medium.albedo * std::max(scene->medium.g, 0.0);
     light.albedo = scene->medium.albedo;
@@ -63,8 +62,8 @@ glm::dvec3 shade(const LookLight& light, const Reaching& share, const glm::dvec3
     // Light comes round a ball of cloud: half at its limb, none at its back.
     const double facing = (1 + glm::dot(normal, light.to_sun)) / 2;
     const double up = (1 + normal.y) / 2;
-    return light.albedo * (share.sun * facing * light.sun + share.sky * up * light.above +
-                           (1 - up) * light.below);
+    return light.albedo *
+           (share.sun * facing * light.sun + share.sky * up * light.above + (1 - up) * light.below);
 }
 
 }  // namespace awan::looks

@@ -25,8 +25,8 @@ struct Gathering {
         const double r = node.sphere.radius;
         if (!may_meet(cone, v, r)) return;
         const double near = std::max(glm::length(v) - r, 0.0);
-        const bool leaf = level == cloud.levels ||
-                          2 * r < near * scene.pixel_angle * scene.finest_pixels;
+        const bool leaf =
+            level == cloud.levels || 2 * r < near * scene.pixel_angle * scene.finest_pixels;
         if (place == kNowhere && (leaf || level == kLitLevel)) {
             place = static_cast<std::uint32_t>(found.places.size());
             found.places.push_back({from_eye(v), false, {}});
@@ -75,9 +75,8 @@ class Tracer {
             if (meeting.hit.enter >= end) continue;
             meeting.hit.leave = std::min(meeting.hit.leave, end);
             const auto place =
-                std::find_if(waiting_.rbegin(), waiting_.rend(), [&](const Meeting& one) {
-                    return one.hit.enter > meeting.hit.enter;
-                });
+                std::find_if(waiting_.rbegin(), waiting_.rend(),
+                             [&](const Meeting& one) { return one.hit.enter > meeting.hit.enter; });
             waiting_.insert(place.base(), meeting);
         }
         while (!waiting_.empty() && traced.left > kOpaque) take_nearest(ray, traced);
@@ -99,8 +98,8 @@ class Tracer {
         const glm::dvec3 outward = meeting.hit.enter * ray - sphere.center;
         const double length = glm::length(outward);
         const glm::dvec3 normal = length > 0 ? outward / length : -ray;
-        traced.radiance += traced.left * (1 - kept) *
-                           shade(scene_.light, place.share, bumped(normal, sphere.key));
+        traced.radiance +=
+            traced.left * (1 - kept) * shade(scene_.light, place.share, bumped(normal, sphere.key));
         traced.left *= kept;
     }
 
@@ -116,9 +115,8 @@ struct Block {
 
 Cone cone_of(const LookScene& scene, const Block& block) {
     const int right = block.right - 1, bottom = block.bottom - 1;
-    const glm::dvec3 corners[] = {
-        ray_of(scene, block.x, block.y), ray_of(scene, right, block.y),
-        ray_of(scene, block.x, bottom), ray_of(scene, right, bottom)};
+    const glm::dvec3 corners[] = {ray_of(scene, block.x, block.y), ray_of(scene, right, block.y),
+                                  ray_of(scene, block.x, bottom), ray_of(scene, right, bottom)};
     Cone cone{glm::normalize(corners[0] + corners[1] + corners[2] + corners[3]), 0, 1};
     for (const glm::dvec3& corner : corners)
         cone.cosine = std::min(cone.cosine, glm::dot(cone.axis, corner));
@@ -138,9 +136,9 @@ void draw_block(const LookScene& scene, const Block& block, const ConeSpheres& f
         const double end = scene.ground && ray.y < 0 ? std::max(drop / ray.y, 0.0)
                                                      : std::numeric_limits<double>::infinity();
         const Traced traced = tracer.trace(ray, end, some);
-        float* const pixel =
-            pixels + 4 * (static_cast<std::size_t>(block.y) * static_cast<std::size_t>(scene.width) +
-                          static_cast<std::size_t>(block.x));
+        float* const pixel = pixels + 4 * (static_cast<std::size_t>(block.y) *
+                                               static_cast<std::size_t>(scene.width) +
+                                           static_cast<std::size_t>(block.x));
         for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(traced.radiance[c]);
         pixel[3] = static_cast<float>(1 - (traced.left > kOpaque ? traced.left : 0));
         return;

@@ -213,8 +213,10 @@ std::uint64_t most_particles(const EllipsoidsCloud& cloud) {
     if (cloud.plane) {
         const SkyPlane& plane = *cloud.plane;
         const double cell = plane.extent / static_cast<double>(plane.resolution);
+        // At most a cube, whatever the draft says.
         const auto layers =
-            static_cast<std::uint64_t>(std::max(1.0, std::ceil(plane.thickness / cell)));
+            static_cast<std::uint64_t>(std::min(std::max(1.0, std::ceil(plane.thickness / cell)),
+                                                static_cast<double>(plane.resolution)));
         most += plane.resolution * plane.resolution * layers;
     }
     return most;
