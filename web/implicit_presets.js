@@ -1,5 +1,5 @@
 // What each preset of the model "implicit" comes to (core/scene/implicit_presets.cpp): what the controls
-// show where the document is silent, and what "Edit the preset’s shapes" puts into it. page_models.mjs
+// show where the document is silent, and what "Edit the preset’s shapes" puts into it. page_defaults.mjs
 // compares the two.
 
 const kTen = 3; // units in ten metres, in which the places and radii below are

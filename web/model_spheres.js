@@ -20,8 +20,8 @@ export const spheres = {
       choices: [["first", "at the first step"], ["every", "at every step"]], standard: "first" },
     { kind: "section", title: "Randomness", fields: [
       { member: "ratio_min", label: "Ratio, least", hint: "Radius of a sphere over its parent’s", ...ratio,
-        standard: cumulus(0.26, 0.05) },
-      { member: "ratio_max", label: "… most", ...ratio, standard: cumulus(0.76, 0.9) },
+        standard: cumulus(0.26, 0.2) },
+      { member: "ratio_max", label: "… most", ...ratio, standard: cumulus(0.76, 0.7) },
       { member: "shift_min", label: "Shift, least", hint: "How far out in its parent a sphere stands", min: 0, max: 1,
         step: 0.01, standard: cumulus(0.9, 0.5) },
       { member: "shift_max", label: "… most", min: 0, max: 1, step: 0.01, standard: 1 },
