@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 
-import { withAt } from "../web/document.js";
+import { DEFAULTS, withAt } from "../web/document.js";
 import { IMPLICIT_PRESETS } from "../web/implicit_presets.js";
 import { automaton } from "../web/model_automaton.js";
 import { ellipsoids } from "../web/model_ellipsoids.js";
@@ -16,15 +16,19 @@ const SMALL = {
   automaton: { cells: [24, 16, 24] }, spheres: { levels: 2 }, implicit: { resolution: 16 }, ellipsoids: { resolution: 8 },
 };
 
-async function ask(model, own, tag) {
+async function askScene(scene, tag) {
   const answer = await fetch(`${origin}/v1/particles`, {
-    method: "POST", body: JSON.stringify({ clouds: [{ model, [model]: { ...SMALL[model], ...own } }] }),
+    method: "POST", body: JSON.stringify(scene),
     headers: { "Content-Type": "application/json", Accept: "text/csv", ...(tag ? { "If-None-Match": tag } : {}) },
   });
   const text = await answer.text();
-  assert.ok([200, 304].includes(answer.status), `${model} ${JSON.stringify(own)}: ${text}`);
+  assert.ok([200, 304].includes(answer.status), `${JSON.stringify(scene)}: ${text}`);
   return answer;
 }
+const ask = (model, own, tag) => askScene({ clouds: [{ model, [model]: { ...SMALL[model], ...own } }] }, tag);
+
+// What is required beside a default.
+const WITH = { ground: {}, haze: { extinction: 0.01, scale_height: 10 }, detail: {}, camera: { eye: [0, 0, 20], target: [0, 0, 0] } };
 
 // around(object): the model's own object with this one in its place.
 async function walk(model, specs, around, own, wrong) {
@@ -54,6 +58,12 @@ async function walk(model, specs, around, own, wrong) {
 export const defaultsTests = {
   async "shows what the service takes where a document is silent"() {
     const wrong = [];
+    for (const [pointer, value] of Object.entries(DEFAULTS)) {
+      const [, name] = pointer.split("/");
+      const scene = { cubes: [], ...(WITH[name] ? { [name]: WITH[name] } : {}) };
+      const tag = (await askScene(scene)).headers.get("ETag");
+      if ((await askScene(withAt(scene, pointer, value), tag)).status !== 304) wrong.push(`${pointer}: not ${JSON.stringify(value)}`);
+    }
     for (const { name, fields } of [automaton, ellipsoids]) await walk(name, fields, (object) => object, {}, wrong);
     for (const kind of ["cumulus", "cirrus"]) await walk("spheres", spheres.fields, (object) => ({ kind, ...object }), { kind }, wrong);
     for (const preset of Object.keys(IMPLICIT_PRESETS)) {
