@@ -2,8 +2,8 @@
 
 import assert from "node:assert/strict";
 
-import { IMPLICIT_PRESETS } from "../web/implicit_presets.js";
 import { choose, group, look, origin, renders, settled } from "./page_browser.mjs";
+import { defaultsTests } from "./page_defaults.mjs";
 
 const sent = () => renders.at(-1).scene;
 
@@ -67,20 +67,7 @@ export const modelTests = {
     assert.equal((await look(page)).hash, cubes.hash, "cubes, camera and density are as they were");
   },
 
-  async "knows what the presets of implicit functions come to"() {
-    for (const [preset, its] of Object.entries(IMPLICIT_PRESETS)) {
-      const [short, whole] = await Promise.all([{ preset }, { preset, ...its }].map(async (implicit) => {
-        const answer = await fetch(`${origin}/v1/particles`, {
-          method: "POST", headers: { "Content-Type": "application/json", Accept: "text/csv" },
-          body: JSON.stringify({ clouds: [{ model: "implicit", implicit: { ...implicit, resolution: 16 } }] }),
-        });
-        assert.equal(answer.status, 200, preset);
-        return answer.text();
-      }));
-      assert.ok(short.length > 1000);
-      assert.equal(whole, short, `${preset}: web/implicit_presets.js and core/scene/implicit_presets.cpp differ`);
-    }
-  },
+  ...defaultsTests,
 
   async "shows what is wrong with a model at its field, and edits lists"(page) {
     await model(page).selectOption("spheres");
