@@ -116,7 +116,7 @@ inline constexpr std::uint64_t kMaxFrames =
 inline constexpr double kMaxAutomatonSide = 1024;  // cells along an axis
 // 1024 x 64 x 1024: four bits a cell of state and 17 of probabilities, 180 MiB.
 inline constexpr double kMaxAutomatonCells = 1u << 26;
-inline constexpr double kMinAutomatonCell = 1e-3, kMaxAutomatonCell = 1e5;  // units
+inline constexpr double kMinAutomatonCell = 1e-3, kMaxAutomatonCell = 1e3;  // units
 inline constexpr std::uint64_t kMaxAutomatonEllipsoids = 1'000;             // both kinds together
 inline constexpr std::uint64_t kMaxAutomatonBands = 100;  // each moves every ellipsoid at each step
 inline constexpr double kMinAutomatonRadius = 0.5;        // cells: below, it may contain none
