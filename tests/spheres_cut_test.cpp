@@ -40,8 +40,8 @@ ModelParticles made_of(const SpheresCloud& cloud, double angle, std::optional<gl
 double mass_of(const ReadyParticles& set) {
     double mass = 0;
     for (std::size_t i = 0; i < set.radii.size(); ++i)
-        mass += static_cast<double>(set.densities[i]) *
-                std::pow(static_cast<double>(set.radii[i]), 3);
+        mass +=
+            static_cast<double>(set.densities[i]) * std::pow(static_cast<double>(set.radii[i]), 3);
     return mass;
 }
 
@@ -143,7 +143,8 @@ TEST(SpheresCut, TheDeepestTreesStayWithinTheirBudget) {
     const ModelParticles made = made_of(cloud, 0, glm::dvec3(10, 20, 5), 2);
     const std::size_t count = made.particles.positions.size();
     EXPECT_LE(count, limits::kMaxSpheresParticles);
-    EXPECT_GT(count, limits::kMaxSpheresParticles / 2);  // classes of sizes are an eighth octave wide
+    EXPECT_GT(count,
+              limits::kMaxSpheresParticles / 2);  // classes of sizes are an eighth octave wide
     EXPECT_GT(made.error, 0);
 }
 
