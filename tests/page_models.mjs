@@ -28,12 +28,15 @@ const MODELS = {
 };
 const titles = Object.values(MODELS).map(({ title }) => title);
 const model = (page) => group(page, "Cloud").getByLabel("Model", { exact: true });
-const section = (panel, title) => panel.locator("details.section").filter({ has: panel.page().getByRole("heading", { name: title, exact: true }) }).locator("summary");
+async function unfold(panel, title) { // those that a document has something of are
+  const section = panel.locator("details.section").filter({ has: panel.page().getByRole("heading", { name: title, exact: true }) });
+  if (!(await section.evaluate((details) => details.open))) await section.locator("summary").click();
+}
 
 async function takesUp(page, name) {
   const { title, section: folded, field, member, value } = MODELS[name];
   const panel = group(page, title);
-  if (folded) await section(panel, folded).click();
+  if (folded) await unfold(panel, folded);
   const before = await look(page);
   assert.ok(before.variance > 20, `${name}: a blank picture, variance ${before.variance}`);
   await panel.getByLabel(field).first().fill(String(value));
@@ -87,7 +90,7 @@ export const modelTests = {
     await model(page).selectOption("implicit");
     await settled(page);
     const panel = group(page, MODELS.implicit.title);
-    await section(panel, "Shapes").click();
+    await unfold(panel, "Shapes");
     const before = await look(page);
     await panel.getByRole("button", { name: "Edit the preset’s shapes" }).click();
     await settled(page);
@@ -135,7 +138,7 @@ export const modelTests = {
 
   async "moves clouds by a slider, plays, and stops"(page) {
     assert.equal(await page.isVisible("#time-bar"), false, "nothing moves");
-    await section(group(page, "Cloud"), "Place and motion").click();
+    await unfold(group(page, "Cloud"), "Place and motion");
     await group(page, "Cloud").getByLabel("Velocity, x").fill("2");
     await page.waitForSelector("#time-bar");
     await group(page, "Time").locator("summary").click();
