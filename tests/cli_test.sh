@@ -194,6 +194,42 @@ run 0 render layout.awn -o d.png --width 64 --height 48
 __EGL_VENDOR_LIBRARY_FILENAMES=/nowhere run 4 render scene.json -o e.png
 same "no file without a renderer" "" "$(ls e.png 2>/dev/null)"
 
+# --- states of automata
+printf '{"clouds":[{"model":"automaton","automaton":{"cells":[40,12,40],"steps_per_second":2}}],"time":3}' >automaton.json
+sed 's/"time":3/"time":5.2/' automaton.json >afterwards.json
+run 2 state automaton.json
+run 0 state automaton.json -o at3.state
+same "silence" "" "$(cat out err)"
+run 0 particles afterwards.json -o from0.csv
+run 0 particles afterwards.json -o from3.csv --state at3.state --threads 1
+cmp -s from0.csv from3.csv || fail "a resumed automaton is another"
+[ "$(wc -l <from0.csv)" -gt 500 ] || fail "an automaton has a cloud"
+run 0 state afterwards.json -o at5.state
+run 0 particles automaton.json -o a3.csv
+run 0 particles automaton.json -o b3.csv --state at5.state
+cmp -s a3.csv b3.csv || fail "a state that is too late changes something"
+run 0 plan afterwards.json --state at3.state
+run 0 render afterwards.json -o state.png --width 16 --height 12 --rung harris --state at3.state
+sed 's/"time":3/"time":3,"seed":7/' automaton.json >other.json
+run 3 particles other.json --state at3.state
+contains "another seed" "seed" "$(cat err)"
+sed 's/40,12,40/40,13,40/' automaton.json >other.json
+run 3 plan other.json --state at3.state
+contains "another grid" "parameters" "$(cat err)"
+run 3 particles scene.json --state at3.state
+run 3 state scene.json -o none.state
+contains "no automaton" "/clouds" "$(cat err)"
+head -c 3000 at3.state >half.state
+run 3 plan automaton.json --state half.state
+contains "half a state" "half.state" "$(cat err)"
+run 5 plan automaton.json --state nothing.state
+printf '{"clouds":[{"model":"automaton","automaton":{}},{"model":"automaton","automaton":{"cells":[20,8,20]}}]}' >two.json
+run 3 state two.json -o two.state
+contains "which of two" "--cloud" "$(cat err)"
+run 3 state two.json -o two.state --cloud 2
+run 0 state two.json -o two.state --cloud 1
+run 0 plan two.json --state two.state
+
 # --- what accuracy costs
 run 0 accuracy scene.json -o acc.json -o acc.csv -o acc.png --samples 16 --size 16 --runs 2
 same "silence" "" "$(cat out err)"

@@ -37,7 +37,7 @@ TEST(WyvillCubic, IsThePrintedOneWithItsEnds) {
 // Integral of the density over space by the lattice: for smooth fields with nothing at their edge, midpoints are better than
 // the tolerances, which leave room for the kink in the second derivative at the reach.
 double integral(const ImplicitCloud& cloud, std::uint64_t resolution = 96) {
-    const ImplicitField field = prepare_field(cloud, test::kKey, 0, 0);
+    const ImplicitField field = prepare_field(cloud, test::kKey, 0);
     LatticeField lattice = lattice_over(field, resolution);
     EXPECT_FALSE(sample(field, 2, {}, lattice));
     return lattice_mass(lattice);

@@ -2,8 +2,8 @@
 
 import assert from "node:assert/strict";
 
-import { IMPLICIT_PRESETS } from "../web/implicit_presets.js";
 import { choose, group, look, origin, renders, settled } from "./page_browser.mjs";
+import { defaultsTests } from "./page_defaults.mjs";
 
 const sent = () => renders.at(-1).scene;
 
@@ -67,20 +67,7 @@ export const modelTests = {
     assert.equal((await look(page)).hash, cubes.hash, "cubes, camera and density are as they were");
   },
 
-  async "knows what the presets of implicit functions come to"() {
-    for (const [preset, its] of Object.entries(IMPLICIT_PRESETS)) {
-      const [short, whole] = await Promise.all([{ preset }, { preset, ...its }].map(async (implicit) => {
-        const answer = await fetch(`${origin}/v1/particles`, {
-          method: "POST", headers: { "Content-Type": "application/json", Accept: "text/csv" },
-          body: JSON.stringify({ clouds: [{ model: "implicit", implicit: { ...implicit, resolution: 16 } }] }),
-        });
-        assert.equal(answer.status, 200, preset);
-        return answer.text();
-      }));
-      assert.ok(short.length > 1000);
-      assert.equal(whole, short, `${preset}: web/implicit_presets.js and core/scene/implicit_presets.cpp differ`);
-    }
-  },
+  ...defaultsTests,
 
   async "shows what is wrong with a model at its field, and edits lists"(page) {
     await model(page).selectOption("spheres");
@@ -112,6 +99,11 @@ export const modelTests = {
     await settled(page);
     assert.notEqual((await look(page)).hash, before.hash);
     assert.equal(sent().clouds[0].implicit.primitives.length, 8);
+    for (const shape of ["segment", "cylinder", "ellipsoid", "sphere"]) {
+      await panel.getByLabel("primitive 2, shape", { exact: true }).selectOption(shape);
+      await settled(page);
+      assert.equal(await page.textContent("#alert"), "", shape);
+    }
     await model(page).selectOption("ellipsoids");
     await group(page, MODELS.ellipsoids.title).getByRole("button", { name: "Add a formation" }).click();
     await group(page, MODELS.ellipsoids.title).getByLabel("Ellipsoids, number").fill("5");

@@ -4,7 +4,7 @@
 import { compactJson, parseJson, prettyJson } from "./json_text.js";
 
 // What the service assumes for fields that a document leaves out; the controls show these.
-const DEFAULTS = {
+export const DEFAULTS = {
   "/fill": "uniform",
   "/seed": 1,
   "/density": 0.2,
@@ -107,7 +107,8 @@ export function sceneFromAwn(text) {
 const HISTORY = 200; // steps of undo
 const ONE_STEP_MS = 1000; // edits of one field this close together are undone together
 
-// Holds the document. Listeners get { moving }: true while a slider or a drag is under way.
+// Holds the document. Listeners get { moving, replaced }: whether a slider or a drag is under way, and
+// whether the document is another one.
 export function createStore() {
   let scene = { cubes: [] };
   let written = null; // the text as someone wrote it, while it still says the same as `scene`
@@ -118,14 +119,14 @@ export function createStore() {
   const listeners = [];
   const tell = (change) => listeners.forEach((listener) => listener(change));
 
-  function become(next, { key = null, moving = false, text = null, preset = null } = {}) {
+  function become(next, { key = null, moving = false, text = null, preset = null, replaced = false } = {}) {
     const now = performance.now();
     const together = key !== null && key === lastKey && now - lastTime < ONE_STEP_MS;
     if (!together) past = [...past.slice(1 - HISTORY), { scene, written }];
     future = [];
     [lastKey, lastTime] = [key, now];
     [scene, written] = [next, text];
-    tell({ moving, preset });
+    tell({ moving, preset, replaced });
   }
   function travel(from, to) {
     if (!from.length) return;
@@ -153,7 +154,7 @@ export function createStore() {
       if (value === null || typeof value !== "object" || Array.isArray(value)) {
         throw new TypeError("A scene document is a JSON object: { … }.");
       }
-      become(value, { text, preset, key });
+      become(value, { text, preset, key, replaced: key === null });
     },
     undo() { travel(past, future); },
     redo() { travel(future, past); },

@@ -7,7 +7,7 @@
 //   { kind: "select", member, label, choices, standard }
 //   { kind: "vector", member, label, standard, step, unit }       three numbers
 //   { kind: "switch", member, label, fresh, fields }              an object that may be left out
-//   { kind: "section", title, fields }                            folded away
+//   { kind: "section", title, fields }                            folded away until the document has some of it
 //   { kind: "table", member, title, one, fresh, columns }         a list of objects, a row each
 //   { kind: "cards", member, title, one, fresh, fields }          a list of objects, a box each
 //
@@ -69,7 +69,8 @@ export function vector(store, { label, pointer, get, set, step = 1, unit = "" })
     return field;
   });
   const element = el("div", { class: "field vector", role: "group", "aria-label": label }, el("span", { class: "name" }, label),
-    el("span", { class: "axes" }, ...axes.map(({ input }) => input)), unit ? el("span", { class: "unit", "aria-hidden": "true" }, unit) : null);
+    el("span", { class: "axes" }, ...axes.map(({ input }, i) => el("span", { "data-axis": "xyz"[i] }, input))),
+    unit ? el("span", { class: "unit", "aria-hidden": "true" }, unit) : null);
   return {
     element,
     refresh() {
@@ -104,7 +105,7 @@ function makeSwitch(context, spec) {
     },
   });
   const inner = makeFields({ ...context, base: place }, spec.fields);
-  const box = el("div", { class: "inner", role: "group", "aria-label": spec.label }, ...inner.map(({ element }) => element));
+  const box = el("div", { class: "inner" }, ...inner.map(({ element }) => element));
   const element = el("div", { class: "switched" },
     el("div", { class: "field checkbox" }, input, el("label", { for: id }, spec.label)), box);
   return {
@@ -120,9 +121,17 @@ function makeSwitch(context, spec) {
 
 function makeSection(context, spec) {
   const inner = makeFields(context, spec.fields);
+  const element = el("details", { class: "section" }, el("summary", {}, el("h3", {}, spec.title)), ...inner.map((field) => field.element));
+  const isIn = ({ member }) => member !== undefined && at(context.store.scene, `${context.base()}/${member}`) !== undefined;
+  let said = false; // whether the document said something of it, when last looked at
   return {
-    element: el("details", { class: "section" }, el("summary", {}, el("h3", {}, spec.title)), ...inner.map(({ element }) => element)),
-    refresh() { inner.forEach((field) => field.refresh()); },
+    element,
+    refresh() {
+      const says = spec.fields.some(isIn);
+      if (says && !said) element.open = true;
+      said = says;
+      inner.forEach((field) => field.refresh());
+    },
   };
 }
 

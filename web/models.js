@@ -23,10 +23,10 @@ const LOOKS = { spheres: "ostroushko", ellipsoids: "gardner" };
 const FRESH_CUBES = [{ particles: 200, size: [8, 2, 6], center: [0, 0, 0], radius: 1.5 }];
 const ofModel = (name) => (name === "cubes" ? { cubes: FRESH_CUBES } : name === "particles" ? { positions: [[0, 0, 0]], radii: [1] } : { [name]: {} });
 
-// What a cloud of any model may have; the rest of it is its model's.
-const SHARED = ["translate", "scale", "rotate_y", "velocity", "density", "seed", "fill"];
-// Models have sizes of their own, from 10 units to 500: what surrounds an only cloud of one of them
-// would drown or lose one of another.
+const PLACE = ["translate", "scale", "rotate_y", "velocity"];
+// Models have sizes of their own, from 10 units to 500. What of a cloud goes with it to another model;
+// and what of the scene does not, where it is the only cloud: it would drown or lose the other.
+const KEPT = ["translate", "rotate_y", "velocity", "seed"];
 const SURROUNDINGS = ["camera", "ground", "haze", "density"];
 
 const split = (object, names) => {
@@ -43,6 +43,22 @@ export function somethingMoves(scene) {
     return (Array.isArray(cloud.velocity) && cloud.velocity.some((v) => v !== 0)) ||
       (own !== null && typeof own === "object" && model.moves(own));
   });
+}
+
+// Models that sample a lattice: cells along its longest side where the document says nothing.
+const LATTICES = { implicit: 72, ellipsoids: 64 };
+const kCoarsest = 32; // the shape is still the same
+
+// For a picture of reduced size: its pixels are larger, so the cells may be.
+export function coarser(scene, reduction) {
+  if (!Array.isArray(scene.clouds)) return scene;
+  const clouds = scene.clouds.map((cloud) => {
+    const own = cloud?.[cloud.model];
+    const cells = own?.resolution ?? LATTICES[cloud?.model];
+    if (own === null || typeof own !== "object" || !LATTICES[cloud.model] || !(cells > kCoarsest)) return cloud;
+    return { ...cloud, [cloud.model]: { ...own, resolution: Math.max(kCoarsest, Math.round(cells / Math.sqrt(reduction))) } };
+  });
+  return { ...scene, clouds };
 }
 
 // Which cloud is being edited.
@@ -65,6 +81,10 @@ export function createModels(store, choice, { changed, bounds, note }) {
   let kept = []; // a cloud, by model: what it was when that model was left
   let said = null; // whether place and motion said something, when last looked at
 
+  let keptAccuracy; // a look has none
+
+  const withoutLook = ({ look: _look, ...scene }) =>
+    (_look === undefined || keptAccuracy === undefined ? scene : { accuracy: keptAccuracy, ...scene });
   const changeClouds = (change) => store.update((scene) => {
     const listed = withCloudList(scene);
     return { ...listed, clouds: change(listed.clouds) };
@@ -89,11 +109,11 @@ export function createModels(store, choice, { changed, bounds, note }) {
     const { index, model } = choice;
     let left = false;
     store.update((scene) => {
-      const { clouds, ...rest } = withCloudList(scene);
+      const { clouds, ...rest } = withoutLook(withCloudList(scene));
       const alone = clouds.length === 1;
       const { model: _old, ...cloud } = clouds[index];
-      const [shared, matter] = split(cloud, SHARED);
-      const [around, elsewhere] = split(rest, alone ? [...SURROUNDINGS, "look"] : ["look"]);
+      const [shared, matter] = split(cloud, KEPT);
+      const [around, elsewhere] = split(rest, alone ? SURROUNDINGS : []);
       kept[index] = { ...kept[index], [model]: { matter, around } };
       left = Object.keys(around).length > 0;
       const before = kept[index][name];
@@ -147,13 +167,13 @@ export function createModels(store, choice, { changed, bounds, note }) {
     const names = new Set(cloudsOf(store.scene).map(({ cloud }) => LOOKS[modelOf(cloud)]));
     return names.size === 1 ? [...names][0] : undefined;
   };
-  let keptAccuracy; // a look has none
   const look = select(store, {
     label: "Look", pointer: () => "/look", choices: [["physical", "physical: light as it is"]], get: lookNow,
-    set: (name) => store.update(({ look: _look, accuracy, ...scene }) => {
+    set: (name) => store.update((scene) => {
+      if (name === "physical") return withoutLook(scene);
+      const { accuracy, ...rest } = scene;
       if (accuracy !== undefined) keptAccuracy = accuracy;
-      if (name !== "physical") return { ...scene, look: name };
-      return keptAccuracy === undefined ? scene : { ...scene, accuracy: keptAccuracy };
+      return { ...rest, look: name };
     }),
   });
   const looks = look.element.querySelector("select");
@@ -225,7 +245,7 @@ export function createModels(store, choice, { changed, bounds, note }) {
     readyMade.textContent = `${(cloud.positions?.length ?? 0).toLocaleString("en")} particles; edit them as JSON below.`;
     placement.forEach((field) => field.refresh());
     // Unfolded where it says something; then as the reader leaves it.
-    const says = Array.isArray(store.scene.clouds) && (count > 1 || SHARED.some((member) => cloud[member] !== undefined));
+    const says = Array.isArray(store.scene.clouds) && (count > 1 || PLACE.some((member) => cloud[member] !== undefined));
     if (said !== says) placementBox.open = said = says;
     panels.forEach((panel) => panel.refresh());
   }
@@ -233,7 +253,10 @@ export function createModels(store, choice, { changed, bounds, note }) {
   return {
     elements: [cloudGroup, ...panels.map((panel) => panel.element)],
     refresh,
-    forget() { kept = []; }, // the document is another one
+    forget() { // the document is another one
+      kept = [];
+      keptAccuracy = undefined;
+    },
     // Shows the cloud that holds the place of a pointer.
     reveal(pointer) {
       const [, k] = /^\/clouds\/(\d+)/.exec(pointer) ?? [];

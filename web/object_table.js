@@ -23,7 +23,9 @@ function head(columns) {
     el("tr", {}, ...columns.filter(({ over }) => over).map(({ title }) => th({ scope: "col" }, title))));
 }
 
-// spec: { title, noun, pointer(), fresh, columns: [{ title, over, member, step, choices, standard }], why }
+// spec: { title, noun, pointer(), fresh, columns: [{ title, over, member, step, choices, standard, change }], why,
+// change(row, chosen): the row with a choice that other fields of it follow.
+// bare: the title is only for those who listen }
 export function createObjectTable(store, spec) {
   const { pointer, noun, columns } = spec;
   const list = () => {
@@ -45,7 +47,7 @@ export function createObjectTable(store, spec) {
     },
   }, `Add ${spec.one}`);
 
-  function cellOf(index, { title, over, member, step = 1, choices, standard }) {
+  function cellOf(index, { title, over, member, step = 1, choices, standard, change: changed }) {
     const place = () => `${pointer()}/${index}/${member}`;
     const name = `${noun} ${index + 1}, ${over ? `${over} ` : ""}${title}`;
     const value = () => at(store.scene, place()) ?? standard;
@@ -59,7 +61,9 @@ export function createObjectTable(store, spec) {
       store.set(`${pointer()}/${index}/${whole}`, copy, options);
     };
     if (choices) {
-      const input = el("select", { "aria-label": name, onchange: () => set(input.value) },
+      const row = () => `${pointer()}/${index}`;
+      const write = () => (changed ? store.set(row(), changed(at(store.scene, row()) ?? {}, input.value)) : set(input.value));
+      const input = el("select", { "aria-label": name, onchange: write },
         ...choices.map(([word, shown]) => el("option", { value: word }, shown)));
       return { input, refresh: () => { input.dataset.pointer = place(); input.value = value() ?? ""; } };
     }
@@ -90,7 +94,7 @@ export function createObjectTable(store, spec) {
 
   const table = el("table", {}, el("caption", { class: "unseen" }, spec.title), head(columns), body);
   const scroll = el("div", { class: "table-scroll short", tabindex: "0", role: "region", "aria-label": spec.title }, table);
-  const element = el("div", { class: "list" }, el("h3", {}, spec.title), spec.why ? el("p", { class: "why" }, spec.why) : null,
+  const element = el("div", { class: "list" }, spec.bare ? null : el("h3", {}, spec.title), spec.why ? el("p", { class: "why" }, spec.why) : null,
     scroll, more, el("div", { class: "table-tools" }, add));
   return {
     element,

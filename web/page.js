@@ -11,7 +11,7 @@ import { createFigures } from "./figures.js";
 import { copy, createFiles } from "./files.js";
 import { compactJson } from "./json_text.js";
 import { createLayoutTable } from "./layout_table.js";
-import { createChoice, createModels } from "./models.js";
+import { coarser, createChoice, createModels } from "./models.js";
 import { cameraPanel, createPanels } from "./panels.js";
 import { createRenderLoop } from "./picture.js";
 import { clearMarks, focusProblem, markProblem, placeName } from "./problems.js";
@@ -132,11 +132,12 @@ async function askPlan() {
   }
 }
 
+let rung = ""; // of the last picture
 function textFor(reduction) {
   if (reduction === 1) return store.text;
-  const scene = time.playing ? time.playedScene() : store.scene;
+  const scene = time.playing ? time.playedScene(/^transport-/.test(rung) ? "transport-16" : null) : store.scene;
   const side = (member) => Math.max(1, Math.round(atOrDefault(scene, `/image/${member}`) / reduction));
-  return compactJson(withAt(withAt(scene, "/image/width", side("width")), "/image/height", side("height")));
+  return compactJson(withAt(withAt(coarser(scene, reduction), "/image/width", side("width")), "/image/height", side("height")));
 }
 
 const loop = createRenderLoop({
@@ -154,6 +155,7 @@ const loop = createRenderLoop({
     figures.picture(said, Math.round(width / reduction), Math.round(height / reduction));
     problem = null;
     showProblem();
+    rung = said.rung ?? "";
     if (full) askPlan();
     time.shown();
   },
@@ -179,9 +181,9 @@ function refreshControls() {
   byId("undo").disabled = !store.canUndo;
   byId("redo").disabled = !store.canRedo;
 }
-store.subscribe(({ moving, preset, same }) => {
+store.subscribe(({ moving, preset, replaced, same }) => {
   planFlight?.abort();
-  if (preset) {
+  if (replaced) {
     time.forget();
     models.forget();
     choice.index = 0;

@@ -60,7 +60,7 @@ export function createTime(store, { show, failed, copy, note }) {
   const range = el("input", { type: "range", "aria-label": "Time", step: "any" });
   const number = numberInput({
     id: "seconds", "aria-label": "Time, seconds", digits: 4,
-    get: () => short(playing ? playing.time : timeOf(store.scene)), set: (value, options) => moveTo(value, options),
+    get: () => (playing ? Number(playing.time.toFixed(1)) : timeOf(store.scene)), set: (value, options) => moveTo(value, options),
   });
   stepByArrows(number.input, 0.1);
   const ends = el("span", { class: "unit", "aria-hidden": "true" });
@@ -125,10 +125,11 @@ export function createTime(store, { show, failed, copy, note }) {
     show();
   }
   // The sequence's own planning is for its three frames; a frame that passes by needs only its own.
-  function playedScene() {
+  // `rung`: the quickest that looks like the document's own, or null.
+  function playedScene(rung) {
     const { sequence: _left, ...scene } = store.scene;
     const camera = isAutomatic(scene) && steady.camera ? { camera: steady.camera } : {};
-    return { ...scene, ...camera, time: short(playing.time) };
+    return { ...scene, ...camera, ...(rung ? { accuracy: { rung } } : {}), time: short(playing.time) };
   }
   document.addEventListener("visibilitychange", () => {
     if (document.hidden) pause();
@@ -137,6 +138,7 @@ export function createTime(store, { show, failed, copy, note }) {
   function refreshBar() {
     const [from, to] = spanOf(store.scene);
     bar.hidden = !playing && at(store.scene, "/sequence") === undefined && !somethingMoves(store.scene);
+    byId("space-plays").hidden = bar.hidden;
     if (play.textContent !== (playing ? "Pause" : "Play")) play.textContent = playing ? "Pause" : "Play";
     play.classList.toggle("playing", playing !== null);
     const time = playing ? playing.time : timeOf(store.scene);
@@ -171,7 +173,7 @@ export function createTime(store, { show, failed, copy, note }) {
     },
   });
   const limits = [ofSequence("From, s", "from"), ofSequence("To, s", "to"), ofSequence("Frames", "frames")];
-  const command = ([what, line]) => el("div", { class: "command" }, el("code", { tabindex: "0", "aria-label": `${what}: ${line}` }, line), el("button", {
+  const command = ([what, line]) => el("div", { class: "command" }, el("code", { tabindex: "0", role: "group", "aria-label": what }, line), el("button", {
     type: "button", "aria-label": `Copy the command: ${what}`,
     onclick: async () => {
       try {

@@ -19,7 +19,7 @@ using namespace gardner;
 
 constexpr int kTile = 16;           // pixels
 constexpr double kUnseen = 1e-4;    // of what is left of the light from behind
-constexpr double kHalfPixel = 0.5;  // standard deviation of what a pixel sees, pixels
+constexpr double kHalfPixel = 0.35;  // standard deviation of what a pixel sees, pixels; a square has .29
 constexpr double kFarthest = 1e15;  // scene units: the plane's horizon
 
 struct Surface {

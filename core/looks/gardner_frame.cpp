@@ -76,10 +76,33 @@ PixelBox box_of(const PlacedEllipsoid& one, const Motion& motion, const View& vi
     return box;
 }
 
+// The search for k takes up to a millisecond, and many clouds have one texture.
+struct MadeTexture {
+    SineTexture texture;
+    bool in_space;
+    TextureFunction function;
+};
+TextureFunction ready(const SineTexture& texture, bool in_space, const glm::dvec3& shift,
+                      std::vector<MadeTexture>& made) {
+    constexpr std::size_t kKept = 8;  // of the latest
+    auto known = std::find_if(made.begin(), made.end(), [&](const MadeTexture& one) {
+        return one.in_space == in_space && one.texture == texture;
+    });
+    if (known == made.end()) {
+        if (made.size() == kKept) made.erase(made.begin());
+        made.push_back({texture, in_space, texture_function(texture, in_space)});
+        known = made.end() - 1;
+    }
+    TextureFunction function = known->function;
+    function.shift = shift;
+    return function;
+}
+
 }  // namespace
 
 Frame frame_of(const Scene& scene, const View& view, bool textures) {
     Frame frame;
+    std::vector<MadeTexture> made;
     for (std::size_t k = 0; k < scene->clouds.size(); ++k) {
         const Cloud& cloud = scene->clouds[k];
         const EllipsoidsCloud& model = *cloud.ellipsoids;
@@ -87,9 +110,9 @@ Frame frame_of(const Scene& scene, const View& view, bool textures) {
         seen.model = &model;
         seen.motion = motion_of(cloud, scene->time);
         const glm::dvec3 shift = scene->time * model.drift;
-        if (textures) seen.in_space = texture_function(model.texture, true, shift);
+        if (textures) seen.in_space = ready(model.texture, true, shift, made);
         if (model.plane) {
-            if (textures) seen.on_plane = texture_function(model.plane->texture, false, shift);
+            if (textures) seen.on_plane = ready(model.plane->texture, false, shift, made);
             seen.plane_height = seen.motion.translate.y + cloud.scale * model.plane->altitude;
         }
         frame.clouds.push_back(seen);

@@ -25,6 +25,7 @@ struct SineTexture {
     double frequency_x = 0.9;  // FX1, radians/unit, along x and upward
     double frequency_z = 0.9;  // FY1, radians/unit, along z
     double offset = 1;         // T0, "controls the contrast": more of it, less contrast
+    bool operator==(const SineTexture&) const = default;
 };
 
 // Intensity I = (1-a){(1-t)[(1-s) Id + s Is] + t It} + a.

@@ -71,7 +71,7 @@ struct ImplicitGrowth {
     double turbulence = 0.05;           // of the force, radii a second^2
     double drag = 0.12;                 // 1/second: what slows them
     double lifetime = 25;               // seconds from birth to rest; they are full-grown halfway
-    double rate = 0.3;                  // children a second, times the turbulence there
+    double rate = 0.175;                // children a second, times the turbulence there
     double duration = 60;               // seconds, from time 0; then all rests
 };
 

@@ -58,14 +58,13 @@ ImplicitSettings cirrus() {
                     segment({20, 4, 0}, {{-190, -4, 14}, {0, 0, 0}, {170, 6, 22}}, 36, 1),
                     segment({-30, -2, 66}, {{-120, -4, 0}, {40, 2, 8}, {160, 8, -6}}, 28, 0.8),
                     ellipsoid({30, 2, 10}, 100, {1.7, 0.14, 0.95}, 0.35)};
-    s.amount = 1.5;
-    s.exponent = 2.2;
-    s.blend = 0.05;
-    s.displacement = 0.6;
-    s.noise_size = 0.55;
+    s.amount = 1.2;
+    s.exponent = 3;
+    s.blend = 0;
+    s.displacement = 0.9;
+    s.noise_size = 0.4;
     s.octaves = 6;
-    s.gain = 0.55;
-    s.stretch = 6;
+    s.stretch = 5;
     s.jet = {2.2, 0, 0.5};
     s.jet_turbulence = 1.5;
     return s;
@@ -88,13 +87,13 @@ ImplicitSettings stratus() {
 ImplicitSettings mackerel() {
     ImplicitSettings s;
     s.primitives = {ellipsoid({0, 0, 0}, 170, {1, 0.045, 0.85}, 1)};
-    s.amount = 0.6;
+    s.amount = 2;
     s.exponent = 1.6;
     s.blend = 0.3;
     s.displacement = 0.05;
-    s.noise_size = 0.5;
+    s.noise_size = 0.35;
     s.octaves = 6;
-    s.ripple = {0.42, 0, 0.6};
+    s.ripple = {0.2, 0, 0.42};
     s.ripple_depth = 0.95;
     s.ripple_turbulence = 5;
     return s;

@@ -11,6 +11,7 @@
 #include "core/generate/automaton/run.h"
 #include "core/generate/models.h"
 #include "core/parallel.h"
+#include "tests/bench/cloud_of_bench.h"
 
 namespace awan {
 namespace {
@@ -120,6 +121,43 @@ void DefaultCloud(benchmark::State& state) {
     state.counters["particles"] = particles;
 }
 BENCHMARK(DefaultCloud)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+// What blocks of cells cost a picture: rms over rms of cloud pixels, beside one Gaussian a cell. Arguments: side of a block;
+// 0: all of the field in the picture, 1: one cloud from near by; the metaballs' radius, tenths of a cell.
+void Blocks(benchmark::State& state) {
+    SceneDraft draft;
+    draft.top_level_cubes = false;
+    draft.clouds.push_back({});
+    draft.clouds[0].model = CloudModel::kAutomaton;
+    draft.density = 0.6;
+    draft.image.background = Background::kTransparent;
+    draft.accuracy.rung = "transport-32";
+    if (state.range(1) == 1) {
+        draft.camera.automatic = false;
+        draft.camera.eye = {0, 20, 330};
+        draft.camera.target = {0, 50, 0};
+    }
+    const auto render = [&](std::uint64_t most) {
+        AutomatonCloud cloud;
+        cloud.metaball_radius = static_cast<double>(state.range(2)) / 10;
+        cloud.most_particles = most;
+        draft.clouds[0].automaton = std::make_shared<const AutomatonCloud>(cloud);
+        return *render_scene(test::valid(draft), {nullptr, 2, nullptr, {}, {}}, {});
+    };
+    const Image cells = render(1u << 20).image;
+    const double block = static_cast<double>(state.range(0));
+    // As many blocks as cells over their volume, and those that are partly full.
+    const auto most = static_cast<std::uint64_t>(43063 / (block * block * block) * 2.2 + 50);
+    for (auto _ : state) {
+        const auto coarse = render(most);
+        state.counters["error"] = bench::difference(coarse.image, cells);
+        state.counters["blocks"] = static_cast<double>(coarse.survey.particles);
+    }
+}
+BENCHMARK(Blocks)
+    ->ArgsProduct({{2, 4, 8}, {0, 1}, {15, 20, 30}})
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
 
 // The largest grid there may be, and the memory it takes.
 void LargestGrid(benchmark::State& state) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/generate/automaton/cells_to_particles.h"
+#include "core/generate/automaton/coarse.h"
 #include "core/generate/automaton/parcels.h"
 #include "core/generate/automaton/run.h"
 #include "core/generate/models.h"
@@ -47,6 +48,9 @@ Result<ModelParticles> automaton_particles(const AutomatonCloud& cloud, const Mo
                                            const Deadline& deadline) {
     const double steps = automaton_steps_at(cloud, request.time);
     const double whole = std::floor(steps);
+    constexpr double kQuick = 0x1p26;  // cells times steps: 50 ms of one core
+    if (request.coarse && cloud.cells.x * cloud.cells.y * cloud.cells.z * (whole + 2) > kQuick)
+        return coarse_automaton(cloud, request.key, static_cast<std::uint64_t>(whole), deadline);
     AutomatonScratch scratch;
     auto state = run_automaton(cloud, request.key, static_cast<std::uint64_t>(whole),
                                request.threads, deadline, scratch);

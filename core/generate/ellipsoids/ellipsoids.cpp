@@ -86,7 +86,13 @@ Result<ModelParticles> ellipsoids_particles(const EllipsoidsCloud& cloud,
     if (cloud.plane) {
         const TextureFunction texture = texture_function(cloud.plane->texture, false, shift);
         const LatticeField opacity = opacity_of(*cloud.plane, texture, request.threads, deadline);
-        append(particles_of(opacity, cloud.plane->density, request.threads), made.particles);
+        if (auto error = deadline.over()) return *error;
+        const ReadyParticles particles =
+            particles_of(opacity, cloud.plane->density, request.threads);
+        made.error =
+            std::max(made.error, sampling_error(opacity, particles, cloud.plane->density,
+                                                *cloud.plane, texture, request.threads, deadline));
+        append(particles, made.particles);
     }
     if (auto error = deadline.over()) return *error;
     return made;

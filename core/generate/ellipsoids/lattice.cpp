@@ -70,17 +70,26 @@ void fill_layer(LatticeField& lattice, int k, const std::vector<PlacedEllipsoid>
     }
 }
 
-// Mean over a cell's height, of a plane where its texture is `value`. Heights from the plane.
+// Opacity of the plane's slab where its texture is `value`, at a distance from its middle of `off` half thicknesses.
+double opacity_in_slab(const SkyPlane& plane, const TextureValue& value, double off) {
+    return opacity(value, plane.threshold + plane.range * off * off, plane.range);
+}
+
+// Fades out towards the sides of the square.
+double edge_of(const SkyPlane& plane, const glm::dvec3& p) {
+    const double out = std::max(std::abs(p.x), std::abs(p.z)) / (plane.extent / 2);
+    return std::clamp((1 - out) * 10, 0.0, 1.0);
+}
+
+// Mean over a cell's height, of which the slab may fill a part. Heights from the plane.
 double opacity_of_cell(const SkyPlane& plane, const TextureValue& value, double low, double high) {
     const double half = plane.thickness / 2;
     const double from = std::max(low, -half), to = std::min(high, half);
     if (!(to > from)) return 0;
     constexpr int kHeights = 4;
     double sum = 0;
-    for (int i = 0; i < kHeights; ++i) {
-        const double off = (from + (i + 0.5) / kHeights * (to - from)) / half;
-        sum += opacity(value, plane.threshold + plane.range * off * off, plane.range);
-    }
+    for (int i = 0; i < kHeights; ++i)
+        sum += opacity_in_slab(plane, value, (from + (i + 0.5) / kHeights * (to - from)) / half);
     return sum / kHeights * (to - from) / (high - low);
 }
 
@@ -117,8 +126,8 @@ LatticeField opacity_of(const SkyPlane& plane, const TextureFunction& texture, i
     LatticeField lattice;
     lattice.nx = lattice.nz = static_cast<int>(plane.resolution);
     lattice.cell = plane.extent / lattice.nx;
-    lattice.ny =
-        std::clamp(static_cast<int>(std::ceil(plane.thickness / lattice.cell)), 1, lattice.nx);
+    lattice.ny = std::clamp(
+        static_cast<int>(std::ceil(plane.thickness / plane.extent * lattice.nx)), 1, lattice.nx);
     const glm::dvec3 cells(lattice.nx, lattice.ny, lattice.nz);
     lattice.origin = glm::dvec3(0, plane.altitude, 0) - 0.5 * lattice.cell * (cells - 1.0);
     lattice.values.assign(lattice.index(0, 0, lattice.nz), 0.0f);
@@ -128,8 +137,7 @@ LatticeField opacity_of(const SkyPlane& plane, const TextureFunction& texture, i
         const int k = static_cast<int>(row);
         for (int i = 0; i < lattice.nx; ++i) {
             const glm::dvec3 p = sample(lattice, i, 0, k);
-            const double out = std::max(std::abs(p.x), std::abs(p.z)) / (plane.extent / 2);
-            const double edge = std::clamp((1 - out) * 10, 0.0, 1.0);
+            const double edge = edge_of(plane, p);
             const TextureValue value = texture_at(texture, p, blur.x, blur.z);
             for (int j = 0; j < lattice.ny; ++j) {
                 const double low = (j - 0.5 * lattice.ny) * lattice.cell;
@@ -139,6 +147,14 @@ LatticeField opacity_of(const SkyPlane& plane, const TextureFunction& texture, i
         }
     });
     return lattice;
+}
+
+double column_opacity(const SkyPlane& plane, const TextureValue& value, const glm::dvec3& place) {
+    constexpr int kHeights = 32;
+    double sum = 0;
+    for (int i = 0; i < kHeights; ++i)
+        sum += opacity_in_slab(plane, value, 2 * (i + 0.5) / kHeights - 1);
+    return edge_of(plane, place) * sum / kHeights;
 }
 
 ReadyParticles particles_of(LatticeField opacity, double density, int threads) {

@@ -21,15 +21,22 @@ LatticeField opacity_of(const std::vector<PlacedEllipsoid>& ellipsoids, std::uin
 LatticeField opacity_of(const SkyPlane& plane, const TextureFunction& texture, int threads,
                         const Deadline& deadline);
 
+// Mean opacity of the slab over its thickness, on the upright line through `place`, where the texture is `value`.
+double column_opacity(const SkyPlane& plane, const TextureValue& value, const glm::dvec3& place);
+
 // Times `density`, as Gaussians. Cells of hardly any opacity are left out, and the blur of a Gaussian is taken back
 // (lattice_particles.h).
 ReadyParticles particles_of(LatticeField opacity, double density, int threads);
 
 // What cells and Gaussians lose: rms error of the optical depths of vertical lines (8 x 8 of them, through middles of
-// cells) against the ellipsoids themselves, over the rms depth. 0 where there is nothing. `particles`: of the lattice, of
+// cells) against the ellipsoids or the plane themselves, over the rms depth. 0 where there is nothing. `particles`: of the lattice, of
 // `density`.
 double sampling_error(const LatticeField& lattice, const ReadyParticles& particles, double density,
                       const std::vector<PlacedEllipsoid>& ellipsoids,
                       const TextureFunction& texture, int threads, const Deadline& deadline);
+
+double sampling_error(const LatticeField& lattice, const ReadyParticles& particles, double density,
+                      const SkyPlane& plane, const TextureFunction& texture, int threads,
+                      const Deadline& deadline);
 
 }  // namespace awan

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/generate/ellipsoids/lattice.h"
 #include "core/parallel.h"
@@ -13,11 +14,18 @@ constexpr int kLines = 8;  // along either axis
 constexpr int kStepsPerCell = 4;
 constexpr int kReach = 3;  // cells; a Gaussian has 3e-5 of itself left there
 
-// The texture and the ellipsoids as they are, along an upright line through a column's middle.
-double exact_depth(const LatticeField& lattice, int x, int z,
-                   const std::vector<PlacedEllipsoid>& ellipsoids, const TextureFunction& texture) {
-    glm::dvec3 p = lattice.origin + lattice.cell * glm::dvec3(x, -0.5, z);
-    const double bottom = p.y;
+// Upright lines of the lattice, at middles of columns.
+struct Line {
+    int x = 0, z = 0;      // column
+    glm::dvec3 bottom{0};  // of the lattice there
+    double height = 0;     // of the lattice
+    int steps = 0;         // kStepsPerCell a cell
+};
+
+// The texture and the ellipsoids as they are.
+double depth_of(const Line& line, const std::vector<PlacedEllipsoid>& ellipsoids,
+                const TextureFunction& texture) {
+    glm::dvec3 p = line.bottom;
     std::vector<const PlacedEllipsoid*> met;
     for (const PlacedEllipsoid& one : ellipsoids) {
         const glm::dvec3 half = one.half_box();
@@ -25,11 +33,10 @@ double exact_depth(const LatticeField& lattice, int x, int z,
             met.push_back(&one);
     }
     if (met.empty()) return 0;
-    const int steps = kStepsPerCell * lattice.ny;
-    const double step = lattice.cell / kStepsPerCell;
+    const double step = line.height / line.steps;
     double depth = 0;
-    for (int i = 0; i < steps; ++i) {
-        p.y = bottom + (i + 0.5) * step;
+    for (int i = 0; i < line.steps; ++i) {
+        p.y = line.bottom.y + (i + 0.5) * step;
         double opaque = 0;
         std::optional<TextureValue> value;
         for (const PlacedEllipsoid* one : met) {
@@ -74,11 +81,9 @@ double lattice_depth(const LatticeField& lattice, int x, int z, const std::vecto
     return depth * std::sqrt(2 * std::numbers::pi) * kLatticeS * lattice.cell;
 }
 
-}  // namespace
-
-double sampling_error(const LatticeField& lattice, const ReadyParticles& particles, double density,
-                      const std::vector<PlacedEllipsoid>& ellipsoids,
-                      const TextureFunction& texture, int threads, const Deadline& deadline) {
+template <typename Exact>
+double error_of(const LatticeField& lattice, const ReadyParticles& particles, double density,
+                int threads, const Deadline& deadline, const Exact& exact_depth) {
     if (lattice.values.empty() || !(density > 0)) return 0;
     std::array<double, 2 * kReach + 1> weights{};
     for (int k = -kReach; k <= kReach; ++k)
@@ -89,10 +94,14 @@ double sampling_error(const LatticeField& lattice, const ReadyParticles& particl
     parallel_for(threads, exact.size(), [&](std::size_t i) {
         if (deadline.over()) return;
         const int along_x = static_cast<int>(i) % kLines, along_z = static_cast<int>(i) / kLines;
-        const int x = (2 * along_x + 1) * lattice.nx / (2 * kLines);
-        const int z = (2 * along_z + 1) * lattice.nz / (2 * kLines);
-        exact[i] = exact_depth(lattice, x, z, ellipsoids, texture);
-        made[i] = lattice_depth(lattice, x, z, columns, weights) / density;
+        Line line;
+        line.x = (2 * along_x + 1) * lattice.nx / (2 * kLines);
+        line.z = (2 * along_z + 1) * lattice.nz / (2 * kLines);
+        line.bottom = lattice.origin + lattice.cell * glm::dvec3(line.x, -0.5, line.z);
+        line.height = lattice.cell * lattice.ny;
+        line.steps = kStepsPerCell * lattice.ny;
+        exact[i] = exact_depth(line);
+        made[i] = lattice_depth(lattice, line.x, line.z, columns, weights) / density;
     });
     double wrong = 0, all = 0;
     for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -101,6 +110,24 @@ double sampling_error(const LatticeField& lattice, const ReadyParticles& particl
     }
     // Nothing met by a line: nothing lost that they show.
     return all > 0 ? std::sqrt(wrong / all) : 0;
+}
+
+}  // namespace
+
+double sampling_error(const LatticeField& lattice, const ReadyParticles& particles, double density,
+                      const std::vector<PlacedEllipsoid>& ellipsoids,
+                      const TextureFunction& texture, int threads, const Deadline& deadline) {
+    return error_of(lattice, particles, density, threads, deadline,
+                    [&](const Line& line) { return depth_of(line, ellipsoids, texture); });
+}
+
+double sampling_error(const LatticeField& lattice, const ReadyParticles& particles, double density,
+                      const SkyPlane& plane, const TextureFunction& texture, int threads,
+                      const Deadline& deadline) {
+    return error_of(lattice, particles, density, threads, deadline, [&](const Line& line) {
+        return plane.thickness *
+               column_opacity(plane, texture_at(texture, line.bottom), line.bottom);
+    });
 }
 
 }  // namespace awan

@@ -61,9 +61,12 @@ struct ImplicitField {
     float base, base_inverse;
 };
 
-// At `time`, as a lattice of cells of `cell` units can show it; cell 0: all of it.
-ImplicitField prepare_field(const ImplicitCloud& cloud, std::uint64_t key, double time,
-                            double cell);
+// At `time`, with all its octaves.
+ImplicitField prepare_field(const ImplicitCloud& cloud, std::uint64_t key, double time);
+
+// Leaves out what a lattice of cells of `cell` units cannot show. The rest stays as prepare_field() had it.
+void limit_octaves(const ImplicitCloud& cloud, std::uint64_t key, double time, double cell,
+                   ImplicitField& field);
 
 // Around all density at any time, units; empty when there is none. As prepare_field's.
 Box box_of(const ImplicitField& field);

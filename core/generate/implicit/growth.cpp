@@ -26,15 +26,24 @@ struct Air {
     glm::dvec3 force;
 };
 
-// Bumps of the turbulence are twice a particle's radius.
-Air air_at(const Octaves& octaves, const glm::dvec3& position) {
-    using lanes::all;
-    const glm::vec3 p(position / 2.0);
-    const lanes::Vec at{all(p.x), all(p.y), all(p.z)};
+// Of up to sixteen particles. Bumps of the turbulence are twice a particle's radius.
+__attribute__((target_clones("avx512f", "avx2", "default"))) void air_around(
+    const Octaves& octaves, const GrownParticle* particles, int count, Air* air) {
+    lanes::Vec at{};
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3& p = particles[i].position;
+        at.x[i] = static_cast<float>(p.x / 2);
+        at.y[i] = static_cast<float>(p.y / 2);
+        at.z[i] = static_cast<float>(p.z / 2);
+    }
     const lanes::Vec push = brownian3(octaves, at);
-    return {static_cast<double>(turbulence(octaves, at)[0]),
-            {static_cast<double>(push.x[0]), static_cast<double>(push.y[0]),
-             static_cast<double>(push.z[0])}};
+    const lanes::Floats strength = turbulence(octaves, at);
+    for (int i = 0; i < count; ++i) {
+        air[i].strength = static_cast<double>(strength[i]);
+        air[i].force.x = static_cast<double>(push.x[i]);
+        air[i].force.y = static_cast<double>(push.y[i]);
+        air[i].force.z = static_cast<double>(push.z[i]);
+    }
 }
 
 class Colony {
@@ -56,17 +65,21 @@ class Colony {
 
     // From `time` over dt seconds.
     void step(double time, double dt) {
-        const std::size_t count = particles.size();
-        for (std::size_t i = 0; i < count; ++i) {
-            if (time - particles[i].birth >= growth_.lifetime) particles[i].dormant = true;
-            if (!particles[i].dormant) move(i, time, dt);
+        const std::size_t count = particles.size();  // children move from the next step on
+        Air air[lanes::kCount];
+        for (std::size_t first = 0; first < count; first += lanes::kCount) {
+            const std::size_t last = std::min(count, first + lanes::kCount);
+            air_around(octaves_, &particles[first], static_cast<int>(last - first), air);
+            for (std::size_t i = first; i < last; ++i) {
+                if (time - particles[i].birth >= growth_.lifetime) particles[i].dormant = true;
+                if (!particles[i].dormant) move(i, air[i - first], time, dt);
+            }
         }
         grow_to(time + dt);
     }
 
   private:
-    void move(std::size_t i, double time, double dt) {
-        const Air air = air_at(octaves_, particles[i].position);
+    void move(std::size_t i, const Air& air, double time, double dt) {
         GrownParticle& p = particles[i];
         // Drag taken at the step's end, which no length of step makes unstable.
         p.velocity += dt * (growth_.force + growth_.turbulence * air.force);

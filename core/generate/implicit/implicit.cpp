@@ -13,19 +13,18 @@ Result<ModelParticles> implicit_particles(const ImplicitCloud& cloud, const Mode
     const std::uint64_t resolution =
         request.coarse ? limits::kMinImplicitResolution : cloud.resolution;
     ModelParticles made;
-    // The cells' size follows from the field's box, and what the noise can show from the cells' size.
-    const LatticeField plan =
-        lattice_over(prepare_field(cloud, request.key, request.time, 0), resolution);
-    if (plan.nx == 0) return made;
-    LatticeField lattice = plan, half = coarser(plan);
+    ImplicitField field = prepare_field(cloud, request.key, request.time);
+    LatticeField lattice = lattice_over(field, resolution), half = coarser(lattice);
+    if (lattice.nx == 0) return made;
     const auto fill = [&](LatticeField& one) {
-        const ImplicitField field = prepare_field(cloud, request.key, request.time, one.cell);
+        limit_octaves(cloud, request.key, request.time, one.cell, field);
         return sample(field, request.threads, deadline, one);
     };
     if (Status late = fill(lattice)) return *late;
     if (!request.coarse) {
         if (Status late = fill(half)) return *late;
-        made.error = sampling_error(lattice, half);
+        limit_octaves(cloud, request.key, request.time, lattice.cell, field);
+        made.error = sampling_error(lattice, half, field);
     }
     const float largest = *std::max_element(lattice.values.begin(), lattice.values.end());
     LatticeOptions options;

@@ -19,11 +19,15 @@ void split(double at, std::uint32_t& shift, float& part) {
 Octaves octaves_of(std::uint64_t key, int count, double gain, double cell, double x, double y,
                    double z) {
     Octaves octaves;
-    double weight = 1, frequency = 1;
+    // Of |noise|: its variance.
+    constexpr double kMean = kMeanAbsNoise, kRms = kRmsNoise;
+    constexpr double kVariance = kRms * kRms - kMean * kMean;
+    double weight = 1, frequency = 1, left_out = 0;
     for (int o = 0; o < std::min(count, kMostOctaves); ++o, weight *= gain, frequency *= 2) {
         const double shown = smoothstep((1 / (frequency * std::max(cell, 1e-300)) - 1.5) / 1.5);
-        octaves.rest +=
-            static_cast<float>(static_cast<double>(kMeanAbsNoise) * weight * (1 - shown));
+        octaves.rest += static_cast<float>(kMean * weight * (1 - shown));
+        left_out += kVariance * weight * weight * (1 - shown) * (1 - shown);
+        octaves.rest_rms = static_cast<float>(std::sqrt(left_out));
         if (shown <= 0) continue;
         const std::uint64_t own = keyed(key, static_cast<std::uint64_t>(o));
         const auto i = static_cast<std::size_t>(octaves.count++);

@@ -49,22 +49,14 @@ Box warped_within(const Box& box, const Box& ball, double most) {
 }
 
 void prepare_noise(const ImplicitCloud& cloud, const ImplicitSettings& s, std::uint64_t key,
-                   double time, double cell, ImplicitField& f) {
+                   double time, ImplicitField& f) {
     f.noise_scale = static_cast<float>(1 / s.noise_size);
     const double length = glm::length(s.jet);
     f.stretch_axis = length > 0 ? glm::vec3(s.jet / length) : glm::vec3(1, 0, 0);
     f.stretch_less = static_cast<float>(1 / s.stretch - 1);
-    const SwirlPath path = swirl_path(time * cloud.swirl, cloud.printed_swirl);
-    f.path_scale = glm::vec3(path.scale);
-    const Octaves one = octaves_of(keyed(key, kPathKey), 1, 1, 0, 0, 0, 0);
-    f.path_noise = one.lattice[0];
-    const double cells = cell / (s.mean_radius * s.noise_size);
-    const auto octaves = [&](Purpose purpose) {
-        return octaves_of(keyed(key, purpose), static_cast<int>(s.octaves), s.gain, cells,
-                          path.offset.x, path.offset.y, path.offset.z);
-    };
-    f.octaves = octaves(kTurbulenceKey);
-    f.moving = octaves(kMovingKey);
+    f.path_scale = glm::vec3(swirl_path(time * cloud.swirl, cloud.printed_swirl).scale);
+    f.path_noise = octaves_of(keyed(key, kPathKey), 1, 1, 0, 0, 0, 0).lattice[0];
+    limit_octaves(cloud, key, time, 0, f);
 }
 
 void prepare_flow(const ImplicitFlow& flow, double share, const Frame& frame, PreparedFlow& to) {
@@ -164,8 +156,20 @@ SwirlPath swirl_path(double frame, bool printed) {
     return path;
 }
 
-ImplicitField prepare_field(const ImplicitCloud& cloud, std::uint64_t key, double time,
-                            double cell) {
+void limit_octaves(const ImplicitCloud& cloud, std::uint64_t key, double time, double cell,
+                   ImplicitField& field) {
+    const ImplicitSettings s = resolved(cloud);
+    const SwirlPath path = swirl_path(time * cloud.swirl, cloud.printed_swirl);
+    const double cells = cell / (s.mean_radius * s.noise_size);
+    const auto octaves = [&](Purpose purpose) {
+        return octaves_of(keyed(key, purpose), static_cast<int>(s.octaves), s.gain, cells,
+                          path.offset.x, path.offset.y, path.offset.z);
+    };
+    field.octaves = octaves(kTurbulenceKey);
+    field.moving = octaves(kMovingKey);
+}
+
+ImplicitField prepare_field(const ImplicitCloud& cloud, std::uint64_t key, double time) {
     const ImplicitSettings s = resolved(cloud);
     const std::uint64_t growth_key = keyed(key, kGrowthKey);
     ImplicitField f{};
@@ -186,7 +190,7 @@ ImplicitField prepare_field(const ImplicitCloud& cloud, std::uint64_t key, doubl
     f.blend = static_cast<float>(s.blend);
     f.displacement = static_cast<float>(s.displacement);
     f.diagonal = cloud.diagonal;
-    prepare_noise(cloud, s, key, time, cell, f);
+    prepare_noise(cloud, s, key, time, f);
     Box macro;
     if (!all.empty())
         macro = {(all.min - f.frame.middle) / f.frame.unit,

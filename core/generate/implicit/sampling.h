@@ -18,8 +18,9 @@ LatticeField coarser(const LatticeField& lattice);
 Status sample(const ImplicitField& field, int threads, const Deadline& deadline,
               LatticeField& lattice);
 
-// What a picture of `lattice` is wrong by, rms over rms, from how far `half` (coarser(), sampled as coarsely) is from it: see
-// sampling.cpp.
-double sampling_error(const LatticeField& lattice, const LatticeField& half);
+// What a picture of `lattice` is wrong by, rms over rms, from how far `half` (coarser(), sampled as coarsely) is from it and
+// from the octaves that `field`, of which the lattice is, leaves out. Measured in implicit_particles_test.
+double sampling_error(const LatticeField& lattice, const LatticeField& half,
+                      const ImplicitField& field);
 
 }  // namespace awan
