@@ -56,7 +56,7 @@ Result<Image> ostroushko_look(const Scene& scene, const View& view, int threads,
     return image;
 }
 
-// Measured on one thread of a 2.1 GHz Xeon, pictures of 800 x 600 (tests/bench/spheres_bench): a pixel of sky, one of cloud, and a
+// Measured on one thread at 2.1 GHz, pictures of 800 x 600 (tests/bench/spheres_bench): a pixel of sky, one of cloud, and the
 // spheres that are gone down to, of which many more than few lie hidden or in one pixel: as the root of their number.
 double ostroushko_look_ms(const Scene& scene, const View& view, int threads) {
     constexpr double kSky = 0.25e-3, kCovered = 1.5e-3, kSpheres = 1.3;
