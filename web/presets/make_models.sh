@@ -5,7 +5,7 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 awan=$here/../../build/release/awan
 # A preset, or a frame of its sequence.
-cells=(automaton-cumulus:0 automaton-cumulus:40 automaton-cumulus:100 automaton-wind:0 automaton-wind:120
+cells=(automaton-cumulus:15 automaton-cumulus:40 automaton-cumulus:100 automaton-wind:50 automaton-wind:120
     spheres-cumulus spheres-cirrus spheres-ostroushko:0 spheres-ostroushko:48 spheres-ostroushko:96
     implicit-cumulus implicit-cirrus implicit-stratus implicit-mackerel implicit-creature
     implicit-growth:5 implicit-growth:20 implicit-growth:35 implicit-growth:48 implicit-growth:60
