@@ -75,7 +75,8 @@ TEST(GardnerRays, MeetAnEllipsoidWhereSmallStepsDo) {
     int met = 0;
     for (int i = 0; i < 400; ++i) {
         const PlacedEllipsoid one = random_one(dice);
-        const glm::dvec3 eye = dice.between(0, 5) * dice.on_sphere(), way = dice.on_sphere();
+        const glm::dvec3 eye = dice.between(0, 5) * dice.on_sphere();
+        const glm::dvec3 way = glm::normalize(one.center + 1.5 * dice.on_sphere() - eye);
         const auto side = [&](double t) {
             const glm::dvec3 u = one.to_unit(eye + t * way);
             return glm::dot(u, u) - 1;

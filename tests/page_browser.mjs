@@ -54,11 +54,13 @@ async function quicken(page) {
     const response = await route.fetch();
     const json = await response.json();
     const { width = 800, height = 600 } = json.image ?? {};
-    const scale = Math.min(1, 320 / width);
+    const scale = Math.min(1, 240 / width);
     json.image = { ...json.image, width: Math.round(scale * width), height: Math.round(scale * height) };
     if ((json.look ?? "physical") === "physical") json.accuracy = { rung: "transport-16" };
+    delete json.sequence; // each of its pictures is planned by three others
     for (const cloud of json.clouds ?? []) {
       if (["implicit", "ellipsoids"].includes(cloud.model)) cloud[cloud.model].resolution = 32;
+      if (cloud.ellipsoids?.plane) cloud.ellipsoids.plane.resolution = 64;
       if (cloud.model === "spheres") cloud.spheres.levels = Math.min(4, cloud.spheres.levels ?? 6);
     }
     await route.fulfill({ response, json });

@@ -2,8 +2,8 @@
 
 import assert from "node:assert/strict";
 
-import { IMPLICIT_PRESETS } from "../web/implicit_presets.js";
 import { choose, group, look, origin, renders, settled } from "./page_browser.mjs";
+import { defaultsTests } from "./page_defaults.mjs";
 
 const sent = () => renders.at(-1).scene;
 
@@ -28,12 +28,15 @@ const MODELS = {
 };
 const titles = Object.values(MODELS).map(({ title }) => title);
 const model = (page) => group(page, "Cloud").getByLabel("Model", { exact: true });
-const section = (panel, title) => panel.locator("details.section").filter({ has: panel.page().getByRole("heading", { name: title, exact: true }) }).locator("summary");
+async function unfold(panel, title) { // those that a document has something of are
+  const section = panel.locator("details.section").filter({ has: panel.page().getByRole("heading", { name: title, exact: true }) });
+  if (!(await section.evaluate((details) => details.open))) await section.locator("summary").click();
+}
 
 async function takesUp(page, name) {
   const { title, section: folded, field, member, value } = MODELS[name];
   const panel = group(page, title);
-  if (folded) await section(panel, folded).click();
+  if (folded) await unfold(panel, folded);
   const before = await look(page);
   assert.ok(before.variance > 20, `${name}: a blank picture, variance ${before.variance}`);
   await panel.getByLabel(field).first().fill(String(value));
@@ -67,20 +70,7 @@ export const modelTests = {
     assert.equal((await look(page)).hash, cubes.hash, "cubes, camera and density are as they were");
   },
 
-  async "knows what the presets of implicit functions come to"() {
-    for (const [preset, its] of Object.entries(IMPLICIT_PRESETS)) {
-      const [short, whole] = await Promise.all([{ preset }, { preset, ...its }].map(async (implicit) => {
-        const answer = await fetch(`${origin}/v1/particles`, {
-          method: "POST", headers: { "Content-Type": "application/json", Accept: "text/csv" },
-          body: JSON.stringify({ clouds: [{ model: "implicit", implicit: { ...implicit, resolution: 16 } }] }),
-        });
-        assert.equal(answer.status, 200, preset);
-        return answer.text();
-      }));
-      assert.ok(short.length > 1000);
-      assert.equal(whole, short, `${preset}: web/implicit_presets.js and core/scene/implicit_presets.cpp differ`);
-    }
-  },
+  ...defaultsTests,
 
   async "shows what is wrong with a model at its field, and edits lists"(page) {
     await model(page).selectOption("spheres");
@@ -100,7 +90,7 @@ export const modelTests = {
     await model(page).selectOption("implicit");
     await settled(page);
     const panel = group(page, MODELS.implicit.title);
-    await section(panel, "Shapes").click();
+    await unfold(panel, "Shapes");
     const before = await look(page);
     await panel.getByRole("button", { name: "Edit the preset’s shapes" }).click();
     await settled(page);
@@ -148,7 +138,7 @@ export const modelTests = {
 
   async "moves clouds by a slider, plays, and stops"(page) {
     assert.equal(await page.isVisible("#time-bar"), false, "nothing moves");
-    await section(group(page, "Cloud"), "Place and motion").click();
+    await unfold(group(page, "Cloud"), "Place and motion");
     await group(page, "Cloud").getByLabel("Velocity, x").fill("2");
     await page.waitForSelector("#time-bar");
     await group(page, "Time").locator("summary").click();

@@ -1,6 +1,7 @@
 // The random search's scenes with clouds of every model, that move.
 #pragma once
 
+#include "core/scene/validate.h"
 #include "tests/random_models_automaton.h"
 #include "tests/random_models_ellipsoids.h"
 #include "tests/random_models_implicit.h"

@@ -21,10 +21,9 @@ inline Cloud random_spheres(Dice& dice, const Whereabouts& where) {
             limits::kMinSpheresSide, limits::kMaxSpheresSide);
     if (dice.chance(0.5))
         spheres->visual_range =
-            dice.chance(0.2)
-                ? dice.either({limits::kMinVisualRange, limits::kMaxVisualRange})
-                : std::clamp(where.size * dice.log_between(1e-3, 1e3), limits::kMinVisualRange,
-                             limits::kMaxVisualRange);
+            dice.chance(0.2) ? dice.either({limits::kMinVisualRange, limits::kMaxVisualRange})
+                             : std::clamp(where.size * dice.log_between(1e-3, 1e3),
+                                          limits::kMinVisualRange, limits::kMaxVisualRange);
     const auto range = [&](double low, double high, std::optional<double>& from,
                            std::optional<double>& to) {
         const double a = dice.chance(0.3) ? low : dice.between(low, high);
@@ -40,14 +39,13 @@ inline Cloud random_spheres(Dice& dice, const Whereabouts& where) {
     spheres->growth = dice.chance(0.5) ? SpheresGrowth::kUp : SpheresGrowth::kDown;
     if (dice.chance(0.3)) {
         SpheresMorph& morph = spheres->morph.emplace();
-        morph.seed = dice.chance(0.1) ? UINT64_MAX
-                                      : static_cast<std::uint64_t>(dice.log_between(1, 1e18));
+        morph.seed =
+            dice.chance(0.1) ? UINT64_MAX : static_cast<std::uint64_t>(dice.log_between(1, 1e18));
         morph.duration = dice.chance(0.2)
                              ? dice.either({limits::kMinMorphDuration, limits::kMaxTime})
                              : dice.log_between(0.1, 100);
-        morph.steps = dice.chance(0.2)
-                          ? limits::kMaxMorphSteps
-                          : static_cast<std::uint64_t>(dice.log_between(1, 100));
+        morph.steps = dice.chance(0.2) ? limits::kMaxMorphSteps
+                                       : static_cast<std::uint64_t>(dice.log_between(1, 100));
     }
     Cloud cloud;
     cloud.model = CloudModel::kSpheres;

@@ -77,23 +77,22 @@ TEST(SpheresJson, EveryFigureShowsInTheFingerprint) {
         return scene.ok() ? fingerprint(*scene) : "";
     };
     std::set<std::string> prints = {print("")};
-    const char* const changes[] = {
-        R"("kind": "cirrus")",
-        R"("levels": 5)",
-        R"("size": [500, 300, 401])",
-        R"("visual_range": 5)",
-        R"("ratio_min": 0.25)",
-        R"("ratio_max": 0.75)",
-        R"("shift_min": 0.8)",
-        R"("shift_max": 0.95)",
-        R"("scaling": "every")",
-        R"("growth": "down")",
-        R"("morph": {})",
-        R"("morph": {"seed": 3})",
-        R"("morph": {"seed": 18446744073709551615})",
-        R"("morph": {"seed": 18446744073709551614})",
-        R"("morph": {"duration": 3})",
-        R"("morph": {"steps": 3})"};
+    const char* const changes[] = {R"("kind": "cirrus")",
+                                   R"("levels": 5)",
+                                   R"("size": [500, 300, 401])",
+                                   R"("visual_range": 5)",
+                                   R"("ratio_min": 0.25)",
+                                   R"("ratio_max": 0.75)",
+                                   R"("shift_min": 0.8)",
+                                   R"("shift_max": 0.95)",
+                                   R"("scaling": "every")",
+                                   R"("growth": "down")",
+                                   R"("morph": {})",
+                                   R"("morph": {"seed": 3})",
+                                   R"("morph": {"seed": 18446744073709551615})",
+                                   R"("morph": {"seed": 18446744073709551614})",
+                                   R"("morph": {"duration": 3})",
+                                   R"("morph": {"steps": 3})"};
     for (const char* const change : changes) {
         EXPECT_TRUE(prints.insert(print(change)).second) << change;
     }

@@ -145,7 +145,8 @@ TEST(SpheresLook, FindsAllThatARayMeets) {
                     if (looks::meets(node.sphere.center - cloud.eye, node.sphere.radius, ray, hit))
                         left *= looks::through(hit, node.sphere.radius, 0.002);
                 // Float32 alpha, and products of some dozen factors in another order.
-                ASSERT_NEAR(image.pixels[4 * static_cast<std::size_t>(y * 40 + x) + 3], 1 - left, 1e-6)
+                ASSERT_NEAR(image.pixels[4 * static_cast<std::size_t>(y * 40 + x) + 3], 1 - left,
+                            1e-6)
                     << x << ' ' << y;
             }
     }
@@ -162,7 +163,8 @@ TEST(SpheresLook, LevelOfDetailChangesLittle) {
     const Image fine = picture_with(scene, view, 0), usual = picture_with(scene, view, 1);
     double square = 0, sum = 0, count = 0;
     for (std::size_t i = 3; i < fine.pixels.size(); i += 4) {
-        const double off = static_cast<double>(fine.pixels[i]) - static_cast<double>(usual.pixels[i]);
+        const double off =
+            static_cast<double>(fine.pixels[i]) - static_cast<double>(usual.pixels[i]);
         square += off * off;
         sum += off;
         ++count;
@@ -191,7 +193,8 @@ TEST(SpheresLook, IsSaneFromWithin) {
     SceneDraft draft = look_of(spheres);
     draft.camera.automatic = false;
     draft.camera.target = {10, 30, 5};
-    for (const glm::dvec3& eye : {glm::dvec3(1e-9, 0, 0), glm::dvec3(100, 1, 20), glm::dvec3(0, 5, -200)})
+    for (const glm::dvec3& eye :
+         {glm::dvec3(1e-9, 0, 0), glm::dvec3(100, 1, 20), glm::dvec3(0, 5, -200)})
         for (const double fov : {0.01, 40.0, 170.0}) {
             draft.camera.eye = eye;
             draft.camera.fov = fov;
@@ -219,8 +222,7 @@ TEST(SpheresLook, BumpedNormalsAreUnitAndFaceOutward) {
     test::Dice dice(1);
     for (int i = 0; i < 10000; ++i) {
         const glm::dvec3 n = dice.on_sphere();
-        const glm::dvec3 bumped =
-            looks::bumped(n, mix_bits(static_cast<std::uint64_t>(i)));
+        const glm::dvec3 bumped = looks::bumped(n, mix_bits(static_cast<std::uint64_t>(i)));
         ASSERT_NEAR(glm::length(bumped), 1, 1e-12);
         ASSERT_GT(glm::dot(n, bumped), 0);
     }
@@ -238,7 +240,8 @@ TEST(SpheresLook, RandomCloudsAreSane) {
         draft.sun.elevation = dice.between(-90, 90);
         draft.camera.automatic = false;
         draft.camera.target = where.middle;
-        draft.camera.eye = where.middle + where.size * dice.log_between(0.01, 10) * dice.on_sphere();
+        draft.camera.eye =
+            where.middle + where.size * dice.log_between(0.01, 10) * dice.on_sphere();
         if (draft.camera.eye == draft.camera.target) continue;
         draft.camera.up = {0.3, 1, 0.2};
         if (!validate(draft).ok()) continue;

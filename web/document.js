@@ -4,7 +4,7 @@
 import { compactJson, parseJson, prettyJson } from "./json_text.js";
 
 // What the service assumes for fields that a document leaves out; the controls show these.
-const DEFAULTS = {
+export const DEFAULTS = {
   "/fill": "uniform",
   "/seed": 1,
   "/density": 0.2,

@@ -1,5 +1,5 @@
 // What each preset of the model "implicit" comes to (core/scene/implicit_presets.cpp): what the controls
-// show where the document is silent, and what "Edit the preset’s shapes" puts into it. page_models.mjs
+// show where the document is silent, and what "Edit the preset’s shapes" puts into it. page_defaults.mjs
 // compares the two.
 
 const kTen = 3; // units in ten metres, in which the places and radii below are
@@ -27,8 +27,8 @@ export const IMPLICIT_PRESETS = {
     ],
   },
   cirrus: {
-    ...OF_ALL, amount: 1.5, exponent: 2.2, blend: 0.05, displacement: 0.6, noise_size: 0.55, octaves: 6,
-    gain: 0.55, stretch: 6, jet: [2.2, 0, 0.5], jet_turbulence: 1.5,
+    ...OF_ALL, amount: 1.2, exponent: 3, blend: 0, displacement: 0.9, noise_size: 0.4, octaves: 6, stretch: 5,
+    jet: [2.2, 0, 0.5], jet_turbulence: 1.5,
     primitives: [
       segment([-20, 0, -60], [[-170, -6, -10], [-40, 0, 0], [90, 5, -14]], 30, 0.9),
       segment([20, 4, 0], [[-190, -4, 14], [0, 0, 0], [170, 6, 22]], 36, 1),
@@ -44,8 +44,8 @@ export const IMPLICIT_PRESETS = {
     ],
   },
   mackerel: {
-    ...OF_ALL, amount: 0.6, exponent: 1.6, blend: 0.3, displacement: 0.05, noise_size: 0.5, octaves: 6,
-    ripple: [0.42, 0, 0.6], ripple_depth: 0.95, ripple_turbulence: 5,
+    ...OF_ALL, amount: 2, exponent: 1.6, blend: 0.3, displacement: 0.05, noise_size: 0.35, octaves: 6,
+    ripple: [0.2, 0, 0.42], ripple_depth: 0.95, ripple_turbulence: 5,
     primitives: [
       ellipsoid([0, 0, 0], 170, [1, 0.045, 0.85], 1),
     ],

@@ -147,7 +147,7 @@ export function createTime(store, { show, failed, copy, note }) {
     if (document.activeElement !== range || Math.abs(range.valueAsNumber - time) > 1e-3) range.value = String(time);
     range.style.setProperty("--fill", `${(100 * (Math.max(from, Math.min(to, time)) - from)) / (to - from)}%`);
     range.setAttribute("aria-valuetext", `${short(time)} seconds of ${from} to ${to}`);
-    ends.textContent = from === 0 ? `of ${to} s` : `of ${from} to ${to} s`;
+    ends.textContent = (from === 0 ? `of ${to} s` : `${from} to ${to} s`).replaceAll("-", "−");
     number.refresh();
   }
 

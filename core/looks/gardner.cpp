@@ -17,9 +17,10 @@ namespace {
 
 using namespace gardner;
 
-constexpr int kTile = 16;           // pixels
-constexpr double kUnseen = 1e-4;    // of what is left of the light from behind
-constexpr double kHalfPixel = 0.5;  // standard deviation of what a pixel sees, pixels
+constexpr int kTile = 16;         // pixels
+constexpr double kUnseen = 1e-4;  // of what is left of the light from behind
+constexpr double kHalfPixel =
+    0.35;  // standard deviation of what a pixel sees, pixels; a square has .29
 constexpr double kFarthest = 1e15;  // scene units: the plane's horizon
 
 struct Surface {
@@ -199,7 +200,7 @@ Result<Image> gardner_look(const Scene& scene, const View& view, int threads,
 double gardner_look_ms(const Scene& scene, const View& view, int threads) {
     // Measured (tests/bench/ellipsoids_bench): nanoseconds for a pixel and its background, for a ray and an ellipsoid
     // that may be in its way, for one that is and is shaded, and for a plane.
-    constexpr double kPixel = 90, kTest = 12, kShade = 200, kPlane = 200;
+    constexpr double kPixel = 90, kTest = 12, kShade = 250, kPlane = 350;
     const Frame frame = frame_of(scene, view, false);
     double boxes = 0;
     for (const SeenEllipsoid& one : frame.ellipsoids)
@@ -211,7 +212,7 @@ double gardner_look_ms(const Scene& scene, const View& view, int threads) {
         static_cast<double>(scene->image.width) * static_cast<double>(scene->image.height);
     // An ellipse fills .79 of its box; of many in a row only the first few are shaded.
     const double met = std::min(0.79 * boxes, 6 * pixels);
-    return (pixels * (kPixel + kPlane * planes / 2) + boxes * kTest + met * kShade) * 1e-6 /
+    return (pixels * (kPixel + kPlane * planes) + boxes * kTest + met * kShade) * 1e-6 /
            std::max(threads, 1);
 }
 

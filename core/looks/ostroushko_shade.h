@@ -12,7 +12,8 @@ struct LookLight {
     glm::dvec3 to_sun{0, 1, 0};
     glm::dvec3 sun{0};  // radiance of a white surface that faces the sun: irradiance / pi
     glm::dvec3 above{0}, below{0};  // mean radiance of the halves of what is around
-    double softened = 1;  // depth towards the sun that counts, of the clouds' own (the source has no shadow)
+    double softened =
+        1;  // depth towards the sun that counts, of the clouds' own (the source has no shadow)
     double albedo = 1;
 };
 LookLight look_light(const Scene& scene);

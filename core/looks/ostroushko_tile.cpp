@@ -4,7 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numeric>
 #include <span>
+#include <utility>
 
 namespace awan::looks {
 namespace {
@@ -64,15 +66,14 @@ class Tracer {
         Traced traced;
         waiting_.clear();  // the nearest last
         for (const std::uint32_t i : some) {
-            const LookSphere& sphere = found_.spheres[i];
-            if (sphere.near >= end) break;
-            while (!waiting_.empty() && waiting_.back().hit.enter <= sphere.near &&
+            const glm::dvec4& ball = found_.balls[i];
+            Meeting meeting{{}, i};
+            if (!meets(glm::dvec3(ball), ball.w, ray, meeting.hit)) continue;
+            if (meeting.hit.enter >= end) continue;
+            while (!waiting_.empty() && waiting_.back().hit.enter <= found_.spheres[i].near &&
                    traced.left > kOpaque)
                 take_nearest(ray, traced);
             if (traced.left <= kOpaque) return traced;
-            Meeting meeting{{}, i};
-            if (!meets(sphere.center, sphere.radius, ray, meeting.hit)) continue;
-            if (meeting.hit.enter >= end) continue;
             meeting.hit.leave = std::min(meeting.hit.leave, end);
             const auto place =
                 std::find_if(waiting_.rbegin(), waiting_.rend(),
@@ -158,8 +159,7 @@ void draw_block(const LookScene& scene, const Block& block, const ConeSpheres& f
         const Cone cone = cone_of(scene, quarter);
         fewer.clear();
         for (const std::uint32_t i : some)
-            if (may_meet(cone, found.spheres[i].center, found.spheres[i].radius))
-                fewer.push_back(i);
+            if (may_meet(cone, glm::dvec3(found.balls[i]), found.balls[i].w)) fewer.push_back(i);
         draw_block(scene, quarter, found, fewer, tracer, pixels);
     }
 }
@@ -199,8 +199,14 @@ ConeSpheres spheres_in_cone(const LookScene& scene, const Cone& cone) {
     std::sort(sorted.begin(), sorted.end(), [](const Place& a, const Place& b) {
         return a.near != b.near ? a.near < b.near : a.sphere < b.sphere;
     });
-    found.order.reserve(sorted.size());
-    for (const Place& place : sorted) found.order.push_back(place.sphere);
+    std::vector<LookSphere> spheres;
+    spheres.reserve(sorted.size());
+    found.balls.reserve(sorted.size());
+    for (const Place& place : sorted) {
+        spheres.push_back(found.spheres[place.sphere]);
+        found.balls.emplace_back(spheres.back().center, spheres.back().radius);
+    }
+    found.spheres = std::move(spheres);
     return found;
 }
 
@@ -208,8 +214,10 @@ void draw_tile(const LookScene& scene, int x, int y, float* pixels) {
     const Block block{x, y, std::min(x + kTileSide, scene.width),
                       std::min(y + kTileSide, scene.height)};
     ConeSpheres found = spheres_in_cone(scene, cone_of(scene, block));
+    std::vector<std::uint32_t> all(found.spheres.size());
+    std::iota(all.begin(), all.end(), 0u);
     Tracer tracer(scene, found);
-    draw_block(scene, block, found, found.order, tracer, pixels);
+    draw_block(scene, block, found, all, tracer, pixels);
 }
 
 }  // namespace awan::looks

@@ -2,6 +2,7 @@
 // bring home.
 #pragma once
 
+#include <glm/vec4.hpp>
 #include <vector>
 
 #include "core/looks/ostroushko_shade.h"
@@ -43,15 +44,16 @@ struct LitPlace {
 };
 
 struct Cone {
-    glm::dvec3 axis;  // unit, from the eye
+    glm::dvec3 axis;      // unit, from the eye
     double sine, cosine;  // of half its angle, at most a right one
 };
 // Whether a ball may meet it; never false where it does.
 bool may_meet(const Cone& cone, const glm::dvec3& center, double radius);
 
 struct ConeSpheres {
-    std::vector<LookSphere> spheres;
-    std::vector<std::uint32_t> order;  // of all of them, nearest first
+    std::vector<LookSphere> spheres;  // nearest first
+    std::vector<glm::dvec4>
+        balls;  // of the same: center, radius; what most of them are asked for only
     std::vector<LitPlace> places;
 };
 

@@ -208,16 +208,18 @@ Status check_ellipsoids(const EllipsoidsCloud& cloud, const std::string& at) {
 }
 
 std::uint64_t most_particles(const EllipsoidsCloud& cloud) {
+    // A draft that cannot be asks for more than there may be.
+    if (cloud.resolution > limits::kMaxLatticeResolution ||
+        (cloud.plane && cloud.plane->resolution > limits::kMaxPlaneResolution))
+        return limits::kMaxParticles + 1;
     const bool solid = !cloud.plane || !cloud.formations.empty() || !cloud.ellipsoids.empty();
     std::uint64_t most = solid ? cloud.resolution * cloud.resolution * cloud.resolution : 0;
     if (cloud.plane) {
         const SkyPlane& plane = *cloud.plane;
-        const double cell = plane.extent / static_cast<double>(plane.resolution);
-        // At most a cube, whatever the draft says.
-        const auto layers =
-            static_cast<std::uint64_t>(std::min(std::max(1.0, std::ceil(plane.thickness / cell)),
-                                                static_cast<double>(plane.resolution)));
-        most += plane.resolution * plane.resolution * layers;
+        const auto side = static_cast<double>(plane.resolution);
+        const double layers = std::ceil(plane.thickness / plane.extent * side);
+        most += plane.resolution * plane.resolution *
+                static_cast<std::uint64_t>(std::min(std::max(1.0, layers), side));
     }
     return most;
 }

@@ -18,9 +18,9 @@ std::string to_text(double value) {
 // NaN is in no range.
 Status in_range(double value, double lowest, double highest, const std::string& pointer) {
     if (value >= lowest && value <= highest) return std::nullopt;
-    return Error{ErrorCode::kInvalidScene, pointer,
-                 "must be from " + to_text(lowest) + " to " + to_text(highest) + ", not " +
-                     to_text(value)};
+    return Error{
+        ErrorCode::kInvalidScene, pointer,
+        "must be from " + to_text(lowest) + " to " + to_text(highest) + ", not " + to_text(value)};
 }
 
 Status check_span(const Span& span, double lowest, double highest, const std::string& at,
@@ -28,9 +28,9 @@ Status check_span(const Span& span, double lowest, double highest, const std::st
     if (Status wrong = in_range(span.low, lowest, highest, at + low)) return wrong;
     if (Status wrong = in_range(span.high, lowest, highest, at + high)) return wrong;
     if (span.low <= span.high) return std::nullopt;
-    return Error{ErrorCode::kInvalidScene, at + low,
-                 "must be at most the upper end, " + to_text(span.high) + ", not " +
-                     to_text(span.low)};
+    return Error{
+        ErrorCode::kInvalidScene, at + low,
+        "must be at most the upper end, " + to_text(span.high) + ", not " + to_text(span.low)};
 }
 
 Status check_count(std::uint64_t value, std::uint64_t lowest, std::uint64_t highest,

@@ -2,6 +2,7 @@
 // combined).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>

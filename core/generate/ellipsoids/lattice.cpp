@@ -126,8 +126,8 @@ LatticeField opacity_of(const SkyPlane& plane, const TextureFunction& texture, i
     LatticeField lattice;
     lattice.nx = lattice.nz = static_cast<int>(plane.resolution);
     lattice.cell = plane.extent / lattice.nx;
-    lattice.ny =
-        std::clamp(static_cast<int>(std::ceil(plane.thickness / lattice.cell)), 1, lattice.nx);
+    lattice.ny = std::clamp(
+        static_cast<int>(std::ceil(plane.thickness / plane.extent * lattice.nx)), 1, lattice.nx);
     const glm::dvec3 cells(lattice.nx, lattice.ny, lattice.nz);
     lattice.origin = glm::dvec3(0, plane.altitude, 0) - 0.5 * lattice.cell * (cells - 1.0);
     lattice.values.assign(lattice.index(0, 0, lattice.nz), 0.0f);

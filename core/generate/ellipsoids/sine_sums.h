@@ -10,26 +10,33 @@ namespace awan {
 
 inline constexpr double kCoefficientRatio = 0.707;  // C(i+1) / Ci, as printed
 
-// x to the nearest integer, for |x| < 2^51; one addition each way, rounded as IEEE 754 has it.
-inline double nearest(double x) {
+// Two numbers at once, the same bits as one by one.
+using Pair = double __attribute__((vector_size(16)));
+
+// x to the nearest integer, for |x| < 2^51; one addition each way, rounded as IEEE 754 has it. A double or a Pair, here and
+// below.
+template <typename Number>
+inline Number nearest(Number x) {
     constexpr double kShift = 0x1.8p52;
     return (x + kShift) - kShift;
 }
 
 // Part of a turn, -1/2 .. 1/2; exact. Any |turns| < 2^51.
-inline double part_of_turn(double turns) {
+template <typename Number>
+inline Number part_of_turn(Number turns) {
     return turns - nearest(turns);
 }
 
 // sin(2 pi r), |r| <= 1/2, within 1e-9 (the first term left out, at a quarter turn): no image and no float density shows
 // less.
-inline double sin_of_part(double r) {
+template <typename Number>
+inline Number sin_of_part(Number r) {
     // Folded to -1/4 .. 1/4.
-    const double folded = r > 0.25 ? 0.5 - r : r < -0.25 ? -0.5 - r : r;
-    const double x = folded * 6.283185307179586;
-    const double y = x * x;
-    double p = 1.0 / 6227020800.0;
-    p = -1.0 / 39916800.0 + y * p;
+    const Number low = r < -0.25 ? -0.5 - r : r;
+    const Number folded = r > 0.25 ? 0.5 - r : low;
+    const Number x = folded * 6.283185307179586;
+    const Number y = x * x;
+    Number p = -1.0 / 39916800.0 + y * (1.0 / 6227020800.0);
     p = 1.0 / 362880.0 + y * p;
     p = -1.0 / 5040.0 + y * p;
     p = 1.0 / 120.0 + y * p;
@@ -49,12 +56,15 @@ struct TermSines {
 };
 inline TermSines clean_term(double& half_x, double& half_z, double& half_y) {
     const double height = 0.5 * sin_of_part(half_y);  // pi sin(FX Z/2), in turns
-    const double phase_x = 0.25 * sin_of_part(half_z) + height;
-    const double phase_z = 0.25 * sin_of_part(half_x) + height;
-    half_x = part_of_turn(2 * half_x);
-    half_z = part_of_turn(2 * half_z);
+    const Pair across = {half_z, half_x};
+    const Pair phase = 0.25 * sin_of_part(across) + height;
+    const Pair half = {half_x, half_z};
+    const Pair whole = part_of_turn(2 * half);
+    half_x = whole[0];
+    half_z = whole[1];
     half_y = part_of_turn(2 * half_y);
-    return {sin_turns(half_x + phase_x), sin_turns(half_z + phase_z)};
+    const Pair sines = sin_of_part(part_of_turn(whole + phase));
+    return {sines[0], sines[1]};
 }
 
 // 1 / (the largest value of (A + floor)(B + floor), both factors >= 0), A and B the clean sums of `terms` terms. By a search from

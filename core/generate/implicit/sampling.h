@@ -18,6 +18,12 @@ LatticeField coarser(const LatticeField& lattice);
 Status sample(const ImplicitField& field, int threads, const Deadline& deadline,
               LatticeField& lattice);
 
+// How far pictures of two lattices over one place are from each other, rms over rms; a cell of `coarse` is `group`^3 of
+// `fine`. Along the three axes: of thin clouds, whose pictures are sums along lines, and of clouds that are kOpaque deep
+// in their middle, whose pictures are opacities; the larger of the two.
+inline constexpr double kOpaque = 20;
+double picture_difference(const LatticeField& fine, const LatticeField& coarse, int group);
+
 // What a picture of `lattice` is wrong by, rms over rms, from how far `half` (coarser(), sampled as coarsely) is from it and
 // from the octaves that `field`, of which the lattice is, leaves out. Measured in implicit_particles_test.
 double sampling_error(const LatticeField& lattice, const LatticeField& half,

@@ -73,7 +73,8 @@ GaussianBlob cluster_blob(const std::array<SphereNode, kSphereChildren>& childre
         const double own = r * r * r * below.mass;
         mass += own;
         mean += own * (at + r * below.mean);
-        square += own * (glm::dot(at, at) + 2 * r * glm::dot(at, below.mean) + r * r * below.square);
+        square +=
+            own * (glm::dot(at, at) + 2 * r * glm::dot(at, below.mean) + r * r * below.square);
     }
     mean /= mass;
     square /= mass;

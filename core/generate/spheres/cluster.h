@@ -15,14 +15,14 @@ namespace awan {
 //   mass (integral of the depth)  4 pi sigma r^3 (1/3 - pi/16),
 //   variance a coordinate         r^2 / 2 * (2/15 - pi/32) / (1/3 - pi/16)   (a Gaussian's: s^2),
 // and the leaf is the Gaussian that has both. Its depth through the middle is 2.13 sigma r, the rule's 2 sigma r.
-inline constexpr double kLeafMass = 1.721389104514051;  // over sigma r^3
+inline constexpr double kLeafMass = 1.721389104514051;       // over sigma r^3
 inline constexpr double kLeafVariance = 0.1283311049837019;  // s^2 over r^2
 
 // Of a unit sphere with n levels below it, mean over all that is random, masses over that of a leaf of the same radius.
 struct ClusterMoments {
     double mass = 1;
-    glm::dvec3 mean{0};                    // centre of mass
-    double square = 3 * kLeafVariance;     // mean of |x|^2, about the sphere's centre
+    glm::dvec3 mean{0};                 // centre of mass
+    double square = 3 * kLeafVariance;  // mean of |x|^2, about the sphere's centre
 };
 
 // Element n, 0 .. levels - 1: n levels below. Steps at which axes are scaled differ (SpheresScaling::kFirst) only at the root,

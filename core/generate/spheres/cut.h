@@ -12,8 +12,9 @@ namespace awan {
 // A sphere looks `size_of` large: its radius over the distance from the eye to its nearest point, at most 2^20 (an eye inside it).
 // A child never looks larger than its parent. It is cut, and stands for all below it, where it looks smaller than `smallest`.
 struct SphereCut {
-    double smallest = 0;            // 0: none is
-    std::optional<glm::dvec3> eye;  // the cloud's own coordinates; none: from `distance` off all spheres
+    double smallest = 0;  // 0: none is
+    std::optional<glm::dvec3>
+        eye;  // the cloud's own coordinates; none: from `distance` off all spheres
     double distance = 1;
     double least_distance = 0;  // nearer is as near as that
 

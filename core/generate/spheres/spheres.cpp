@@ -16,6 +16,7 @@ namespace awan {
 namespace {
 
 constexpr std::uint64_t kCoarseSpheres = 625;
+constexpr double kCoarsePixel = 0.0267;  // radians
 
 struct Part {
     std::vector<GaussianBlob> blobs;
@@ -23,12 +24,17 @@ struct Part {
 };
 
 // What cutting does to a picture, rms over rms. A cut cluster becomes a round blob as wide as it is, so what matters is how many
-// pixels wide spheres are cut, and how much of the cloud is in such: the third root of its mass, as they stand where the cloud
-// ends. Above all that was measured of clouds of 6 and 7 levels, of both kinds, of extinctions .2 and 2, lit by transport-32 in
-// pictures 300 pixels high, against all their leaves (spheres_cut_test does it smaller): cut at 1.5 pixels .009 and less, at 3
-// .036, at 6 .17, at 12 .34, at 24 .48. Where little is cut it is up to twenty times too high.
-double error_of_cut(double pixels, double mass_share) {
-    return std::cbrt(mass_share) * std::min(0.02 * pixels * std::sqrt(pixels), 0.7);
+// pixels wide spheres are cut, how much of the cloud is in such (the third root of its mass, as they stand where the cloud ends),
+// and how porous they are: a ray through a sphere meets 5 E(I_j^2) of its children, less than one where ratios are small.
+// Above all that was measured of clouds of 6 to 8 levels against all their leaves, lit by transport-32 in pictures 300 and 450
+// pixels high: ratios .26...76 and extinctions .2 and 2, cut at 1.5 pixels .0017, 3: .010, 6: .023, 12: .071, 24: .18; ratios
+// .2...7, cut at 1.5: .0014, 3: .006, 6: .04; ratios .1...6, cut at 1.5: .009, 3: .036, 6: .17, 12: .34, 24: .48
+// (spheres_cut_test does it smaller). Where little is cut it is up to ten times too high.
+double error_of_cut(const Span& ratios, double pixels, double mass_share) {
+    const double met =
+        5 * (ratios.low * ratios.low + ratios.low * ratios.high + ratios.high * ratios.high) / 3;
+    const double porous = std::clamp((1.1 - met) / (1.1 - 0.72), 0.0, 1.0);
+    return std::cbrt(mass_share) * std::min(0.01 * (1 + porous) * pixels * std::sqrt(pixels), 0.7);
 }
 // Where a request names none: of a picture 1080 pixels high, 40 degrees.
 constexpr double kUsualPixel = 0.00067;
@@ -54,9 +60,12 @@ std::uint64_t variant_of(const SphereCut& cut) {
 Result<ModelParticles> spheres_particles(const SpheresCloud& cloud, const ModelRequest& request,
                                          const Deadline& deadline) {
     const SphereTree tree(cloud, request.key, request.place, request.time);
-    const std::uint64_t most = request.coarse ? kCoarseSpheres : limits::kMaxSpheresParticles;
+    // Coarse: spheres of less than 4% of the first are not even counted.
     const auto chosen =
-        choose_cut(tree, request.eye, request.pixel_angle, most, request.threads, deadline);
+        request.coarse ? choose_cut(tree, std::nullopt, std::max(request.pixel_angle, kCoarsePixel),
+                                    kCoarseSpheres, request.threads, deadline)
+                       : choose_cut(tree, request.eye, request.pixel_angle,
+                                    limits::kMaxSpheresParticles, request.threads, deadline);
     if (!chosen.ok()) return chosen.error();
     const SphereCut& cut = *chosen;
 
@@ -102,7 +111,7 @@ Result<ModelParticles> spheres_particles(const SpheresCloud& cloud, const ModelR
     if (cut_mass > 0) {
         const double angle = request.pixel_angle > 0 ? request.pixel_angle : kUsualPixel;
         made.variant = variant_of(cut);
-        made.error = error_of_cut(2 * cut.smallest / angle, cut_mass / mass);
+        made.error = error_of_cut(tree.ratios(), 2 * cut.smallest / angle, cut_mass / mass);
     }
     return made;
 }

@@ -53,8 +53,8 @@ SphereTree::SphereTree(const SpheresCloud& cloud, std::uint64_t key, std::uint64
       later_axes_(cloud.scaling == SpheresScaling::kEvery ? first_axes_ : glm::dvec3(1)),
       across_(cloud.scaling == SpheresScaling::kEvery),
       up_(cloud.growth == SpheresGrowth::kUp ? 1 : -1) {
-    const double side = levels_ == 0 ? std::min({cloud.size.x, cloud.size.y, cloud.size.z})
-                                     : largest(cloud.size);
+    const double side =
+        levels_ == 0 ? std::min({cloud.size.x, cloud.size.y, cloud.size.z}) : largest(cloud.size);
     root_.sphere = root_.from = root_.to = {glm::dvec3(0), side / 2};
     root_.key = root_.other = key;
     if (!cloud.morph || !(time > 0)) return;
@@ -75,8 +75,7 @@ SphereTree::SphereTree(const SpheresCloud& cloud, std::uint64_t key, std::uint64
 
 Sphere SphereTree::child(const Sphere& parent, int level, int j, std::uint64_t key) const {
     const SphereDraw draw = draw_of(key, ratios_, shifts_);
-    return {parent.center +
-                parent.radius * child_offset(j, draw, axes(level), across(level), up_),
+    return {parent.center + parent.radius * child_offset(j, draw, axes(level), across(level), up_),
             parent.radius * draw.ratio};
 }
 
