@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kPatience_ms = 20e3;  // longer paths than these are not chosen, only taken by name
 constexpr double kKnee = 2.5;
+constexpr double kFarOff = 0.3;       // relative error
 constexpr double kTruthNoise = 0.05;  // of a pixel, when rung truth is asked for by name
 
 // Forward-scattered light travels with the light pass of self_shadow: one does not run without the
@@ -87,6 +88,15 @@ Choice cheapest_within(double error, const std::vector<RungForecast>& candidates
         if (candidate.error <= error && (!cheapest || candidate.time_ms < cheapest->time_ms))
             cheapest = &candidate;
     }
+    // Where all are far off, what leaves out most of the light is not close because its forecast is a little less: a picture of
+    // a dark cloud is the worst of them.
+    if (!cheapest && best && best->error > kFarOff) {
+        const RungForecast* of_grids = nullptr;
+        for (const RungForecast& candidate : candidates)
+            if (candidate.rung->cells > 0 && (!of_grids || candidate.error < of_grids->error))
+                of_grids = &candidate;
+        if (of_grids) best = of_grids;
+    }
     const bool patient =
         cheapest && (cheapest->rung->method != Method::kPaths || cheapest->time_ms <= kPatience_ms);
     if (patient)
@@ -97,6 +107,7 @@ Choice cheapest_within(double error, const std::vector<RungForecast>& candidates
         const RungForecast* knee = best;
         for (const RungForecast& candidate : candidates)
             if (candidate.rung->method != Method::kPaths &&
+                (best->rung->cells == 0 || candidate.rung->cells > 0) &&
                 candidate.error <= kKnee * best->error && candidate.time_ms < knee->time_ms)
                 knee = &candidate;
         if (knee != best)
