@@ -30,7 +30,8 @@ inline RandomScene random_scene_of_any_model(std::uint64_t seed) {
             : model == 1 ? random_spheres(dice, where)
             : model == 2 ? random_implicit(dice, where)
                          : random_ellipsoids(dice, where);
-    cloud.density = density;
+    // The model's own share is up to a thousand and multiplies it.
+    if (density) cloud.density = std::min(*density, 1e-4 * limits::kMaxDensity);
     draft.time = dice.chance(0.3) ? 0 : dice.chance(0.1) ? dice.any(1e5) : dice.between(-2, 30);
     if (dice.chance(0.3)) cloud.velocity = dice.any_vector(where.size);
     if (dice.chance(0.2)) {

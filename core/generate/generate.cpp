@@ -105,25 +105,30 @@ void copy_piece(const Piece& piece, double time, ParticleSet& set) {
     }
 }
 
-// What no document of a procedural cloud can show by itself: its particles in the scene's limits, once they are scaled and moved.
-Status check_made(const ReadyParticles& made, const Motion& motion, double density,
-                  const std::string& at) {
+// What no document of a procedural cloud can show by itself: that its particles are within the scene's limits once they are
+// scaled and moved. What is finer than the smallest radius becomes as wide as that, its mass kept: no picture tells.
+Status bring_within_limits(ReadyParticles& made, const Motion& motion, double density,
+                           const std::string& at) {
     const auto outside = [&](const char* field, const std::string& what) {
         return Error{ErrorCode::kInvalidScene, at + field, what};
     };
-    for (const float radius : made.radii) {
-        // Bounds are in double, and the smallest radius rounds to just below itself.
-        const auto scaled = static_cast<float>(static_cast<double>(radius) * motion.scale);
-        if (scaled < static_cast<float>(limits::kMinRadius) ||
-            scaled > static_cast<float>(limits::kMaxRadius))
-            return outside("/scale", "makes a particle's radius " + std::to_string(scaled) +
-                                         ", which must be from 1e-06 to 1e+06");
-    }
-    for (const float share : made.densities)
-        if (density * static_cast<double>(share) > limits::kMaxDensity * (1 + 1e-6))
-            return outside("/density", "makes a particle's extinction more than 1e+06");
-    for (const glm::dvec3& position : made.positions) {
-        const glm::dvec3 p = glm::abs(motion(position));
+    for (std::size_t i = 0; i < made.positions.size(); ++i) {
+        float& radius = made.radii[i];
+        const double scaled = static_cast<double>(radius) * motion.scale;
+        if (scaled < limits::kMinRadius) {
+            const double narrower = scaled / limits::kMinRadius;
+            // A little more, so that rounding does not undo it.
+            radius = static_cast<float>(limits::kMinRadius * (1 + 1e-6) / motion.scale);
+            made.densities[i] *= static_cast<float>(narrower * narrower * narrower);
+        } else if (scaled > limits::kMaxRadius * (1 + 1e-6)) {
+            return outside("/scale", "makes particles of radius " + std::to_string(scaled) +
+                                         "; at most 1e+06 is allowed");
+        }
+        if (density * static_cast<double>(made.densities[i]) > limits::kMaxDensity * (1 + 1e-6))
+            return outside("/density",
+                           "times the model's own is more than 1e+06, the most extinction that a "
+                           "particle may have");
+        const glm::dvec3 p = glm::abs(motion(made.positions[i]));
         if (std::max({p.x, p.y, p.z}) > limits::kMaxCoordinate)
             return outside("", "has particles farther than 1e+09 from the origin");
     }
@@ -157,9 +162,9 @@ Status run_models(const Scene& scene, int threads, const Deadline& deadline, boo
         auto particles = model_particles(cloud, request, deadline);
         if (!particles.ok()) return particles.error();
         made[k] = *std::move(particles);
-        const double density = cloud.density.value_or(scene->density.value_or(kDefaultDensity));
-        if (Status wrong =
-                check_made(made[k].particles, motion, density, "/clouds/" + std::to_string(k)))
+        const double density = made[k].extinctions ? 1.0 : request.density;
+        if (Status wrong = bring_within_limits(made[k].particles, motion, density,
+                                               "/clouds/" + std::to_string(k)))
             return wrong;
         set.error = std::max(set.error, made[k].error);
         set.variant = keyed(set.variant, made[k].variant);
