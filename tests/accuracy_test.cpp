@@ -92,6 +92,34 @@ Result<AccuracyReport> sweep(const Scene& scene, FakeRungs& fake, AccuracyOption
     return measure_accuracy(scene, options, fake.renderer(scene), progress, deadline);
 }
 
+TEST(Accuracy, MeasuresThePictureOfTheScenesTime) {
+    SceneDraft draft = thin_ball();
+    draft.camera.automatic = true;
+    draft.clouds[0].velocity = {0.5, 0, 0};
+    draft.time = 1;
+    FakeRungs one, two;
+    one.rungs["harris"] = two.rungs["harris"] = {0.8, {40}, {}};
+    const auto still = sweep(valid(draft), one, quick());
+    draft.sequence = Sequence{0, 20, 2};  // its camera would hold twenty seconds' way
+    const auto of_sequence = sweep(valid(draft), two, quick());
+    ASSERT_TRUE(still && of_sequence);
+    ASSERT_EQ(still->rungs.size(), of_sequence->rungs.size());
+    for (std::size_t i = 0; i < still->rungs.size(); ++i)
+        if (still->rungs[i].rung == std::string("harris")) {
+            EXPECT_EQ(still->rungs[i].error.nrmse, of_sequence->rungs[i].error.nrmse);
+        }
+}
+
+TEST(Accuracy, ALookHasNoErrorToMeasure) {
+    SceneDraft draft;
+    draft.top_level_cubes = false;
+    draft.look = Look::kGardner;
+    FakeRungs fake;
+    const auto report = sweep(valid(draft), fake, quick());
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().pointer, "/look");
+}
+
 TEST(Accuracy, MeasuresEveryRungButTheReference) {
     FakeRungs fake;
     fake.rungs["additive"] = {1.5, {3}, {}};

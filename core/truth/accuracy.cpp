@@ -328,6 +328,16 @@ void mark_pareto(std::vector<RungCost>& rungs) {
 Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOptions& options,
                                         const RenderScene& render, const Progress& progress,
                                         const Deadline& deadline) {
+    if (scene->look != Look::kPhysical)
+        return Error{ErrorCode::kInvalidScene, "/look",
+                     "a look has no error to measure; must be \"physical\""};
+    if (scene->sequence) {  // one picture of it is measured, that of the scene's time
+        SceneDraft still = *scene;
+        still.sequence.reset();
+        auto alone = validate(std::move(still));
+        if (!alone) return alone.error();
+        return measure_accuracy(*alone, options, render, progress, deadline);
+    }
     const auto start = Clock::now();
     const auto rungs = chosen_rungs(options);
     if (!rungs) return rungs.error();
