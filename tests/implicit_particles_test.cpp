@@ -112,8 +112,8 @@ TEST(ImplicitParticles, CoarseOnesAreFewAndLieWhereTheOthersDo) {
     }
 }
 
-TEST(ImplicitParticles, TheStatedErrorIsAboutThatToAFinerLattice) {
-    // Against 160 cells: what is stated is to be within 2.5 times of what is, both ways.
+TEST(ImplicitParticles, TheStatedErrorBoundsThatToAFinerLattice) {
+    // Against 160 cells: no less than it is, and within 3 times.
     for (int preset = 0; preset < 5; ++preset) {
         const ImplicitCloud cloud = of_preset(static_cast<ImplicitPreset>(preset), 0);
         LatticeField best = lattice_over(prepare_field(cloud, 1, 0), 160);
@@ -127,8 +127,8 @@ TEST(ImplicitParticles, TheStatedErrorIsAboutThatToAFinerLattice) {
         const double measured = picture_difference(best, fine, 4);
         std::printf("preset %d at 40 cells: stated %.4f, measured %.4f\n", preset, stated,
                     measured);
-        EXPECT_LT(measured, 2.5 * stated) << preset;
-        EXPECT_LT(stated, 2.5 * measured) << preset;
+        EXPECT_LT(measured, stated) << preset;
+        EXPECT_LT(stated, 3 * measured) << preset;
     }
 }
 
