@@ -143,11 +143,18 @@ Result<Planned> plan_still(const Scene& scene, int threads, const Deadline& dead
 Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadline,
                           const MachineSpeed& speed) {
     if (!scene->sequence) return plan_still(scene, threads, deadline, speed, {});
+    const auto start = Deadline::Clock::now();
     auto settled = settle(scene, threads, deadline, speed);
     if (!settled.ok()) return settled.error();
+    const double settling_ms = ms_since(start);
     const Frame frame = frame_at(*settled, scene->time);
     auto planned = plan_still(frame.scene, threads, deadline, speed, frame.detail);
-    if (planned.ok() && !scene->accuracy.rung && settled->draft.accuracy.rung)
+    if (!planned.ok()) return planned;
+    // It is mostly surveys, and a client waits for it as for them.
+    planned->times.survey_ms += settling_ms;
+    planned->plan.predicted.time_ms += settling_ms;
+    for (RungForecast& one : planned->plan.forecasts) one.time_ms += settling_ms;
+    if (!scene->accuracy.rung && settled->draft.accuracy.rung)
         planned->plan.rung_reason =
             "settled for the whole sequence by its first, middle and last frame";
     return planned;
