@@ -76,7 +76,7 @@ enum class ListKind : std::uint8_t {
     kEllipsoids,
 };
 
-enum class WordOutcome { kTaken, kUnknown, kUnsupported };
+enum class WordOutcome { kTaken, kUnknown };
 
 // The draft being filled in, and the elements of its lists that are being read.
 struct DraftInProgress {
@@ -108,7 +108,6 @@ struct Field {
     glm::dvec3* (*vector)(DraftInProgress&) = nullptr;  // three numbers
     ObjectKind object = ObjectKind::kNone;
     ListKind list = ListKind::kNone;
-    const char* unsupported = nullptr;  // the message for WordOutcome::kUnsupported
 };
 
 // What the elements of a list may be: one of the three.

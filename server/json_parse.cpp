@@ -108,14 +108,7 @@ class SceneReader {
         if (!field || !field->word) return wrong_type("a string");
         if (value.size() > limits::kMaxString)
             return fail("must be at most " + std::to_string(limits::kMaxString) + " bytes long");
-        switch (field->word(state, value)) {
-            case WordOutcome::kTaken:
-                return true;
-            case WordOutcome::kUnsupported:
-                return fail(field->unsupported, ErrorCode::kUnsupported);
-            case WordOutcome::kUnknown:
-                break;
-        }
+        if (field->word(state, value) == WordOutcome::kTaken) return true;
         return fail("must be " + std::string(field->wanted) + ", not " + short_quote(value));
     }
 
@@ -225,9 +218,7 @@ class SceneReader {
         error = Error{code, std::move(at), std::move(message)};
         return false;
     }
-    bool fail(std::string message, ErrorCode code = ErrorCode::kInvalidScene) {
-        return fail_at(pointer(), std::move(message), code);
-    }
+    bool fail(std::string message) { return fail_at(pointer(), std::move(message)); }
 
     std::string wanted() {
         if (frames_.empty()) return "must be an object, the scene";

@@ -1,33 +1,13 @@
 #include "core/scene/automaton.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 
+#include "core/scene/checks.h"
 #include "core/scene/limits.h"
 
 namespace awan {
 namespace {
-
-std::string to_text(double value) {
-    if (std::isnan(value)) return "not a number";
-    if (std::isinf(value)) return value > 0 ? "infinite" : "minus infinite";
-    std::array<char, 32> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-    return {buffer.data(), end};
-}
-
-Error invalid(std::string pointer, std::string message) {
-    return {ErrorCode::kInvalidScene, std::move(pointer), std::move(message)};
-}
-
-// Every check is written so that NaN fails it: a draft may come from C++.
-Status in_range(double value, double lowest, double highest, const std::string& pointer) {
-    if (value >= lowest && value <= highest) return std::nullopt;
-    return invalid(pointer, "must be from " + to_text(lowest) + " to " + to_text(highest) +
-                                ", not " + to_text(value));
-}
 
 Status all_in_range(const glm::dvec3& v, double lowest, double highest,
                     const std::string& pointer) {
@@ -45,13 +25,6 @@ Status whole_in_range(const glm::dvec3& v, double lowest, double highest,
             return invalid(pointer + "/" + std::to_string(i),
                            "must be a whole number, not " + to_text(v[i]));
     return std::nullopt;
-}
-
-Status count_in_range(std::uint64_t value, std::uint64_t lowest, std::uint64_t highest,
-                      const std::string& pointer) {
-    if (value >= lowest && value <= highest) return std::nullopt;
-    return invalid(pointer, "must be from " + std::to_string(lowest) + " to " +
-                                std::to_string(highest) + ", not " + std::to_string(value));
 }
 
 Status check_radii(const glm::dvec3& radii, const std::string& pointer) {

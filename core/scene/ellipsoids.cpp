@@ -1,25 +1,14 @@
 #include "core/scene/ellipsoids.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <initializer_list>
 
+#include "core/scene/checks.h"
 #include "core/scene/limits.h"
 
 namespace awan {
 namespace {
-
-std::string to_text(double value) {
-    if (std::isnan(value)) return "not a number";
-    if (std::isinf(value)) return value > 0 ? "infinite" : "minus infinite";
-    char buffer[32];
-    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
-Error invalid(std::string pointer, std::string message) {
-    return {ErrorCode::kInvalidScene, std::move(pointer), std::move(message)};
-}
 
 // The first value that is out of its range; NaN is out of every range. Checks after it do nothing.
 class Checks {
@@ -27,16 +16,11 @@ class Checks {
     explicit Checks(std::string at) : at_(std::move(at)) {}
 
     void number(const char* field, double value, double lowest, double highest) {
-        if (wrong_ || (value >= lowest && value <= highest)) return;
-        wrong_ = invalid(at_ + "/" + field, "must be from " + to_text(lowest) + " to " +
-                                                to_text(highest) + ", not " + to_text(value));
+        if (!wrong_) wrong_ = in_range(value, lowest, highest, at_ + "/" + field);
     }
     void integer(const char* field, std::uint64_t value, std::uint64_t lowest,
                  std::uint64_t highest) {
-        if (wrong_ || (value >= lowest && value <= highest)) return;
-        wrong_ = invalid(at_ + "/" + field, "must be from " + std::to_string(lowest) + " to " +
-                                                std::to_string(highest) + ", not " +
-                                                std::to_string(value));
+        if (!wrong_) wrong_ = count_in_range(value, lowest, highest, at_ + "/" + field);
     }
     void vector(const char* field, const glm::dvec3& v, double lowest, double highest) {
         for (int i = 0; i < 3; ++i)

@@ -1,22 +1,14 @@
 // What a cloud of model "implicit" may be.
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/scene/checks.h"
 #include "core/scene/implicit.h"
 #include "core/scene/limits.h"
 
 namespace awan {
 namespace {
-
-std::string to_text(double value) {
-    if (std::isnan(value)) return "not a number";
-    if (std::isinf(value)) return value > 0 ? "infinite" : "minus infinite";
-    std::array<char, 32> buffer{};
-    return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
-}
 
 // Goes through the fields in order and keeps the first that is wrong. NaN is in no range.
 class Checker {
@@ -25,18 +17,14 @@ class Checker {
     Status wrong;
 
     void fail(const std::string& field, std::string message) {
-        if (!wrong) wrong = Error{ErrorCode::kInvalidScene, at_ + field, std::move(message)};
+        if (!wrong) wrong = invalid(at_ + field, std::move(message));
     }
     void range(const char* field, double value, double lowest, double highest) {
-        if (value >= lowest && value <= highest) return;
-        fail(field, "must be from " + to_text(lowest) + " to " + to_text(highest) + ", not " +
-                        to_text(value));
+        if (!wrong) wrong = in_range(value, lowest, highest, at_ + field);
     }
     void range(const char* field, std::uint64_t value, std::uint64_t lowest,
                std::uint64_t highest) {
-        if (value >= lowest && value <= highest) return;
-        fail(field, "must be from " + std::to_string(lowest) + " to " + std::to_string(highest) +
-                        ", not " + std::to_string(value));
+        if (!wrong) wrong = count_in_range(value, lowest, highest, at_ + field);
     }
     void range(const std::string& field, const glm::dvec3& v, double lowest, double highest) {
         for (int i = 0; i < 3; ++i)

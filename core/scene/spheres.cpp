@@ -1,44 +1,20 @@
 #include "core/scene/spheres.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 
+#include "core/scene/checks.h"
 #include "core/scene/limits.h"
 
 namespace awan {
 namespace {
-
-std::string to_text(double value) {
-    std::array<char, 32> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-    return {buffer.data(), end};
-}
-
-// NaN is in no range.
-Status in_range(double value, double lowest, double highest, const std::string& pointer) {
-    if (value >= lowest && value <= highest) return std::nullopt;
-    return Error{
-        ErrorCode::kInvalidScene, pointer,
-        "must be from " + to_text(lowest) + " to " + to_text(highest) + ", not " + to_text(value)};
-}
 
 Status check_span(const Span& span, double lowest, double highest, const std::string& at,
                   const char* low, const char* high) {
     if (Status wrong = in_range(span.low, lowest, highest, at + low)) return wrong;
     if (Status wrong = in_range(span.high, lowest, highest, at + high)) return wrong;
     if (span.low <= span.high) return std::nullopt;
-    return Error{
-        ErrorCode::kInvalidScene, at + low,
-        "must be at most the upper end, " + to_text(span.high) + ", not " + to_text(span.low)};
-}
-
-Status check_count(std::uint64_t value, std::uint64_t lowest, std::uint64_t highest,
-                   const std::string& pointer) {
-    if (value >= lowest && value <= highest) return std::nullopt;
-    return Error{ErrorCode::kInvalidScene, pointer,
-                 "must be an integer from " + std::to_string(lowest) + " to " +
-                     std::to_string(highest) + ", not " + std::to_string(value)};
+    return invalid(at + low, "must be at most the upper end, " + to_text(span.high) + ", not " +
+                                 to_text(span.low));
 }
 
 }  // namespace
@@ -81,7 +57,7 @@ std::vector<double> figures_of(const SpheresCloud& cloud) {
 }
 
 Status check_spheres(const SpheresCloud& cloud, const std::string& at) {
-    if (Status wrong = check_count(cloud.levels, 0, limits::kMaxSphereLevels, at + "/levels"))
+    if (Status wrong = count_in_range(cloud.levels, 0, limits::kMaxSphereLevels, at + "/levels"))
         return wrong;
     for (int axis = 0; axis < 3; ++axis)
         if (Status wrong = in_range(cloud.size[axis], limits::kMinSpheresSide,
@@ -100,7 +76,7 @@ Status check_spheres(const SpheresCloud& cloud, const std::string& at) {
     if (Status wrong = in_range(cloud.morph->duration, limits::kMinMorphDuration, limits::kMaxTime,
                                 at + "/morph/duration"))
         return wrong;
-    return check_count(cloud.morph->steps, 1, limits::kMaxMorphSteps, at + "/morph/steps");
+    return count_in_range(cloud.morph->steps, 1, limits::kMaxMorphSteps, at + "/morph/steps");
 }
 
 std::uint64_t most_particles(const SpheresCloud& cloud) {

@@ -1,8 +1,6 @@
 #include "core/scene/validate.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -11,6 +9,7 @@
 
 #include "core/plan/ladder.h"
 #include "core/scene/automaton.h"
+#include "core/scene/checks.h"
 #include "core/scene/ellipsoids.h"
 #include "core/scene/implicit.h"
 #include "core/scene/limits.h"
@@ -18,18 +17,6 @@
 
 namespace awan {
 namespace {
-
-std::string to_text(double value) {
-    if (std::isnan(value)) return "not a number";
-    if (std::isinf(value)) return value > 0 ? "infinite" : "minus infinite";
-    std::array<char, 32> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-    return {buffer.data(), end};
-}
-
-Error invalid(std::string pointer, std::string message) {
-    return {ErrorCode::kInvalidScene, std::move(pointer), std::move(message)};
-}
 
 Error unsupported(std::string pointer, std::string message) {
     return {ErrorCode::kUnsupported, std::move(pointer), std::move(message)};
@@ -41,8 +28,7 @@ Error unsupported(std::string pointer, std::string message) {
 template <typename Pointer>
 Status in_range(double value, double lowest, double highest, Pointer pointer) {
     if (value >= lowest && value <= highest) return std::nullopt;
-    return invalid(pointer(), "must be from " + to_text(lowest) + " to " + to_text(highest) +
-                                  ", not " + to_text(value));
+    return out_of_range(pointer(), value, lowest, highest);
 }
 
 Status in_range(double value, double lowest, double highest, const char* pointer) {
