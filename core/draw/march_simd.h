@@ -1,41 +1,9 @@
-// Sixteen floats at a time, by GCC's vector extensions: element by element the same IEEE operations on every
-// machine, whatever registers they take. Everything here must be inlined into functions that choose a target
-// (march_block.cpp), hence always_inline.
+// Functions of sixteen floats (core/float_lanes.h) that the march needs; inlined into march_targets.cpp.
 #pragma once
 
-#include <cstdint>
-#include <cstring>
-
-// Vectors are only ever passed between inlined functions: no ABI to worry about.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
-#define AWAN_INLINE [[gnu::always_inline]] inline
+#include "core/float_lanes.h"
 
 namespace awan::simd {
-
-inline constexpr int kLanes = 16;
-using Floats = float __attribute__((vector_size(64)));
-using Ints = std::int32_t __attribute__((vector_size(64)));
-using Bits = std::uint32_t __attribute__((vector_size(64)));
-
-AWAN_INLINE Floats all(float x) {
-    return Floats{} + x;
-}
-AWAN_INLINE Floats min(const Floats& a, const Floats& b) {
-    return a < b ? a : b;
-}
-AWAN_INLINE Floats max(const Floats& a, const Floats& b) {
-    return a > b ? a : b;
-}
-AWAN_INLINE Bits bits(const Floats& x) {
-    return reinterpret_cast<const Bits&>(x);
-}
-AWAN_INLINE Floats floats(const Bits& x) {
-    return reinterpret_cast<const Floats&>(x);
-}
-AWAN_INLINE Floats abs(const Floats& x) {
-    return floats(bits(x) & 0x7fffffffu);
-}
 
 // exp(x); relative error < 4e-7 for |x| < 86, constant beyond. 2^n by the exponent's bits, the rest (|r| < ln 2 / 2) by
 // its Taylor series (Cody & Waite's reduction).
@@ -55,16 +23,6 @@ AWAN_INLINE Floats exp(const Floats& at) {
 AWAN_INLINE Floats one_minus(const Floats& e, const Floats& x) {
     const Floats series = x * (1.0f - x * (0.5f - x * ((1.0f / 6) - x * (1.0f / 24))));
     return x < 0.03125f ? series : 1.0f - e;
-}
-
-// Correctly rounded everywhere, so the same on every machine.
-AWAN_INLINE Floats sqrt(const Floats& x) {
-    float a[kLanes];
-    std::memcpy(a, &x, sizeof a);
-    for (float& value : a) value = __builtin_sqrtf(value);
-    Floats root;
-    std::memcpy(&root, a, sizeof root);
-    return root;
 }
 
 // ln x for normal x > 0; absolute error < 1e-6 for x < 1e6. x = 2^n m, m within a root of 2 of 1; ln m = 2 artanh of

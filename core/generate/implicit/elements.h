@@ -55,14 +55,14 @@ Box box_at_all_times(const ImplicitPrimitive& primitive);
 
 // Wyvill's cubic of a^2 >= 0: h(a) = (1 - a^2)^2 (1 - 4/9 a^2), which is the printed -4/9 a^6 + 17/9 a^4 - 22/9 a^2 + 1 and
 // exactly 0 from a = 1 on.
-AWAN_LANES lanes::Floats wyvill(const lanes::Floats& a2) {
+AWAN_INLINE lanes::Floats wyvill(const lanes::Floats& a2) {
     const lanes::Floats s = lanes::min(a2, lanes::all(1.0f)), t = 1.0f - s;
     return t * t * (1.0f - s * (4.0f / 9));
 }
 
 // Density of elements list[0 .. count) at p in the frame: the sum of weight times h, at least 0.
-AWAN_LANES lanes::Floats macro_density(const Element* elements, const std::uint32_t* list,
-                                       int count, const lanes::Vec& p) {
+AWAN_INLINE lanes::Floats macro_density(const Element* elements, const std::uint32_t* list,
+                                        int count, const lanes::Vec& p) {
     using lanes::Floats;
     Floats sum{}, nearest = lanes::all(1e30f);
     for (int i = 0; i < count; ++i) {

@@ -13,7 +13,7 @@ using lanes::all;
 using lanes::Floats;
 using lanes::Vec;
 
-AWAN_LANES void warp_by_flow(const PreparedFlow& flow, Vec& p) {
+AWAN_INLINE void warp_by_flow(const PreparedFlow& flow, Vec& p) {
     for (int lane = 0; lane < lanes::kCount; ++lane) {
         const float at[3] = {p.x[lane], p.y[lane], p.z[lane]};
         int low[3], high[3];
@@ -41,14 +41,14 @@ AWAN_LANES void warp_by_flow(const PreparedFlow& flow, Vec& p) {
     }
 }
 
-AWAN_LANES void warp_by_attractor(const PreparedAttractor& a, Vec& p) {
+AWAN_INLINE void warp_by_attractor(const PreparedAttractor& a, Vec& p) {
     const Floats x = p.x - a.at.x, y = p.y - a.at.y, z = p.z - a.at.z;
     const Floats h = a.strength * wyvill((x * x + y * y + z * z) * (a.inverse * a.inverse));
     p.x += h * x, p.y += h * y, p.z += h * z;
 }
 
 // Rodrigues' rotation, by minus the angle: what is seen here was there.
-AWAN_LANES void warp_by_vortex(const PreparedVortex& v, Vec& p) {
+AWAN_INLINE void warp_by_vortex(const PreparedVortex& v, Vec& p) {
     const Floats x = p.x - v.at.x, y = p.y - v.at.y, z = p.z - v.at.z;
     const Floats turns = -v.turns * wyvill((x * x + y * y + z * z) * (v.inverse * v.inverse));
     const Floats s = lanes::sin_turns(turns), c = lanes::sin_turns(turns + 0.25f);
@@ -59,7 +59,7 @@ AWAN_LANES void warp_by_vortex(const PreparedVortex& v, Vec& p) {
     p.z = v.at.z + (c * z + s * (k.x * y - k.y * x) + along * k.z);
 }
 
-AWAN_LANES Vec in_noise_space(const ImplicitField& f, const Vec& p) {
+AWAN_INLINE Vec in_noise_space(const ImplicitField& f, const Vec& p) {
     const glm::vec3& axis = f.stretch_axis;
     const Floats less = (p.x * axis.x + p.y * axis.y + p.z * axis.z) * f.stretch_less;
     Vec n{(p.x + less * axis.x) * f.noise_scale, (p.y + less * axis.y) * f.noise_scale,
@@ -70,7 +70,7 @@ AWAN_LANES Vec in_noise_space(const ImplicitField& f, const Vec& p) {
     return n;
 }
 
-AWAN_LANES Vec displaced(const ImplicitField& f, const Vec& p, const Vec& n, const Floats& t) {
+AWAN_INLINE Vec displaced(const ImplicitField& f, const Vec& p, const Vec& n, const Floats& t) {
     const float most = f.displacement;
     if (!(most > 0)) return p;
     if (f.diagonal) {
@@ -82,7 +82,7 @@ AWAN_LANES Vec displaced(const ImplicitField& f, const Vec& p, const Vec& n, con
             p.z + most * lanes::clamp(b.z, -1, 1)};
 }
 
-AWAN_LANES void warp(const ImplicitField& f, const Floats& t, Vec& p) {
+AWAN_INLINE void warp(const ImplicitField& f, const Floats& t, Vec& p) {
     const Floats height = lanes::clamp((p.y - f.jet_floor) * f.jet_slope, 0, 1);
     const Floats more = f.jet_turbulence * lanes::min(t, all(1.0f));
     p.x -= height * (f.jet.x + 0.2f * more);
@@ -93,7 +93,7 @@ AWAN_LANES void warp(const ImplicitField& f, const Floats& t, Vec& p) {
     for (const PreparedVortex& v : f.vortices) warp_by_vortex(v, p);
 }
 
-AWAN_LANES Floats ripples(const ImplicitField& f, const Vec& p, const Floats& t) {
+AWAN_INLINE Floats ripples(const ImplicitField& f, const Vec& p, const Floats& t) {
     Floats product = all(1.0f);
     const auto along = [&](float inverse, const Floats& x) __attribute__((always_inline)) {
         if (inverse > 0)
@@ -107,7 +107,7 @@ AWAN_LANES Floats ripples(const ImplicitField& f, const Vec& p, const Floats& t)
 }
 
 // Of sixteen points in the frame.
-AWAN_LANES Floats density(const ImplicitField& f, const std::uint32_t* list, int count,
+AWAN_INLINE Floats density(const ImplicitField& f, const std::uint32_t* list, int count,
                           const Vec& p) {
     const Vec n = in_noise_space(f, p);
     const Floats t = turbulence(f.octaves, n);

@@ -1,64 +1,41 @@
-// Sixteen points at a time, by GCC's vector extensions: element by element the same IEEE operations on every machine,
-// whatever registers they take. All of it is inlined into functions that choose a target (field.cpp).
+// Sixteen points at a time (core/float_lanes.h). All of it is inlined into functions that choose a target (field.cpp).
 #pragma once
 
-#include <cstdint>
-#include <cstring>
-
-// Vectors are only ever passed between inlined functions: no ABI to worry about.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
-#define AWAN_LANES [[gnu::always_inline]] inline
+#include "core/float_lanes.h"
 
 namespace awan::lanes {
 
-inline constexpr int kCount = 16;
-using Floats = float __attribute__((vector_size(64)));
-using Ints = std::int32_t __attribute__((vector_size(64)));
-using Bits = std::uint32_t __attribute__((vector_size(64)));
+inline constexpr int kCount = simd::kLanes;
+using simd::abs;
+using simd::all;
+using simd::Bits;
+using simd::bits;
+using simd::Floats;
+using simd::floats;
+using simd::Ints;
+using simd::max;
+using simd::min;
+using simd::sqrt;
 
 struct Vec {
     Floats x, y, z;
 };
 
-AWAN_LANES Floats all(float x) {
-    return Floats{} + x;
-}
-AWAN_LANES Floats min(const Floats& a, const Floats& b) {
-    return a < b ? a : b;
-}
-AWAN_LANES Floats max(const Floats& a, const Floats& b) {
-    return a > b ? a : b;
-}
-AWAN_LANES Floats clamp(const Floats& x, float low, float high) {
+AWAN_INLINE Floats clamp(const Floats& x, float low, float high) {
     return min(max(x, all(low)), all(high));
-}
-AWAN_LANES Bits bits(const Floats& x) {
-    return reinterpret_cast<const Bits&>(x);
-}
-AWAN_LANES Floats floats(const Bits& x) {
-    return reinterpret_cast<const Floats&>(x);
-}
-AWAN_LANES Floats abs(const Floats& x) {
-    return floats(bits(x) & 0x7fffffffu);
-}
-AWAN_LANES Floats sqrt(const Floats& x) {  // correctly rounded by IEEE 754
-    Floats root;
-    for (int i = 0; i < kCount; ++i) root[i] = __builtin_sqrtf(x[i]);
-    return root;
 }
 
 // Largest integer <= x, |x| < 2^31.
-AWAN_LANES Ints floor_int(const Floats& x) {
+AWAN_INLINE Ints floor_int(const Floats& x) {
     const Ints i = __builtin_convertvector(x, Ints);
     return i + (__builtin_convertvector(i, Floats) > x);  // a true comparison is -1
 }
-AWAN_LANES Floats to_floats(const Ints& i) {
+AWAN_INLINE Floats to_floats(const Ints& i) {
     return __builtin_convertvector(i, Floats);
 }
 
 // sin(2 pi x), |x| < 2^22. Absolute error < 3e-6: the Taylor series to the 11th power on a quarter turn.
-AWAN_LANES Floats sin_turns(const Floats& x) {
+AWAN_INLINE Floats sin_turns(const Floats& x) {
     Floats r = x - to_floats(floor_int(x + 0.5f));  // -.5 .. .5
     r = r > 0.25f ? 0.5f - r : r;
     r = r < -0.25f ? -0.5f - r : r;
@@ -69,7 +46,7 @@ AWAN_LANES Floats sin_turns(const Floats& x) {
 }
 
 // log2(x), x a normal number > 0. Absolute error < 1e-6: of the mantissa by the series of atanh.
-AWAN_LANES Floats log2(const Floats& x) {
+AWAN_INLINE Floats log2(const Floats& x) {
     // The mantissa from sqrt(1/2) to sqrt(2).
     const Bits shifted = bits(x) - 0x3f3504f3u;
     const Ints exponent = reinterpret_cast<const Ints&>(shifted) >> 23;
@@ -81,7 +58,7 @@ AWAN_LANES Floats log2(const Floats& x) {
 }
 
 // 2^x, x from -126 to 126. Relative error < 1e-6.
-AWAN_LANES Floats exp2(const Floats& x) {
+AWAN_INLINE Floats exp2(const Floats& x) {
     const Ints n = floor_int(x + 0.5f);
     const Floats r = (x - to_floats(n)) * 0.693147181f;
     const Floats p =
@@ -93,7 +70,7 @@ AWAN_LANES Floats exp2(const Floats& x) {
 }
 
 // x^power, 0 for x < 1e-30; at most 2^10. Relative error < 1e-5 for powers up to 8.
-AWAN_LANES Floats power(const Floats& x, float exponent) {
+AWAN_INLINE Floats power(const Floats& x, float exponent) {
     const Floats log = log2(max(x, all(1e-30f))) * exponent;
     const Floats y = exp2(clamp(log, -126.0f, 10.0f));
     return x < 1e-30f ? Floats{} : y;

@@ -27,13 +27,13 @@ using lanes::Bits;
 using lanes::Floats;
 using lanes::Ints;
 
-AWAN_LANES Floats fade(const Floats& t) {
+AWAN_INLINE Floats fade(const Floats& t) {
     return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
 }
 
 // The dot product of (x, y, z) with one of the twelve edges of a cube, by the low ten bits. Perlin takes four bits and four of
 // the edges twice: gradients then have 1.2 times the variance along y that they have along x and z.
-AWAN_LANES Floats edge(const Bits& hash, const Floats& x, const Floats& y, const Floats& z) {
+AWAN_INLINE Floats edge(const Bits& hash, const Floats& x, const Floats& y, const Floats& z) {
     const Bits ten = hash & 1023u;
     const Bits h = ((ten << 3) + (ten << 2)) >> 10;  // 0 .. 11
     const Floats u = h < 4u ? y : x;
@@ -50,15 +50,15 @@ struct Cell {
 
 inline constexpr std::uint32_t kX = 0x8da6b343u, kY = 0xd8163841u, kZ = 0xcb1ab31fu;
 
-AWAN_LANES void place(const Floats& at, float part, std::uint32_t shift, std::uint32_t factor,
-                      Floats& within, Bits& hash) {
+AWAN_INLINE void place(const Floats& at, float part, std::uint32_t shift, std::uint32_t factor,
+                       Floats& within, Bits& hash) {
     const Floats x = lanes::clamp(at, -kNoiseReach, kNoiseReach) + part;
     const Ints cell = lanes::floor_int(x);
     within = x - lanes::to_floats(cell);
     hash = (reinterpret_cast<const Bits&>(cell) + shift) * factor;
 }
 
-AWAN_LANES Cell cell_of(const NoiseLattice& lattice, const lanes::Vec& p) {
+AWAN_INLINE Cell cell_of(const NoiseLattice& lattice, const lanes::Vec& p) {
     Cell c;
     place(p.x, lattice.part_x, lattice.shift_x, kX, c.x, c.hx);
     place(p.y, lattice.part_y, lattice.shift_y, kY, c.y, c.hy);
@@ -67,7 +67,7 @@ AWAN_LANES Cell cell_of(const NoiseLattice& lattice, const lanes::Vec& p) {
     return c;
 }
 
-AWAN_LANES Bits mixed(const Bits& sum) {
+AWAN_INLINE Bits mixed(const Bits& sum) {
     Bits h = sum;
     h ^= h >> 15;
     h *= 0x2c1b3c6du;
@@ -76,14 +76,14 @@ AWAN_LANES Bits mixed(const Bits& sum) {
     return h ^ (h >> 15);
 }
 
-AWAN_LANES Floats mix(const Floats& a, const Floats& b, const Floats& t) {
+AWAN_INLINE Floats mix(const Floats& a, const Floats& b, const Floats& t) {
     return a + t * (b - a);
 }
 
 }  // namespace noise_detail
 
 // Continuous with its first two derivatives, 0 at lattice points, within +-1.05.
-AWAN_LANES lanes::Floats noise(const NoiseLattice& lattice, const lanes::Vec& p) {
+AWAN_INLINE lanes::Floats noise(const NoiseLattice& lattice, const lanes::Vec& p) {
     using namespace noise_detail;
     const Cell c = cell_of(lattice, p);
     Floats row[4];
@@ -99,7 +99,7 @@ AWAN_LANES lanes::Floats noise(const NoiseLattice& lattice, const lanes::Vec& p)
 }
 
 // Three of them that have nothing to do with each other, by other bits of one hash.
-AWAN_LANES lanes::Vec noise3(const NoiseLattice& lattice, const lanes::Vec& p) {
+AWAN_INLINE lanes::Vec noise3(const NoiseLattice& lattice, const lanes::Vec& p) {
     using namespace noise_detail;
     const Cell c = cell_of(lattice, p);
     Floats row[3][4];
@@ -131,7 +131,7 @@ struct Octaves {
 };
 
 // Turbulence (Perlin 1985): the sum of |noise|, >= 0.
-AWAN_LANES lanes::Floats turbulence(const Octaves& octaves, const lanes::Vec& p) {
+AWAN_INLINE lanes::Floats turbulence(const Octaves& octaves, const lanes::Vec& p) {
     lanes::Floats sum = lanes::all(octaves.rest);
     for (int o = 0; o < octaves.count; ++o) {
         const auto i = static_cast<std::size_t>(o);
@@ -143,7 +143,7 @@ AWAN_LANES lanes::Floats turbulence(const Octaves& octaves, const lanes::Vec& p)
 }
 
 // Fractional Brownian motion, three of them: sums of noise, around 0.
-AWAN_LANES lanes::Vec brownian3(const Octaves& octaves, const lanes::Vec& p) {
+AWAN_INLINE lanes::Vec brownian3(const Octaves& octaves, const lanes::Vec& p) {
     lanes::Vec sum{lanes::Floats{}, lanes::Floats{}, lanes::Floats{}};
     for (int o = 0; o < octaves.count; ++o) {
         const auto i = static_cast<std::size_t>(o);
