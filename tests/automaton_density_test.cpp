@@ -11,6 +11,7 @@
 #include "core/generate/automaton/smooth.h"
 #include "core/generate/generate.h"
 #include "core/generate/keyed_random.h"
+#include "tests/gaussian_sums.h"
 #include "tests/random_models_automaton.h"
 #include "tests/scenes.h"
 
@@ -104,17 +105,6 @@ double mass(const ReadyParticles& particles) {
     return sum;
 }
 
-double density_at(const ReadyParticles& particles, const glm::dvec3& p) {
-    double sum = 0;
-    for (std::size_t i = 0; i < particles.positions.size(); ++i) {
-        const double s = static_cast<double>(particles.radii[i]) / 2;
-        const glm::dvec3 d = p - particles.positions[i];
-        sum +=
-            static_cast<double>(particles.densities[i]) * std::exp(-glm::dot(d, d) / (2 * s * s));
-    }
-    return sum;
-}
-
 struct Sky {
     explicit Sky(const AutomatonCloud& cloud, std::uint64_t key)
         : grid(cloud.cells), bits(random_sky(grid, key, false)) {
@@ -143,7 +133,7 @@ TEST(AutomatonParticles, AFullSkyHasDensityOneInItsMiddle) {
     // A lattice of Gaussians of s = .645 h: 6 exp(-2 pi^2 s^2/h^2) = .0016 of ripple, and float32.
     for (const glm::dvec3 p :
          {glm::dvec3(0, 12, 0), glm::dvec3(1, 13, 1), glm::dvec3(0.5, 12.3, -1)})
-        EXPECT_NEAR(density_at(made->particles, p), 1, 0.002);
+        EXPECT_NEAR(test::extinction_at(made->particles, p), 1, 0.002);
     // The grid stands on y = 0, its middle at x = z = 0.
     EXPECT_EQ(made->particles.positions.front(), glm::dvec3(-23, 1, -19));
     EXPECT_EQ(made->particles.positions.back(), glm::dvec3(23, 23, 19));
@@ -207,10 +197,10 @@ TEST(AutomatonParticles, BetweenStepsDensityIsTheMean) {
         const auto mixed = cells_to_particles(cloud, density, 1u << 20, 1, {});
         for (const glm::dvec3 p :
              {glm::dvec3(0, 12, 0), glm::dvec3(5, 8, -7), glm::dvec3(-20, 2, 3)})
-            EXPECT_NEAR(
-                density_at(mixed->particles, p),
-                (1 - share) * density_at(a->particles, p) + share * density_at(b->particles, p),
-                1e-5);  // float32
+            EXPECT_NEAR(test::extinction_at(mixed->particles, p),
+                        (1 - share) * test::extinction_at(a->particles, p) +
+                            share * test::extinction_at(b->particles, p),
+                        1e-5);  // float32
     }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include "tests/gaussian_sums.h"
 
 namespace awan {
 namespace {
@@ -25,17 +26,6 @@ LatticeField sampled(int n, double cell, glm::dvec3 middle, const Value& value) 
     return field;
 }
 
-double sum_at(const ReadyParticles& particles, glm::dvec3 p) {
-    double sum = 0;
-    for (std::size_t i = 0; i < particles.positions.size(); ++i) {
-        const double s = static_cast<double>(particles.radii[i]) / 2;
-        const glm::dvec3 d = p - particles.positions[i];
-        sum +=
-            static_cast<double>(particles.densities[i]) * std::exp(-glm::dot(d, d) / (2 * s * s));
-    }
-    return sum;
-}
-
 double mass_of(const ReadyParticles& particles) {
     double mass = 0;
     for (std::size_t i = 0; i < particles.positions.size(); ++i)
@@ -53,7 +43,7 @@ TEST(LatticeParticles, AConstantFieldComesBack) {
     // Five cells from the faces, where the Gaussians cut off there are below exp(-25): within three axes' 4.8e-4.
     for (int step = 0; step <= 10; ++step) {
         const glm::dvec3 p = glm::dvec3(5, -2, 1) + 0.06 * step * glm::dvec3(1, 0.7, 0.3);
-        EXPECT_NEAR(sum_at(particles, p), 2.5, 2.5 * 3 * 4.9e-4) << step;
+        EXPECT_NEAR(test::extinction_at(particles, p), 2.5, 2.5 * 3 * 4.9e-4) << step;
     }
     // As the header says: s in one axis.
     EXPECT_NEAR(2 * std::exp(-2 * std::pow(std::numbers::pi * kLatticeS, 2)), 4.8e-4, 1e-5);
@@ -72,8 +62,8 @@ TEST(LatticeParticles, ASmoothFieldComesBackAndSharperWithLessBlur) {
     for (int step = 0; step < 60; ++step) {
         const glm::dvec3 p = 1.3 * glm::dvec3(std::sin(1.7 * step), std::cos(2.9 * step),
                                               std::sin(0.31 * step * step));
-        plain_error = std::max(plain_error, std::abs(sum_at(plain, p) - bump(p)));
-        sharp_error = std::max(sharp_error, std::abs(sum_at(sharp, p) - bump(p)));
+        plain_error = std::max(plain_error, std::abs(test::extinction_at(plain, p) - bump(p)));
+        sharp_error = std::max(sharp_error, std::abs(test::extinction_at(sharp, p) - bump(p)));
     }
     // Blur adds (s^2 / 2) of the second derivatives, here at most 8: .068. Of the sharpened, fourth order.
     EXPECT_LT(plain_error, 0.068);

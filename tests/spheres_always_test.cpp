@@ -16,28 +16,14 @@
 #include "core/scene/limits.h"
 #include "tests/random_models_spheres.h"
 #include "tests/scenes.h"
+#include "tests/spheres_clouds.h"
 
 namespace awan {
 namespace {
 
-SpheresCloud cloud_of(std::uint64_t levels) {
-    SpheresCloud cloud;
-    cloud.levels = levels;
-    return cloud;
-}
-
-ModelRequest request_of(std::uint64_t key, int threads = 1) {
-    ModelRequest request;
-    request.key = key;
-    request.threads = threads;
-    return request;
-}
-
-ReadyParticles particles_of(const SpheresCloud& cloud, const ModelRequest& request) {
-    auto made = spheres_particles(cloud, request, {});
-    EXPECT_TRUE(made.ok());
-    return made->particles;
-}
+using test::cloud_of;
+using test::particles_of;
+using test::request_of;
 
 // --- morph
 
