@@ -5,15 +5,15 @@
 
 #include <optional>
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
+#include "core/base/progress.h"
 #include "core/draw/image.h"
-#include "core/effect_times.h"
 #include "core/generate/detail.h"
 #include "core/generate/particle_set.h"
 #include "core/gl/device.h"
 #include "core/light/light_cache.h"
+#include "core/plan/effect_times.h"
 #include "core/plan/plan.h"
-#include "core/progress.h"
 #include "core/survey/survey.h"
 
 namespace awan {

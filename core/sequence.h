@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
 #include "core/generate/detail.h"
 #include "core/light/machine_speed.h"
 #include "core/scene/scene.h"

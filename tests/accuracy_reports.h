@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/truth/accuracy.h"
+#include "core/accuracy/accuracy.h"
 
 namespace awan::test {
 

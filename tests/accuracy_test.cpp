@@ -1,6 +1,6 @@
 // The sweep, over renders whose errors and times are known: pictures made from the path tracer's own
 // by a factor, times as the test says.
-#include "core/truth/accuracy.h"
+#include "core/accuracy/accuracy.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <map>
 #include <thread>
 
-#include "core/truth/accuracy_pictures.h"
+#include "core/accuracy/accuracy_pictures.h"
 #include "nlohmann/json.hpp"
-#include "server/accuracy_text.h"
+#include "server/document/accuracy_text.h"
 #include "tests/accuracy_reports.h"
 #include "tests/scenes.h"
 

@@ -12,7 +12,7 @@
 
 #include "core/formats/apng.h"
 #include "core/formats/image_file.h"
-#include "server/cli_frames.h"
+#include "server/cli/frames.h"
 
 namespace awan {
 namespace {

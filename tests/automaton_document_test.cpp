@@ -12,7 +12,7 @@
 #include "core/generate/models.h"
 #include "core/scene/limits.h"
 #include "core/scene/validate.h"
-#include "server/json.h"
+#include "server/document/json.h"
 #include "tests/random_models_automaton.h"
 #include "tests/scene_checks.h"
 #include "tests/scenes.h"

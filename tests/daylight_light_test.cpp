@@ -6,11 +6,11 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/accuracy/error_measures.h"
 #include "core/draw/march.h"
 #include "core/light/sky_inflow.h"
 #include "core/light/transport.h"
 #include "core/scene/outside.h"
-#include "core/truth/error_measures.h"
 #include "core/truth/path_tracer.h"
 #include "tests/scenes.h"
 

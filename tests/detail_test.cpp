@@ -5,12 +5,12 @@
 
 #include <cmath>
 
+#include "core/accuracy/error_measures.h"
 #include "core/draw/march.h"
 #include "core/light/sun_depth.h"
 #include "core/survey/detail_of.h"
 #include "core/survey/lattice.h"
 #include "core/survey/lattice_detail.h"
-#include "core/truth/error_measures.h"
 #include "core/truth/matter.h"
 #include "core/truth/path_tracer.h"
 #include "tests/scenes.h"

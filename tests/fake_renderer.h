@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/plan/plan.h"
-#include "server/render_thread.h"
+#include "server/service/render_thread.h"
 
 namespace awan::test {
 

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <random>
 
+#include "core/base/exact_math.h"
 #include "core/generate/cubes.h"
-#include "core/exact_math.h"
 #include "core/generate/generate.h"
 #include "core/generate/keyed_random.h"
 #include "tests/scenes.h"

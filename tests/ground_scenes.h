@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/accuracy/error_measures.h"
 #include "core/draw/march.h"
 #include "core/light/transport.h"
-#include "core/truth/error_measures.h"
 #include "tests/scenes.h"
 
 namespace awan::test {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <random>
 
+#include "core/accuracy/error_measures.h"
 #include "core/draw/air.h"
 #include "core/light/sun_depth.h"
 #include "core/survey/haze_view.h"
-#include "core/truth/error_measures.h"
 #include "core/truth/haze_walk.h"
 #include "tests/march_lights.h"
 

@@ -6,14 +6,14 @@
 #include <random>
 #include <sstream>
 
+#include "core/accuracy/error_measures.h"
 #include "core/light/island_sun.h"
 #include "core/light/light_cache.h"
 #include "core/light/sun_depth.h"
 #include "core/plan/forecast_figures.h"
 #include "core/plan/island_settings.h"
-#include "core/truth/error_measures.h"
 #include "core/truth/path_tracer.h"
-#include "server/json.h"
+#include "server/document/json.h"
 #include "tests/march_lights.h"
 
 namespace awan {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/formats/awn.h"
-#include "server/json.h"
+#include "server/document/json.h"
 #include "tests/scene_checks.h"
 
 namespace awan {

@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/base/parallel.h"
 #include "core/draw/march.h"
 #include "core/generate/gaussian.h"
 #include "core/generate/generate.h"
-#include "core/parallel.h"
 #include "core/survey/projection.h"
 #include "tests/scenes.h"
 

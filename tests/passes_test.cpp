@@ -193,7 +193,8 @@ TEST(Draw, AHundredThousandThinLayersKeepTheirTransmittance) {
     for (const Ball& ball : list)
         tau += depth_along(test::ray(rendered.survey.view, rendered.image, 4, 4), ball);
     EXPECT_GT(tau, 0.5);
-    EXPECT_NEAR((1 - pixel(rendered.image, 4, 4).a) / std::exp(-tau), 1, 3e-3);  // 2.2e-3 are the cut at 3.5 s
+    EXPECT_NEAR((1 - pixel(rendered.image, 4, 4).a) / std::exp(-tau), 1,
+                3e-3);  // 2.2e-3 are the cut at 3.5 s
 }
 
 TEST(Draw, PicturesOfEveryShape) {
@@ -401,7 +402,8 @@ TEST(HardCases, ADeadlineStopsTheRender) {
     SceneDraft draft = test::table_4_4();
     Deadline over;
     over.until = Deadline::Clock::now();
-    const auto rendered = render_scene(test::valid(draft), {&test::device(), 1, nullptr, {}, {}}, over);
+    const auto rendered =
+        render_scene(test::valid(draft), {&test::device(), 1, nullptr, {}, {}}, over);
     ASSERT_FALSE(rendered.ok());
     EXPECT_EQ(rendered.error().code, ErrorCode::kOverDeadline);
 }

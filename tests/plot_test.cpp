@@ -1,5 +1,5 @@
 // The picture of what accuracy costs, decoded again; its layout as geometry.
-#include "core/formats/plot.h"
+#include "core/accuracy/plot.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-#include "core/formats/plot_layout.h"
+#include "core/accuracy/plot_layout.h"
 #include "tests/accuracy_reports.h"
 
 namespace awan {

@@ -54,7 +54,8 @@ TEST(RandomSearch, EverySceneKeepsTheLaws) {
     for (std::uint64_t seed = first; seed < first + count && failed < 20; ++seed) {
         const RandomScene random = test::random_scene_of_any_model(seed);
         SCOPED_TRACE("AWAN_SEARCH_SEED=" + std::to_string(seed) + " rung " +
-                     random.draft.accuracy.rung.value_or("look") + (random.furnace ? " furnace" : ""));
+                     random.draft.accuracy.rung.value_or("look") +
+                     (random.furnace ? " furnace" : ""));
         auto scene = validate(random.draft);
         ASSERT_TRUE(scene.ok()) << scene.error().pointer << " " << scene.error().message;
         const std::clock_t start = std::clock();

@@ -9,7 +9,7 @@
 
 #include "fake_renderer.h"
 #include "raw_client.h"
-#include "server/http.h"
+#include "server/http/server.h"
 
 namespace awan::test {
 

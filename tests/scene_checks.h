@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "core/scene/validate.h"
-#include "server/json.h"
+#include "server/document/json.h"
 
 namespace awan::scene_checks {
 

@@ -1,4 +1,4 @@
-// Long lists in scene documents, which are read ahead of the parser (server/json_runs.h), and
+// Long lists in scene documents, which are read ahead of the parser (server/document/number_runs.h), and
 // documents made to hurt.
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-// The scene document as text: what is read, what is refused and where (server/json.h).
+// The scene document as text: what is read, what is refused and where (server/document/json.h).
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/scene/limits.h"
 #include "core/scene/validate.h"
-#include "server/json.h"
+#include "server/document/json.h"
 #include "tests/scene_checks.h"
 
 namespace awan {

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "nlohmann/json.hpp"
-#include "server/negotiation.h"
+#include "server/service/negotiation.h"
 #include "service_fixture.h"
 
 namespace awan::test {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fake_renderer.h"
-#include "server/service.h"
+#include "server/service/service.h"
 
 namespace awan::test {
 

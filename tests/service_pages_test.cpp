@@ -1,12 +1,12 @@
 // What the service has beside scenes: pages, presets, the contract, metrics; and its small rules.
 #include <gtest/gtest.h>
 
-#include "core/embedded.h"
+#include "core/base/embedded.h"
 #include "core/pipeline.h"
-#include "server/negotiation.h"
-#include "server/pages.h"
-#include "server/problem.h"
-#include "server/scene_text.h"
+#include "server/document/scene_text.h"
+#include "server/service/negotiation.h"
+#include "server/service/pages.h"
+#include "server/service/problem.h"
 #include "service_fixture.h"
 
 namespace awan::test {

@@ -5,7 +5,7 @@
 #include <set>
 #include <thread>
 
-#include "server/work_budget.h"
+#include "server/service/work_budget.h"
 #include "service_fixture.h"
 
 namespace awan::test {

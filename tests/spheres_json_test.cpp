@@ -7,7 +7,7 @@
 #include "core/scene/limits.h"
 #include "core/scene/spheres.h"
 #include "core/scene/validate.h"
-#include "server/json.h"
+#include "server/document/json.h"
 #include "tests/random_models_spheres.h"
 #include "tests/scene_checks.h"
 #include "tests/scenes.h"

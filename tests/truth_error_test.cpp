@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/truth/error_measures.h"
+#include "core/accuracy/error_measures.h"
 #include "core/truth/path_random.h"
 
 namespace awan {

@@ -8,7 +8,7 @@
 #include "core/plan/ladder.h"
 #include "core/scene/limits.h"
 #include "core/scene/validate.h"
-#include "server/json.h"
+#include "server/document/json.h"
 #include "tests/scene_checks.h"
 
 namespace awan {

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "core/parallel.h"
+#include "core/base/parallel.h"
 
 namespace awan {
 namespace {

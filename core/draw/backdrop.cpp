@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "core/parallel.h"
+#include "core/base/parallel.h"
 #include "core/survey/ground_view.h"
 
 namespace awan {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/draw/image.h"
-#include "core/effect_times.h"
 #include "core/light/light.h"
+#include "core/plan/effect_times.h"
 
 namespace awan {
 

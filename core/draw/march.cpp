@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 #include <mutex>
 
+#include "core/base/parallel.h"
 #include "core/draw/march_block.h"
 #include "core/generate/detail.h"
-#include "core/parallel.h"
 #include "core/scene/outside.h"
 
 namespace awan {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/base/parallel.h"
 #include "core/generate/gaussian.h"
-#include "core/parallel.h"
 #include "core/survey/projection.h"
 
 namespace awan {

@@ -5,8 +5,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/base/parallel.h"
 #include "core/light/harmonics.h"
-#include "core/parallel.h"
 
 namespace awan {
 namespace {

@@ -1,7 +1,7 @@
-// Functions of sixteen floats (core/float_lanes.h) that the march needs; inlined into march_targets.cpp.
+// Functions of sixteen floats (core/base/float_lanes.h) that the march needs; inlined into march_targets.cpp.
 #pragma once
 
-#include "core/float_lanes.h"
+#include "core/base/float_lanes.h"
 
 namespace awan::simd {
 

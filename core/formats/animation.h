@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "core/base/result.h"
 #include "core/draw/image.h"
-#include "core/result.h"
 
 namespace awan {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/exact_math.h"
+#include "core/base/exact_math.h"
 #include "core/generate/keyed_random.h"
 
 namespace awan {

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/base/parallel.h"
 #include "core/generate/keyed_random.h"
-#include "core/parallel.h"
 
 namespace awan {
 namespace {

@@ -7,11 +7,11 @@
 #include <numbers>
 #include <string>
 
+#include "core/base/parallel.h"
 #include "core/generate/cubes.h"
 #include "core/generate/keyed_random.h"
 #include "core/generate/models.h"
 #include "core/generate/motion.h"
-#include "core/parallel.h"
 #include "core/scene/limits.h"
 
 namespace awan {

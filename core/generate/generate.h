@@ -2,7 +2,7 @@
 // machine and for every number of threads; a particle depends on its own cloud and cube only.
 #pragma once
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
 #include "core/generate/particle_set.h"
 #include "core/scene/scene.h"
 

@@ -7,8 +7,8 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "core/deadline.h"
-#include "core/result.h"
+#include "core/base/deadline.h"
+#include "core/base/result.h"
 #include "core/scene/scene.h"
 
 namespace awan {

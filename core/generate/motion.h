@@ -3,7 +3,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/exact_math.h"
+#include "core/base/exact_math.h"
 #include "core/scene/scene.h"
 
 namespace awan {

@@ -5,8 +5,8 @@
 
 #include <string>
 
+#include "core/base/result.h"
 #include "core/gl/device.h"
-#include "core/result.h"
 
 namespace awan::gl {
 

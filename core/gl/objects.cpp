@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdio>
 
-#include "core/embedded.h"
+#include "core/base/embedded.h"
 
 namespace awan::gl {
 namespace {

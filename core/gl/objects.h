@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/result.h"
+#include "core/base/result.h"
 
 namespace awan::gl {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
 
 namespace awan::gl {
 

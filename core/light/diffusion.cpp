@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/float_runs.h"
+#include "core/base/float_runs.h"
 
 namespace awan {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/float_runs.h"
-#include "core/parallel.h"
+#include "core/base/float_runs.h"
+#include "core/base/parallel.h"
 
 namespace awan {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/parallel.h"
 #include "core/light/transport.h"
-#include "core/parallel.h"
 #include "core/survey/projection.h"
 
 namespace awan {

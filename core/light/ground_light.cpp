@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/base/parallel.h"
 #include "core/light/sun_depth.h"
-#include "core/parallel.h"
 
 namespace awan {
 namespace {

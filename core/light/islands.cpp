@@ -7,12 +7,12 @@
 #include <numeric>
 #include <optional>
 
+#include "core/base/parallel.h"
 #include "core/generate/gaussian.h"
 #include "core/light/island_sun.h"
 #include "core/light/sun_depth.h"
 #include "core/light/surroundings.h"
 #include "core/light/transport_part.h"
-#include "core/parallel.h"
 #include "core/plan/island_settings.h"
 
 namespace awan {

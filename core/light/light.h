@@ -5,10 +5,10 @@
 #include <numbers>
 #include <vector>
 
-#include "core/deadline.h"
-#include "core/effect_times.h"
+#include "core/base/deadline.h"
 #include "core/gl/device.h"
 #include "core/light/ground_light.h"
+#include "core/plan/effect_times.h"
 #include "core/plan/plan.h"
 
 namespace awan {

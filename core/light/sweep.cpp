@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cstring>
 
-#include "core/parallel.h"
+#include "core/base/parallel.h"
 
 namespace awan {
 namespace {

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/base/parallel.h"
 #include "core/light/diffusion.h"
 #include "core/light/gmres.h"
 #include "core/light/ground_band.h"
@@ -15,7 +16,6 @@
 #include "core/light/sun_depth.h"
 #include "core/light/sweep.h"
 #include "core/light/transport_part.h"
-#include "core/parallel.h"
 #include "core/scene/outside.h"
 #include "core/shaders/shared.h"
 #include "core/survey/lattice.h"

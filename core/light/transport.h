@@ -11,10 +11,10 @@
 #include <memory>
 #include <vector>
 
-#include "core/deadline.h"
-#include "core/effect_times.h"
+#include "core/base/deadline.h"
 #include "core/generate/particle_set.h"
 #include "core/light/ground_light.h"
+#include "core/plan/effect_times.h"
 #include "core/plan/transport_settings.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"

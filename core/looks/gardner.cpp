@@ -6,10 +6,10 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/base/parallel.h"
 #include "core/draw/backdrop.h"
 #include "core/light/ground_light.h"
 #include "core/looks/looks.h"
-#include "core/parallel.h"
 #include "core/scene/outside.h"
 
 namespace awan {

@@ -3,9 +3,9 @@
 // (validate), and stand where their transform and the scene's time put them.
 #pragma once
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
+#include "core/base/result.h"
 #include "core/draw/image.h"
-#include "core/result.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
 

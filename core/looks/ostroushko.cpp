@@ -9,11 +9,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/base/parallel.h"
 #include "core/draw/backdrop.h"
 #include "core/generate/motion.h"
 #include "core/looks/looks.h"
 #include "core/looks/ostroushko_tile.h"
-#include "core/parallel.h"
 #include "core/scene/spheres.h"
 
 namespace awan {

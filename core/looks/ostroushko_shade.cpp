@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "core/exact_math.h"
+#include "core/base/exact_math.h"
 #include "core/generate/keyed_random.h"
 #include "core/light/ground_light.h"
 

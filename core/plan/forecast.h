@@ -18,7 +18,7 @@ struct MachineSpeed {
 struct RungForecast {
     const Rung* rung = nullptr;
     double error =
-        0;  // relative (PictureError::nrmse, core/truth/error_measures.h); measured errors are below it in 95% of scenes
+        0;  // relative (PictureError::nrmse, core/accuracy/error_measures.h); measured errors are below it in 95% of scenes
     double time_ms = 0;  // of all stages but queue and encode, on this machine
     double bytes = 0;    // memory at its peak, beside the scene's particles and the picture
 };

@@ -8,7 +8,7 @@
 #include <limits>
 #include <string_view>
 
-#include "core/exact_math.h"
+#include "core/base/exact_math.h"
 #include "core/scene/automaton.h"
 #include "core/scene/ellipsoids.h"
 #include "core/scene/implicit.h"

@@ -7,9 +7,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/float_runs.h"
+#include "core/base/float_runs.h"
+#include "core/base/parallel.h"
 #include "core/generate/gaussian.h"
-#include "core/parallel.h"
 #include "core/survey/gauss.h"
 
 namespace awan {

@@ -1,7 +1,7 @@
 #include "core/survey/lattice_detail.h"
 
+#include "core/base/parallel.h"
 #include "core/generate/detail.h"
-#include "core/parallel.h"
 
 namespace awan {
 

@@ -1,7 +1,7 @@
 // The largest optical depth along lines through a cloud, measured on a raster of lines.
 #pragma once
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
 #include "core/survey/survey.h"
 
 namespace awan {

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/base/parallel.h"
 #include "core/generate/gaussian.h"
-#include "core/parallel.h"
 #include "core/survey/ground_view.h"
 #include "core/survey/haze_view.h"
 #include "core/survey/optical_depth.h"

@@ -3,8 +3,8 @@
 #include <atomic>
 #include <cmath>
 
-#include "core/float_runs.h"
-#include "core/parallel.h"
+#include "core/base/float_runs.h"
+#include "core/base/parallel.h"
 
 namespace awan::truth {
 namespace {

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/base/parallel.h"
 #include "core/generate/gaussian.h"
-#include "core/parallel.h"
 #include "core/truth/oracles.h"
 
 namespace awan::truth {

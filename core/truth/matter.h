@@ -20,7 +20,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
 #include "core/generate/detail.h"
 #include "core/generate/particle_set.h"
 #include "core/truth/lattice.h"

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <optional>
 
+#include "core/base/parallel.h"
 #include "core/generate/keyed_random.h"
-#include "core/parallel.h"
 #include "core/truth/haze_walk.h"
 #include "core/truth/oracles.h"
 #include "core/truth/primary_ray.h"

@@ -15,10 +15,10 @@
 
 #include <cstdint>
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
+#include "core/base/progress.h"
 #include "core/draw/image.h"
 #include "core/generate/particle_set.h"
-#include "core/progress.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
 

@@ -6,11 +6,11 @@
 
 #include <cstdio>
 
+#include "core/base/parallel.h"
 #include "core/generate/automaton/cells_to_particles.h"
 #include "core/generate/automaton/parcels.h"
 #include "core/generate/automaton/run.h"
 #include "core/generate/models.h"
-#include "core/parallel.h"
 #include "tests/bench/cloud_of_bench.h"
 
 namespace awan {

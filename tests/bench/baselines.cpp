@@ -10,7 +10,7 @@
 #include <numeric>
 #include <string>
 
-#include "core/embedded.h"
+#include "core/base/embedded.h"
 #include "core/survey/projection.h"
 
 namespace awan::bench {

@@ -5,7 +5,7 @@
 
 #include "core/pipeline.h"
 #include "core/scene/validate.h"
-#include "server/json.h"
+#include "server/document/json.h"
 #include "tests/bench/paired.h"
 #include "tests/scenes.h"
 

@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/base/parallel.h"
 #include "core/draw/draw.h"
 #include "core/light/light.h"
-#include "core/parallel.h"
 #include "core/scene/validate.h"
 #include "tests/bench/baselines.h"
 #include "tests/bench/paired.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <ctime>
 
+#include "core/accuracy/error_measures.h"
 #include "core/draw/march.h"
-#include "core/truth/error_measures.h"
 #include "core/truth/path_tracer.h"
 #include "tests/bench/cloud_of_bench.h"
 #include "tests/bench/paired.h"

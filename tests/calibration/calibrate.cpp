@@ -8,12 +8,12 @@
 #include <memory>
 #include <optional>
 
+#include "core/accuracy/error_measures.h"
 #include "core/gl/device.h"
 #include "core/light/machine_speed.h"
 #include "core/pipeline.h"
 #include "core/plan/forecast_figures.h"
 #include "core/scene/validate.h"
-#include "core/truth/error_measures.h"
 #include "core/truth/path_tracer.h"
 #include "tests/calibration/scenes.h"
 

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <optional>
 
+#include "core/base/parallel.h"
 #include "core/generate/automaton/metaball.h"
-#include "core/parallel.h"
 #include "core/scene/automaton.h"
 
 namespace awan {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
 #include "core/generate/automaton/smooth.h"
 #include "core/generate/models.h"
 

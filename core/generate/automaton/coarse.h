@@ -1,7 +1,7 @@
 // Where an automaton's cloud will lie, without growing it.
 #pragma once
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
 #include "core/generate/models.h"
 
 namespace awan {

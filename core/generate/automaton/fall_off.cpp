@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/parallel.h"
+#include "core/base/parallel.h"
 
 // The same bits by wider instructions where there are any: nothing here is contracted or reordered.
 #define AWAN_CLONES __attribute__((target_clones("avx2", "default")))

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
 #include "core/generate/automaton/grid.h"
 #include "core/generate/automaton/random_bits.h"
 #include "core/scene/automaton.h"

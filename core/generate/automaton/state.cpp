@@ -5,9 +5,9 @@
 #include <bit>
 #include <cmath>
 
+#include "core/base/parallel.h"
 #include "core/generate/automaton/parcels.h"
 #include "core/generate/automaton/random_bits.h"
-#include "core/parallel.h"
 
 namespace awan {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
 #include "core/generate/automaton/fall_off.h"
 #include "core/generate/automaton/grid.h"
 #include "core/scene/automaton.h"

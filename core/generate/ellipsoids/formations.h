@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "core/exact_math.h"
+#include "core/base/exact_math.h"
 #include "core/scene/ellipsoids.h"
 
 namespace awan {

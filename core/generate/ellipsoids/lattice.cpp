@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "core/parallel.h"
+#include "core/base/parallel.h"
 
 namespace awan {
 namespace {

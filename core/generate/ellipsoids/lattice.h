@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
 #include "core/generate/ellipsoids/formations.h"
 #include "core/generate/ellipsoids/texture.h"
 #include "core/generate/lattice_particles.h"

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <optional>
 
+#include "core/base/parallel.h"
 #include "core/generate/ellipsoids/lattice.h"
-#include "core/parallel.h"
 
 namespace awan {
 namespace {

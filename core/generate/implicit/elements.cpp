@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "core/exact_math.h"
+#include "core/base/exact_math.h"
 
 namespace awan {
 namespace {

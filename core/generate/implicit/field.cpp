@@ -108,7 +108,7 @@ AWAN_INLINE Floats ripples(const ImplicitField& f, const Vec& p, const Floats& t
 
 // Of sixteen points in the frame.
 AWAN_INLINE Floats density(const ImplicitField& f, const std::uint32_t* list, int count,
-                          const Vec& p) {
+                           const Vec& p) {
     const Vec n = in_noise_space(f, p);
     const Floats t = turbulence(f.octaves, n);
     const Vec moved = displaced(f, p, n, t);

@@ -1,7 +1,7 @@
-// Sixteen points at a time (core/float_lanes.h). All of it is inlined into functions that choose a target (field.cpp).
+// Sixteen points at a time (core/base/float_lanes.h). All of it is inlined into functions that choose a target (field.cpp).
 #pragma once
 
-#include "core/float_lanes.h"
+#include "core/base/float_lanes.h"
 
 namespace awan::lanes {
 

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "core/exact_math.h"
+#include "core/base/exact_math.h"
 #include "core/generate/implicit/field.h"
 #include "core/generate/implicit/growth.h"
 #include "core/generate/keyed_random.h"

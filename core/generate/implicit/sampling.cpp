@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "core/parallel.h"
+#include "core/base/parallel.h"
 #include "core/scene/limits.h"
 
 namespace awan {

@@ -1,7 +1,7 @@
 // An implicit cloud's density on a lattice.
 #pragma once
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
 #include "core/generate/implicit/field.h"
 #include "core/generate/lattice_particles.h"
 

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/base/parallel.h"
 #include "core/generate/spheres/walk.h"
-#include "core/parallel.h"
 #include "core/scene/limits.h"
 
 namespace awan {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
 #include "core/generate/spheres/subdivision.h"
 
 namespace awan {

@@ -4,9 +4,9 @@
 #include <atomic>
 #include <vector>
 
-#include "core/deadline.h"
+#include "core/base/deadline.h"
+#include "core/base/parallel.h"
 #include "core/generate/spheres/subdivision.h"
-#include "core/parallel.h"
 
 namespace awan {
 

@@ -1,0 +1,25 @@
+// What accuracy costs, as a picture: error over time with the Pareto front, and beneath it every
+// rung's picture with its difference to the truth. plot.cpp is the only user of Cairo.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/accuracy/accuracy.h"
+
+namespace awan {
+
+enum class PlotTheme { kLight, kDark };
+
+struct AccuracyPlot {
+    std::string title;  // the scene's name; may be empty
+    const AccuracyReport* report = nullptr;
+};
+
+// PNG, 1120 pixels wide times `scale` (1..4; above 1 for screens of more pixels an inch). Several
+// plots stand one above the other, on the same axes. Errors: kTooLarge for more of them than a
+// picture can hold, kInternal.
+Result<std::string> plot_accuracy(std::span<const AccuracyPlot> plots, PlotTheme theme,
+                                  double scale = 1);
+
+}  // namespace awan

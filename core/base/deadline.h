@@ -1,0 +1,36 @@
+// How long a caller is willing to wait. Long loops ask over() now and then and give up with an
+// Error.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "core/base/result.h"
+
+namespace awan {
+
+struct Deadline {
+    using Clock = std::chrono::steady_clock;
+
+    Clock::time_point until = Clock::time_point::max();  // default: for ever
+    std::shared_ptr<const std::atomic<bool>> cancelled;  // may be null; true: nobody waits any more
+
+    // The error to return when there is no point in going on, else nothing.
+    std::optional<Error> over() const {
+        if (cancelled && cancelled->load(std::memory_order_relaxed))
+            return Error{ErrorCode::kCancelled, "", "the client is gone"};
+        if (until != Clock::time_point::max() && Clock::now() >= until)
+            return Error{ErrorCode::kOverDeadline, "",
+                         "the deadline passed before the answer was ready"};
+        return std::nullopt;
+    }
+};
+
+// Milliseconds of wall time that have passed.
+inline double ms_since(Deadline::Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Deadline::Clock::now() - start).count();
+}
+
+}  // namespace awan

@@ -1,0 +1,37 @@
+#include "core/base/float_runs.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace awan {
+
+__attribute__((target_clones("avx512f", "avx2", "default"))) double dot_product(const float* a,
+                                                                                const float* b,
+                                                                                std::size_t count) {
+    using Lanes = float __attribute__((vector_size(64)));
+    constexpr std::size_t kLanes = 16, kRun = 1024;
+    double sum = 0;
+    for (std::size_t run = 0; run < count; run += kRun) {
+        const std::size_t end = std::min(run + kRun, count);
+        Lanes parts[2] = {};  // two chains of additions
+        std::size_t i = run;
+        for (; i + 2 * kLanes <= end; i += 2 * kLanes) {
+            Lanes x[2], y[2];
+            std::memcpy(x, a + i, sizeof x);
+            std::memcpy(y, b + i, sizeof y);
+            parts[0] += x[0] * y[0];
+            parts[1] += x[1] * y[1];
+        }
+        parts[0] += parts[1];
+        for (; i < end; ++i) parts[0][0] += a[i] * b[i];
+        for (std::size_t l = 0; l < kLanes; ++l) sum += static_cast<double>(parts[0][l]);
+    }
+    return sum;
+}
+
+__attribute__((target_clones("avx512f", "avx2", "default"))) void add_scaled(
+    float* __restrict to, const float* __restrict from, float scale, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) to[i] += scale * from[i];
+}
+
+}  // namespace awan

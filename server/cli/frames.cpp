@@ -1,0 +1,82 @@
+#include "server/cli/frames.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+namespace awan {
+namespace {
+
+Error bad(std::string message) {
+    return {ErrorCode::kInvalidScene, "", std::move(message)};
+}
+
+std::optional<std::uint64_t> number(std::string_view text) {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (text.empty() || error != std::errc() || end != text.data() + text.size()) return {};
+    return value;
+}
+
+// Where the number goes: %d, or % 0 digit d.
+struct Place {
+    std::size_t at, length, digits;
+};
+std::optional<Place> place_in(std::string_view name) {
+    for (std::size_t at = name.find('%'); at != std::string_view::npos;
+         at = name.find('%', at + 1)) {
+        const std::string_view rest = name.substr(at + 1);
+        if (rest.starts_with('d')) return Place{at, 2, 1};
+        if (rest.size() >= 3 && rest[0] == '0' && rest[1] >= '1' && rest[1] <= '9' &&
+            rest[2] == 'd')
+            return Place{at, 4, static_cast<std::size_t>(rest[1] - '0')};
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<std::vector<std::uint64_t>> parse_frames(const std::string& text, std::uint64_t count) {
+    std::vector<std::uint64_t> frames;
+    if (text.empty() || text == "all") {
+        for (std::uint64_t i = 0; i < count; ++i) frames.push_back(i);
+        return frames;
+    }
+    for (std::string_view rest = text;;) {
+        const std::size_t comma = rest.find(',');
+        const std::string_view part = rest.substr(0, comma);
+        const std::size_t dash = part.find('-');
+        const auto first = number(part.substr(0, dash));
+        const auto last = dash == std::string_view::npos ? first : number(part.substr(dash + 1));
+        if (!first || !last || *first > *last)
+            return bad("--frames " + text +
+                       ": must be all, or numbers and ranges with commas, such as 3 or 0-11,20");
+        if (*last >= count)
+            return bad("--frames " + text + ": the sequence has frames 0 to " +
+                       std::to_string(count - 1));
+        for (std::uint64_t i = *first; i <= *last; ++i) {
+            if (frames.size() >= count) return bad("--frames " + text + ": some stand there twice");
+            frames.push_back(i);
+        }
+        if (comma == std::string_view::npos) return frames;
+        rest = rest.substr(comma + 1);
+    }
+}
+
+Status check_numbered(const std::string& output, std::size_t frames) {
+    if (frames <= 1 || place_in(output)) return std::nullopt;
+    return bad("-o " + output + ": " + std::to_string(frames) +
+               " frames need a place for their number, such as cloud.%04d.png, or an animation, "
+               ".webp or .apng");
+}
+
+std::string numbered_name(const std::string& output, std::uint64_t frame) {
+    const auto place = place_in(output);
+    if (!place) return output;
+    std::string digits = std::to_string(frame);
+    if (digits.size() < place->digits) digits.insert(0, place->digits - digits.size(), '0');
+    return output.substr(0, place->at) + digits + output.substr(place->at + place->length);
+}
+
+}  // namespace awan

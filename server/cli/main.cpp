@@ -1,0 +1,272 @@
+// awan: the command line. Flags become plain values here; commands.cpp and serve.cpp do the
+// work.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <functional>
+#include <thread>
+
+#include "core/pipeline.h"
+#include "core/plan/ladder.h"
+#include "core/scene/limits.h"
+#include "server/cli/cli.h"
+#include "server/service/problem.h"
+
+namespace {
+
+using namespace awan;
+
+constexpr const char* kSceneHelp =
+    "the scene: a .json, .awn, .ply or .csv file, or - for standard input";
+
+int processors() {
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+// Every flag has an environment variable: --allow-host is AWAN_ALLOW_HOST.
+std::string environment_name(std::string flag) {
+    for (char& c : flag) c = c == '-' ? '_' : static_cast<char>(std::toupper(c));
+    return "AWAN_" + flag;
+}
+
+template <typename T>
+CLI::Option* add(CLI::App& command, const std::string& names, T& value, const std::string& help) {
+    CLI::Option* option = command.add_option(names, value, help)->capture_default_str();
+    return option->envname(environment_name(option->get_lnames().front()));
+}
+
+void add_device(CLI::App& command, DeviceChoice& choice) {
+    command
+        .add_flag_callback(
+            "--software", [&choice] { choice = DeviceChoice::kSoftware; },
+            "render on the processor even where there is a GPU")
+        ->envname("AWAN_SOFTWARE");
+}
+
+void add_threads(CLI::App& command, int& threads) {
+    add(command, "--threads", threads, "threads that work on one scene")->check(CLI::Range(1, 256));
+}
+
+void add_state(CLI::App& command, std::string& state) {
+    add(command, "--state", state,
+        "a file of `awan state`: its automaton goes on from there instead of from the beginning");
+}
+
+// A configuration file says for `serve` what its flags would: `queue = 4`, `allow-host = ["a"]`.
+// Flags win over the environment, and both over the file.
+class ServeConfig : public CLI::ConfigTOML {
+  public:
+    std::vector<CLI::ConfigItem> from_config(std::istream& in) const override {
+        std::vector<CLI::ConfigItem> items = CLI::ConfigTOML::from_config(in);
+        std::erase_if(items, [](const CLI::ConfigItem& item) {
+            return std::getenv(environment_name(item.name).c_str()) != nullptr;
+        });
+        for (CLI::ConfigItem& item : items)
+            if (item.parents.empty()) item.parents = {"serve"};
+        return items;
+    }
+};
+
+using Run = std::function<int()>;
+
+std::vector<std::string> rung_names() {
+    std::vector<std::string> names;
+    for (const Rung& rung : ladder()) names.emplace_back(rung.name);
+    return names;
+}
+
+Run add_serve(CLI::App& app) {
+    auto command = std::make_shared<ServeCommand>();
+    command->working = static_cast<std::size_t>(processors());
+    command->threads = processors();
+    auto listen = std::make_shared<std::string>("127.0.0.1:8080");
+    CLI::App* serve = app.add_subcommand("serve", "answer HTTP");
+    serve->fallthrough();  // --config is the program's, and may stand after `serve`
+    add(*serve, "--listen", *listen, "host:port, [v6]:port, host or port; port 0 is any free one")
+        ->check([](const std::string& text) {
+            return parse_listen(text) ? std::string() : text + " is not host:port";
+        });
+    add(*serve, "--workers", command->working, "requests computed at once")
+        ->check(CLI::Range(1, 256));
+    add(*serve, "--queue", command->queue, "renders that may wait; more are answered 429")
+        ->check(CLI::Range(0, 1024));
+    add_threads(*serve, command->threads);
+    add(*serve, "--allow-host", command->http.allowed_hosts,
+        "a further name of this server (Host header); may be repeated")
+        ->delimiter(',');
+    add(*serve, "--allow-origin", command->http.allowed_origins,
+        "an origin, scheme://host:port, whose pages may post; may be repeated")
+        ->delimiter(',');
+    add_device(*serve, command->device);
+    return [command, listen] {
+        const auto address = parse_listen(*listen);
+        command->http.host = address->host;
+        command->http.port = address->port;
+        return run_serve(*command);
+    };
+}
+
+Run add_render(CLI::App& app) {
+    auto command = std::make_shared<RenderCommand>();
+    command->threads = processors();
+    CLI::App* render = app.add_subcommand("render", "a scene to an image");
+    render->add_option("scene", command->scene, kSceneHelp)->required();
+    add(*render, "-o,--output", command->output,
+        "a .png or .exr file, or - for standard output; of a sequence a name with %04d in it for "
+        "numbered "
+        "files, or an animation, .webp or .apng")
+        ->required();
+    add(*render, "--time", command->time, "seconds, instead of the document's");
+    add(*render, "--frames", command->frames,
+        "of the scene's sequence: all, or numbers from 0 as 3 or 0-11,20");
+    add(*render, "--fps", command->frames_per_second, "frames a second that an animation shows")
+        ->check(CLI::Range(0.1, 1000.0));
+    add(*render, "--width", command->width, "pixels, instead of the document's")
+        ->check(CLI::Range(1, limits::kMaxImageSide));
+    add(*render, "--height", command->height, "pixels, instead of the document's")
+        ->check(CLI::Range(1, limits::kMaxImageSide));
+    add(*render, "--format", command->format,
+        "png or exr, instead of the document's; webp or apng for standard output")
+        ->check(CLI::IsMember({"png", "exr", "webp", "apng"}));
+    add(*render, "--background", command->background,
+        "sky or transparent, instead of the document's")
+        ->check(CLI::IsMember({"sky", "transparent"}));
+    CLI::Option* const rung = add(*render, "--rung", command->rung,
+                                  "a rung of accuracy by name, instead of the document's accuracy");
+    rung->check(CLI::IsMember(rung_names()));
+    CLI::Option* const error =
+        add(*render, "--error", command->error,
+            "the cheapest rung of at most this relative error, instead of the document's accuracy");
+    CLI::Option* const time_ms =
+        add(*render, "--time-ms", command->time_ms,
+            "the best rung within these milliseconds, instead of the document's accuracy");
+    error->check(CLI::PositiveNumber)->excludes(rung)->excludes(time_ms);
+    time_ms->check(CLI::PositiveNumber)->excludes(rung);
+    add_state(*render, command->state);
+    add_threads(*render, command->threads);
+    add_device(*render, command->device);
+    return [command] { return run_render(*command); };
+}
+
+Run add_accuracy(CLI::App& app) {
+    auto command = std::make_shared<AccuracyCommand>();
+    command->threads = processors();
+    CLI::App* accuracy = app.add_subcommand(
+        "accuracy", "what accuracy costs a scene: every rung's time and its error to the truth");
+    accuracy->add_option("scene", command->scenes, std::string(kSceneHelp) + "; or several")
+        ->required();
+    add(*accuracy, "-o,--output", command->outputs,
+        "a .json, .csv or .png (plot) file, or - for standard output; may be repeated")
+        ->required()
+        ->allow_extra_args(false);
+    add(*accuracy, "--format", command->format, "json, csv or png, for standard output")
+        ->check(CLI::IsMember({"json", "csv", "png"}));
+    add(*accuracy, "--theme", command->theme, "light or dark, of the plot")
+        ->check(CLI::IsMember({"light", "dark"}));
+    add(*accuracy, "--scale", command->scale, "size of the plot, times 1120 pixels")
+        ->check(CLI::Range(1.0, 4.0));
+    add(*accuracy, "--size", command->side, "pixels of the reference's longer side")
+        ->check(CLI::Range(8, 2048));
+    add(*accuracy, "--samples", command->samples, "paths a pixel of the reference")
+        ->check(CLI::Range(2u, 1u << 24));
+    add(*accuracy, "--rungs", command->rungs, "rungs by name, with commas; all but truth")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember(rung_names()));
+    add(*accuracy, "--runs", command->runs, "timed renders of a rung; the first does not count")
+        ->check(CLI::Range(1, 1000));
+    add(*accuracy, "--within", command->within_seconds,
+        "seconds that a scene may take: the reference is then as good as fits; 0 is no limit")
+        ->check(CLI::Range(0.0, 1e6));
+    add_threads(*accuracy, command->threads);
+    add_device(*accuracy, command->device);
+    return [command] { return run_accuracy(*command); };
+}
+
+Run add_particles(CLI::App& app) {
+    auto command = std::make_shared<ParticlesCommand>();
+    command->threads = processors();
+    CLI::App* particles = app.add_subcommand("particles", "a scene to its particles");
+    particles->add_option("scene", command->scene, kSceneHelp)->required();
+    add(*particles, "-o,--output", command->output,
+        "a .json, .csv, .ply or .awn file, or - for standard output");
+    add(*particles, "--format", command->format, "json, csv, ply or awn, for standard output")
+        ->check(CLI::IsMember({"json", "csv", "ply", "awn"}));
+    add_state(*particles, command->state);
+    add_threads(*particles, command->threads);
+    return [command] { return run_particles(*command); };
+}
+
+Run add_plan(CLI::App& app) {
+    auto command = std::make_shared<PlanCommand>();
+    command->threads = processors();
+    CLI::App* plan = app.add_subcommand("plan", "what would be simulated, and why, as JSON");
+    plan->add_option("scene", command->scene, kSceneHelp)->required();
+    add(*plan, "-o,--output", command->output, "a file, or - for standard output");
+    add_state(*plan, command->state);
+    add_threads(*plan, command->threads);
+    return [command] { return run_plan(*command); };
+}
+
+Run add_state_command(CLI::App& app) {
+    auto command = std::make_shared<StateCommand>();
+    command->threads = processors();
+    CLI::App* state = app.add_subcommand(
+        "state", "an automaton at the scene's time to a file, to go on from later (--state)");
+    state->add_option("scene", command->scene, kSceneHelp)->required();
+    add(*state, "-o,--output", command->output, "a file, or - for standard output")->required();
+    add(*state, "--cloud", command->cloud,
+        "which of the scene's clouds, from 0; needed when several are automata");
+    add_threads(*state, command->threads);
+    return [command] { return run_state(*command); };
+}
+
+Run add_convert(CLI::App& app) {
+    auto command = std::make_shared<ConvertCommand>();
+    CLI::App* convert = app.add_subcommand("convert", "a layout or particles to a scene, and back");
+    convert->add_option("input", command->input, kSceneHelp)->required();
+    convert->add_option("output", command->output, "a .json or .awn file, or - for standard output")
+        ->required();
+    add(*convert, "--format", command->format, "json or awn, for standard output")
+        ->check(CLI::IsMember({"json", "awn"}));
+    return [command] { return run_convert(*command); };
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a write that fails, with a message
+    CLI::App app("Awan renders clouds.", "awan");
+    app.set_version_flag("--version", std::string("awan ") + engine_version());
+    app.require_subcommand(1);
+    app.config_formatter(std::make_shared<ServeConfig>());
+    // CLI11 reads the file before the environment, so this variable is looked up here. A file that
+    // is named must be there.
+    const char* const config = std::getenv("AWAN_CONFIG");
+    const bool named = config != nullptr && *config != '\0';
+    app.set_config("--config", named ? config : "",
+                   "flags of serve, one a line: queue = 4 (Env:AWAN_CONFIG)", named);
+    app.allow_config_extras(CLI::config_extras_mode::error);
+
+    const std::pair<const char*, Run> commands[] = {
+        {"serve", add_serve(app)},        {"render", add_render(app)},
+        {"accuracy", add_accuracy(app)},  {"particles", add_particles(app)},
+        {"plan", add_plan(app)},          {"convert", add_convert(app)},
+        {"state", add_state_command(app)}};
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        const bool help = e.get_exit_code() == 0;
+        app.exit(e);
+        if (help) return kExitFine;
+        return dynamic_cast<const CLI::FileError*>(&e) ? exit_code_of(ErrorCode::kIo) : kExitUsage;
+    }
+    try {
+        for (const auto& [name, run] : commands)
+            if (app.got_subcommand(name)) return run();
+    } catch (const std::exception& e) {  // std::bad_alloc, a thread that cannot be made
+        return report_error("", Error{ErrorCode::kInternal, "", e.what()});
+    }
+    return kExitUsage;
+}

@@ -1,0 +1,56 @@
+// What the commands of the command line share.
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/gl/device.h"
+#include "core/plan/plan.h"
+#include "core/scene/scene.h"
+#include "server/cli/cli.h"
+
+namespace awan {
+
+// One line that is overwritten, on a terminal only. Any thread may write to it.
+class ProgressLine {
+  public:
+    ProgressLine();
+    ~ProgressLine();
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
+
+    void say(const std::string& what);  // what is done now; how far it has come is unknown
+    void done(double share);            // of the whole, 0..1
+
+  private:
+    void show();
+
+    const bool shown_;
+    std::mutex mutex_;
+    std::string what_;
+    int percent_ = -1;  // -1: unknown
+};
+
+// Prints the message; the exit code of bad usage.
+int bad_usage(const std::string& message);
+
+// The format an output is written in: its extension, or --format, which must agree with it.
+// For standard output: --format, or `otherwise`.
+Result<std::string> output_format(const std::string& output, const std::string& format,
+                                  const std::vector<std::string>& known,
+                                  const std::string& otherwise);
+
+bool binary_to_terminal(const std::string& output);
+
+// Opens a device if there is none yet and the plan's rung needs one.
+Status open_for(const Plan& plan, DeviceChoice choice, std::optional<Device>& device);
+
+// `state`: a file to begin an automaton of the scene with, or "".
+Result<Scene> read_valid_scene(const std::string& path, const std::string& state = "");
+
+// Gives the state in a file ("": none) to the automaton of the scene that it belongs to (state.cpp).
+Status begin_with_state(const std::string& path, SceneDraft& draft);
+
+}  // namespace awan

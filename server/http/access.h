@@ -1,0 +1,28 @@
+// Who may call: the Host a request names and the Origin of the page that sent it. Pure functions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/http/framing.h"
+
+namespace awan {
+
+struct AccessRules {
+    std::vector<std::string> hosts;    // names without port, any case; IPv6 in brackets
+    std::vector<std::string> origins;  // scheme://host[:port]
+};
+
+// 421 for a foreign Host: a page on evil.example whose name has been rebound to 127.0.0.1 must not
+// talk to this server. 403 for anything but GET and HEAD from a foreign Origin, "null" included.
+std::optional<FramingError> check_access(const RequestHead& head, const AccessRules& rules);
+
+// The Origin to name in Access-Control-Allow-Origin: an allowed one that is not this server's own.
+std::string_view allowed_foreign_origin(const RequestHead& head, const AccessRules& rules);
+
+// "example.org:8080" -> "example.org"; "[::1]:80" -> "[::1]".
+std::string_view without_port(std::string_view authority);
+
+}  // namespace awan

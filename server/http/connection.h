@@ -1,0 +1,108 @@
+// One client's connection: its bytes, where it stands, how its answer leaves.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "core/base/result.h"
+#include "server/http/codec.h"
+#include "server/http/framing.h"
+
+namespace awan {
+
+// A file descriptor that closes itself.
+class Descriptor {
+  public:
+    explicit Descriptor(int fd = -1) : fd_(fd) {}
+    Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+    Descriptor& operator=(Descriptor&& other) noexcept {
+        std::swap(fd_, other.fd_);
+        return *this;
+    }
+    ~Descriptor();
+    int get() const { return fd_; }
+    void close();
+
+  private:
+    int fd_;
+};
+
+// Reading -> Working -> Writing -> Reading again, or Lingering and the end.
+enum class Stand {
+    kHead,       // a head is awaited or half here
+    kBody,       // a body is half here
+    kWorking,    // its request is being answered, here or by a worker
+    kWriting,    // the rest of an answer waits for the client to take it
+    kLingering,  // answered for the last time; what still comes is thrown away
+};
+
+// While it is kWorking it belongs to the worker that has it, except `stand`, `until`, `socket` and
+// `gone`; otherwise to the thread that polls.
+struct Connection {
+    using Clock = std::chrono::steady_clock;
+
+    Descriptor socket;
+    std::string local_address;  // of this end, as a Host would write it
+    Stand stand = Stand::kHead;
+    Clock::time_point until;  // it is cut then (not while kWorking)
+    Clock::time_point since;  // when it began to wait for a head
+
+    std::string in;  // received, not yet understood
+    std::size_t scanned = 0;
+    RequestHead head;
+    std::string body;
+    std::size_t body_charged = 0;             // bytes counted for it in the budget of all bodies
+    std::shared_ptr<std::atomic<bool>> gone;  // the client has closed its side
+    Clock::time_point read_at;                // when its request was whole
+    bool admitted = false;
+    std::size_t served = 0;
+
+    std::string out;  // of the answer, not yet taken by the client
+    std::size_t sent = 0;
+    std::size_t parked = 0;  // bytes counted for it among all parked bytes
+    bool close_after = false;
+
+    bool unsent() const { return sent < out.size(); }
+};
+
+enum class Received { kBytes, kNothing, kClosed };
+
+// Appends what is there, at most `limit` bytes.
+Received receive(const Connection& connection, std::size_t limit, std::string& to);
+
+// Sends what the client takes now of `out`, and counts what stays in `parked_in_all`. False when
+// the connection is of no more use.
+bool send_unsent(Connection& connection, std::atomic<std::size_t>& parked_in_all);
+
+// Brings the count of parked bytes up to date.
+void count_parked(Connection& connection, std::atomic<std::size_t>& parked_in_all);
+
+// Writes an answer: what the client takes at once goes out; the rest is parked in `out` as long as
+// all parked bytes stay within a limit; past it the writer waits for the client, until `until`.
+class ConnectionSink : public ByteSink {
+  public:
+    // never_wait: for the thread that polls; its answers are small and always parked.
+    ConnectionSink(Connection& connection, std::atomic<std::size_t>& parked_in_all, bool never_wait,
+                   Connection::Clock::time_point until)
+        : connection_(connection), parked_(parked_in_all), never_wait_(never_wait), until_(until) {}
+
+    bool write(std::string_view bytes) override;
+    bool flush();  // to be called once after the last write
+
+  private:
+    bool send_or_wait();
+
+    Connection& connection_;
+    std::atomic<std::size_t>& parked_;
+    bool never_wait_;
+    Connection::Clock::time_point until_;
+};
+
+// A listening socket that does not block, or why not.
+Result<Descriptor> listen_on(const std::string& host, int port);
+int port_of(const Descriptor& socket);
+
+}  // namespace awan

@@ -1,0 +1,176 @@
+// From received bytes to a request, and from its answer to sent bytes.
+#include <sys/socket.h>
+
+#include <algorithm>
+
+#include "server/http/state.h"
+#include "server/service/problem.h"
+
+namespace awan {
+
+using Clock = Connection::Clock;
+
+// --- a request comes in
+
+void HttpServer::State::advance(Connection& c) {
+    while (c.socket.get() >= 0 && c.stand == Stand::kHead && !c.in.empty()) {
+        const HeadEnd head_end = find_head_end(c.in, c.scanned);
+        if (head_end.error)
+            return refuse(c, head_end.error->status, head_end.error->detail, "framing");
+        if (!head_end.bytes) return;
+        ParsedHead parsed = parse_head(std::string_view(c.in).substr(0, *head_end.bytes));
+        c.in.erase(0, *head_end.bytes);
+        if (parsed.error) return refuse(c, parsed.error->status, parsed.error->detail, "framing");
+        c.head = std::move(parsed.head);
+        begin_request(c);
+    }
+}
+
+void HttpServer::State::begin_request(Connection& c) {
+    AccessRules here = rules;
+    here.hosts.push_back(c.local_address);
+    if (const auto error = check_access(c.head, here))
+        return refuse(c, error->status, error->detail, "access");
+    if (c.head.content_length > options.max_body_bytes)
+        return refuse(
+            c, 413, "the body is longer than " + std::to_string(options.max_body_bytes) + " bytes",
+            "framing");
+    c.body.clear();
+    c.gone = std::make_shared<std::atomic<bool>>(false);
+    c.admitted = !draining;
+    if (c.head.expects_continue || c.head.content_length > kLongBody) {
+        std::optional<Response> refused;
+        c.close_after = true;  // the body may or may not follow: nobody could tell what comes next
+        answer_here(c, [&](const Request& request) {
+            refused = service.refuse(request);
+            if (refused) return *refused;
+            Response nothing;
+            nothing.abandoned = true;
+            return nothing;
+        });
+        if (refused) return;
+    }
+    begin_body(c);
+}
+
+void HttpServer::State::begin_body(Connection& c) {
+    const std::size_t here = std::min(c.in.size(), c.head.content_length);
+    c.body.assign(c.in, 0, here);
+    c.in.erase(0, here);
+    c.stand = Stand::kBody;
+    c.until = Clock::now() + options.body_deadline;
+    if (c.head.expects_continue && here == 0) {
+        c.out += "HTTP/1.1 100 Continue\r\n\r\n";
+        if (!send_unsent(c, parked)) return end(c);
+    }
+    charge_body(c, here);
+    if (c.stand == Stand::kBody && c.body.size() == c.head.content_length) dispatch(c);
+}
+
+// Counts received bytes, not announced ones: a client that announces much and sends nothing must
+// not keep others out. Short bodies always get in.
+void HttpServer::State::charge_body(Connection& c, std::size_t bytes) {
+    c.body_charged += bytes;
+    body_bytes += bytes;
+    if (body_bytes > options.max_body_bytes_in_all && c.body.size() > limits::kFreeBodyBytes)
+        refuse(c, 429, "too much is being received at once", "memory");
+}
+
+void HttpServer::State::dispatch(Connection& c) {
+    c.stand = Stand::kWorking;
+    c.read_at = Clock::now();
+    c.close_after = !c.head.keep_alive || ++c.served >= options.requests_per_connection || draining;
+    if (c.head.method != "POST") return taken_back(c, answer(c, codec, true));
+    if (workers->push(&c)) return;
+    metrics.connection_refused("requests");
+    const int seconds = service.retry_after_seconds();
+    answer_here(c, [&](const Request& request) {
+        return problem_retry(429, "too many requests wait", seconds, request.id);
+    });
+}
+
+// --- an answer goes out
+
+// By the thread that polls (`here`) or by a worker.
+bool HttpServer::State::answer(Connection& c, HttpCodec& with, bool here) {
+    Request request;
+    request.deadline = {c.read_at + options.request_deadline, c.gone};
+    request.admitted = c.admitted;
+    const std::string_view origin = allowed_foreign_origin(c.head, rules);
+    Clock::time_point until = Clock::now() + options.request_deadline + options.write_deadline;
+    ConnectionSink sink(c, parked, here, until);
+    const bool whole = with.exchange(
+        c.head, std::move(c.body), std::move(request), c.close_after,
+        [&](const Request& r) {
+            Response response = service.answer(r);
+            if (!origin.empty()) {
+                response.headers.emplace_back("Access-Control-Allow-Origin", origin);
+                response.headers.emplace_back("Access-Control-Expose-Headers", "*");
+                response.headers.emplace_back("Vary", "Origin");
+                if (r.method == "OPTIONS") {
+                    response.headers.emplace_back("Access-Control-Allow-Methods",
+                                                  response.header("Allow"));
+                    response.headers.emplace_back(
+                        "Access-Control-Allow-Headers",
+                        "Accept, Content-Type, If-None-Match, X-Request-Id");
+                }
+            }
+            return response;
+        },
+        sink);
+    return whole && sink.flush();
+}
+
+// An answer made on the spot, with the connection's head still to be echoed.
+void HttpServer::State::answer_here(Connection& c, const HttpCodec::Answer& what) {
+    ConnectionSink sink(c, parked, true, Clock::time_point::max());
+    bool abandoned = false;
+    const bool alive = codec.exchange(
+                           c.head, {}, Request{}, c.close_after,
+                           [&](const Request& request) {
+                               Response response = what(request);
+                               abandoned = response.abandoned;
+                               return response;
+                           },
+                           sink) &&
+                       sink.flush();
+    if (!abandoned) taken_back(c, alive);
+}
+
+// The last answer on a connection: what follows on it cannot be trusted or is not wanted.
+void HttpServer::State::refuse(Connection& c, int status, std::string_view detail,
+                               std::string_view reason) {
+    metrics.connection_refused(reason);
+    metrics.request_done("other", status, 0);
+    Response response = problem(status, detail, "", request_id_from(c.head.header("X-Request-Id")));
+    if (status == 429 || status == 503)
+        response.headers.emplace_back("Retry-After", std::to_string(service.retry_after_seconds()));
+    c.close_after = true;
+    ConnectionSink sink(c, parked, true, Clock::time_point::max());
+    taken_back(c, codec.refuse(response, sink) && sink.flush());
+}
+
+void HttpServer::State::taken_back(Connection& c, bool alive) {
+    body_bytes -= std::exchange(c.body_charged, 0);
+    c.body = {};
+    if (!alive) return end(c);
+    c.stand = Stand::kWriting;
+    c.until = Clock::now() + options.write_deadline;
+    if (!c.unsent()) written(c);
+}
+
+void HttpServer::State::written(Connection& c) {
+    const auto now = Clock::now();
+    if (c.close_after) {
+        shutdown(c.socket.get(), SHUT_WR);
+        c.stand = Stand::kLingering;
+        c.until = now + limits::kLingerDeadline;
+        return;
+    }
+    c.stand = Stand::kHead;
+    c.head = {};
+    c.since = now;
+    c.until = now + (c.in.empty() ? options.idle_deadline : options.head_deadline);
+}
+
+}  // namespace awan

@@ -1,0 +1,285 @@
+#include "server/http/server.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+
+#include "server/http/state.h"
+
+namespace awan {
+namespace {
+
+using Clock = Connection::Clock;
+
+// How long no connection is accepted after there were no descriptors for one.
+constexpr std::chrono::milliseconds kAcceptPause{100};
+
+// Connections beyond the table, kept just long enough to tell them so.
+constexpr std::size_t kTurnedAway = 32;
+
+std::string local_address(int fd) {
+    sockaddr_storage address{};
+    socklen_t size = sizeof address;
+    char text[INET6_ADDRSTRLEN] = "";
+    if (getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) != 0) return {};
+    if (address.ss_family == AF_INET) {
+        const auto* in = reinterpret_cast<const sockaddr_in*>(&address);
+        inet_ntop(AF_INET, &in->sin_addr, text, sizeof text);
+        return text;
+    }
+    const auto* in6 = reinterpret_cast<const sockaddr_in6*>(&address);
+    if (IN6_IS_ADDR_V4MAPPED(&in6->sin6_addr)) {
+        inet_ntop(AF_INET, &in6->sin6_addr.s6_addr[12], text, sizeof text);
+        return text;
+    }
+    inet_ntop(AF_INET6, &in6->sin6_addr, text, sizeof text);
+    return "[" + std::string(text) + "]";
+}
+
+void drain_counter(int fd) {
+    std::uint64_t count = 0;
+    while (read(fd, &count, sizeof count) > 0) {
+    }
+}
+
+}  // namespace
+
+HttpServer::State::State(Service& s, Metrics& m, HttpOptions o)
+    : service(s), metrics(m), options(std::move(o)), wake(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
+
+// --- the turn
+
+void HttpServer::State::poll_once() {
+    std::vector<pollfd> polled;
+    std::vector<Connection*> whose;
+    polled.push_back({wake.get(), POLLIN, 0});
+    // poll passes over -1: no listener while draining, and none while it must wait.
+    const bool accepting = Clock::now() >= accept_after;
+    polled.push_back({accepting ? listener.get() : -1, POLLIN, 0});
+    Clock::time_point soonest = draining ? drain_until : Clock::time_point::max();
+    if (!accepting) soonest = std::min(soonest, accept_after);
+    for (Connection& c : connections) {
+        short events = POLLIN;
+        if (c.stand == Stand::kWriting) events = POLLOUT;
+        if (c.stand == Stand::kWorking) events = POLLRDHUP;
+        // A client that has gone is told once; after that poll would report it for ever.
+        const bool deaf = c.stand == Stand::kWorking && c.gone->load();
+        if (c.stand != Stand::kWorking) soonest = std::min(soonest, c.until);
+        polled.push_back({deaf ? -1 : c.socket.get(), events, 0});
+        whose.push_back(&c);
+    }
+    int wait_ms = -1;
+    if (soonest != Clock::time_point::max()) {
+        const auto left =
+            std::chrono::ceil<std::chrono::milliseconds>(soonest - Clock::now()).count();
+        wait_ms = static_cast<int>(std::clamp<std::int64_t>(left, 0, 60'000));
+    }
+    if (::poll(polled.data(), polled.size(), wait_ms) < 0) return;
+
+    if (polled[0].revents) drain_counter(wake.get());
+    take_back_done();
+    const auto now = Clock::now();
+    for (std::size_t i = 0; i < whose.size(); ++i) {
+        Connection& c = *whose[i];
+        if (polled[i + 2].revents && c.socket.get() == polled[i + 2].fd)
+            on_event(c, polled[i + 2].revents);
+        if (c.socket.get() >= 0 && c.stand != Stand::kWorking && now >= c.until) on_timeout(c);
+    }
+    if (polled[1].revents && !stopping) accept_all();
+    connections.remove_if([](const Connection& c) { return c.socket.get() < 0; });
+}
+
+void HttpServer::State::on_event(Connection& c, short events) {
+    switch (c.stand) {
+        case Stand::kWorking:
+            c.gone->store(true);
+            return;
+        case Stand::kWriting:
+            if (!send_unsent(c, parked)) return end(c);
+            if (!c.unsent()) written(c);
+            return;
+        case Stand::kLingering: {
+            std::string thrown_away;
+            if (receive(c, kLongBody, thrown_away) == Received::kClosed) end(c);
+            return;
+        }
+        case Stand::kHead: {
+            const bool first = c.in.empty();
+            const Received got = receive(c, limits::kMaxHeadBytes + 1 - c.in.size(), c.in);
+            if (got == Received::kClosed) return end(c);
+            if (first && c.served > 0) c.until = Clock::now() + options.head_deadline;
+            return advance(c);
+        }
+        case Stand::kBody: {
+            const std::size_t before = c.body.size();
+            const Received got = receive(c, c.head.content_length - before, c.body);
+            if (got == Received::kClosed) return end(c);
+            charge_body(c, c.body.size() - before);
+            if (c.stand == Stand::kBody && c.body.size() == c.head.content_length) dispatch(c);
+            return advance(c);
+        }
+    }
+    (void)events;
+}
+
+void HttpServer::State::on_timeout(Connection& c) {
+    if (c.stand == Stand::kHead && !c.in.empty())
+        return refuse(c, 408, "the head did not arrive in time", "timeout");
+    if (c.stand == Stand::kBody)
+        return refuse(c, 408, "the body did not arrive in time", "timeout");
+    if (c.stand == Stand::kWriting) metrics.connection_refused("timeout");
+    end(c);
+}
+
+void HttpServer::State::take_back_done() {
+    std::vector<Done> taken;
+    {
+        const std::lock_guard lock(done_mutex);
+        taken.swap(done);
+    }
+    for (const Done& d : taken) {
+        taken_back(*d.connection, d.alive);
+        advance(*d.connection);
+    }
+}
+
+// --- connections come and go
+
+void HttpServer::State::accept_all() {
+    for (;;) {
+        Descriptor socket(accept4(listener.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+        if (socket.get() < 0) {
+            // Out of descriptors or memory: the connection stays in the backlog, and poll would
+            // report it at once, again and again.
+            if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR && errno != ECONNABORTED)
+                accept_after = Clock::now() + kAcceptPause;
+            return;
+        }
+        const int on = 1;
+        setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+        const bool full = connections.size() >= options.max_connections && !make_room();
+        if (full && connections.size() >= options.max_connections + kTurnedAway) continue;
+        Connection& c = connections.emplace_back();
+        c.local_address = local_address(socket.get());
+        c.socket = std::move(socket);
+        c.since = Clock::now();
+        c.until = c.since + options.head_deadline;
+        if (full) refuse(c, 503, "there are too many connections", "connections");
+    }
+}
+
+// Closes the connection that has waited longest for a head, one that has sent nothing before one
+// that has begun: the newcomer is likelier to have something to say. False when all are at work.
+bool HttpServer::State::make_room() {
+    Connection* longest = nullptr;
+    for (Connection& c : connections) {
+        if (c.stand != Stand::kHead || c.socket.get() < 0) continue;
+        const auto rank = [](const Connection& x) { return std::pair(!x.in.empty(), x.since); };
+        if (!longest || rank(c) < rank(*longest)) longest = &c;
+    }
+    if (!longest) return false;
+    metrics.connection_refused("connections");
+    end(*longest);
+    return true;
+}
+
+void HttpServer::State::end(Connection& c) {
+    body_bytes -= std::exchange(c.body_charged, 0);
+    c.out.clear();
+    c.sent = 0;
+    count_parked(c, parked);
+    c.socket.close();
+}
+
+// --- the end
+
+void HttpServer::State::begin_drain() {
+    draining = true;
+    drain_until = Clock::now() + options.drain_deadline;
+    service.drain();
+    listener.close();
+}
+
+bool HttpServer::State::drained() const {
+    // Lingering ones have their answer; a client that keeps its side open must not hold up the
+    // stop.
+    return std::all_of(connections.begin(), connections.end(), [](const Connection& c) {
+        return c.stand == Stand::kHead || c.stand == Stand::kLingering;
+    });
+}
+
+HttpServer::HttpServer(Service& service, Metrics& metrics, HttpOptions options)
+    : state_(std::make_unique<State>(service, metrics, std::move(options))) {}
+
+HttpServer::~HttpServer() = default;
+
+Status HttpServer::bind() {
+    State& s = *state_;
+    rlimit descriptors{};
+    if (getrlimit(RLIMIT_NOFILE, &descriptors) == 0 && descriptors.rlim_cur != RLIM_INFINITY) {
+        const std::size_t all = descriptors.rlim_cur;
+        const std::size_t reserved = limits::kSpareDescriptors + kTurnedAway;
+        s.options.max_connections =
+            std::min(s.options.max_connections, all > 2 * reserved ? all - reserved : reserved);
+    }
+    auto listener = listen_on(s.options.host, s.options.port);
+    if (!listener) return listener.error();
+    s.listener = std::move(listener).value();
+    s.port = port_of(s.listener);
+    s.rules.hosts = {"localhost", "127.0.0.1", "[::1]", s.options.host};
+    s.rules.hosts.insert(s.rules.hosts.end(), s.options.allowed_hosts.begin(),
+                         s.options.allowed_hosts.end());
+    s.rules.origins = s.options.allowed_origins;
+    return std::nullopt;
+}
+
+int HttpServer::port() const {
+    return state_->port;
+}
+
+void HttpServer::run() {
+    State& s = *state_;
+    {
+        Workers<Connection*> workers(s.options.workers, s.options.waiting_requests,
+                                     [&s]() -> std::function<void(Connection*)> {
+                                         auto codec = std::make_shared<HttpCodec>();
+                                         return [&s, codec](Connection* connection) {
+                                             const bool alive =
+                                                 s.answer(*connection, *codec, false);
+                                             const std::lock_guard lock(s.done_mutex);
+                                             s.done.push_back({connection, alive});
+                                             const std::uint64_t one = 1;
+                                             if (write(s.wake.get(), &one, sizeof one) < 0)
+                                                 return;  // it is awake already
+                                         };
+                                     });
+        s.workers = &workers;
+        for (;;) {
+            if (s.stopping && !s.draining) s.begin_drain();
+            if (s.draining && (s.drained() || Clock::now() >= s.drain_until)) break;
+            s.poll_once();
+        }
+        // Whoever has not finished by now is told that nobody waits; the workers end with that.
+        for (Connection& c : s.connections)
+            if (c.stand == Stand::kWorking) c.gone->store(true);
+    }
+    s.workers = nullptr;
+    s.connections.clear();
+}
+
+void HttpServer::stop() {
+    state_->stopping = true;
+    const std::uint64_t one = 1;
+    if (write(state_->wake.get(), &one, sizeof one) < 0) return;  // it is awake already
+}
+
+}  // namespace awan

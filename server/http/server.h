@@ -1,0 +1,71 @@
+// HTTP/1.1 on one port: deadlines, budgets, Host and Origin, keep-alive, a graceful stop. What is
+// answered is service.h's business; framing is framing.h's; cpp-httplib stays in codec.
+//
+// One thread polls all connections: it accepts, reads heads and bodies, and answers everything but
+// POST itself, since those answers come from memory. A POST goes to a worker only when it is whole.
+// So a client that is slow, or silent, costs a few kilobytes and no thread, and /healthz is reached
+// however many such clients there are and however long the render queue is. What a client is slow
+// to take of an answer waits with its connection, not with a worker.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "server/limits.h"
+#include "server/service/service.h"
+
+namespace awan {
+
+struct HttpOptions {
+    std::string host = "127.0.0.1";
+    int port = 8080;  // 0: any free port
+    // Threads that answer POSTs, one request each. Most of them wait for the render queue, so there
+    // should be more than it has places: else it never fills and everybody waits for a worker.
+    std::size_t workers = limits::kRenderQueue + 8;
+    // Names by which clients may call this server (Host header), without port, beside localhost,
+    // 127.0.0.1, [::1], `host` and the address they reached. A foreign Host is answered 421: it
+    // guards against DNS rebinding.
+    std::vector<std::string> allowed_hosts;
+    // Origins (scheme://host:port) of pages that may post, beside this server's own. Others get
+    // 403.
+    std::vector<std::string> allowed_origins;
+
+    // Overridable so that tests need not wait; defaults from limits.h.
+    std::size_t max_connections = limits::kMaxConnections;
+    std::size_t waiting_requests = limits::kWaitingRequests;
+    std::size_t max_body_bytes = limits::kMaxBodyBytes;
+    std::size_t max_body_bytes_in_all = limits::kMaxBodyBytesInAll;
+    std::size_t requests_per_connection = limits::kRequestsPerConnection;
+    std::chrono::milliseconds head_deadline = limits::kHeadDeadline;
+    std::chrono::milliseconds idle_deadline = limits::kIdleDeadline;
+    std::chrono::milliseconds body_deadline = limits::kBodyDeadline;
+    std::chrono::milliseconds write_deadline = limits::kWriteDeadline;
+    std::chrono::milliseconds request_deadline = limits::kRequestDeadline;
+    std::chrono::milliseconds drain_deadline = limits::kDrainDeadline;
+};
+
+class HttpServer {
+  public:
+    HttpServer(Service& service, Metrics& metrics, HttpOptions options);
+    ~HttpServer();
+    HttpServer(const HttpServer&) = delete;
+    HttpServer& operator=(const HttpServer&) = delete;
+
+    // Binds and listens. Fails with kIo when the port is taken (no second server on one port).
+    Status bind();
+    int port() const;  // after bind()
+
+    // Serves until stop(); then finishes what is in flight (at most drain_deadline). Call from one
+    // thread.
+    void run();
+    // Async-signal-unsafe but thread-safe: call from another thread.
+    void stop();
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace awan

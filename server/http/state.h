@@ -1,0 +1,75 @@
+// What the files of the transport share (server.cpp: connections and turns, requests.cpp:
+// requests and answers); nobody else includes it.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <list>
+#include <mutex>
+#include <string_view>
+#include <vector>
+
+#include "server/http/access.h"
+#include "server/http/codec.h"
+#include "server/http/connection.h"
+#include "server/http/server.h"
+#include "server/http/workers.h"
+
+namespace awan {
+
+// A body this long is worth a look at its head before it is sent.
+inline constexpr std::size_t kLongBody = 1u << 20;
+
+struct HttpServer::State {
+    using Clock = Connection::Clock;
+
+    State(Service& s, Metrics& m, HttpOptions o);
+
+    Service& service;
+    Metrics& metrics;
+    HttpOptions options;
+    AccessRules rules;
+    Descriptor listener;
+    Descriptor wake;  // written to when a worker has finished, and by stop()
+    int port = 0;
+    std::atomic<bool> stopping{false};
+
+    // All of the following belongs to the thread in run(), except what is said otherwise.
+    HttpCodec codec;
+    std::list<Connection> connections;
+    std::size_t body_bytes = 0;          // of all connections
+    std::atomic<std::size_t> parked{0};  // workers count too
+    bool draining = false;
+    Clock::time_point drain_until;
+    Clock::time_point accept_after;
+    Workers<Connection*>* workers = nullptr;
+    std::mutex done_mutex;
+    struct Done {
+        Connection* connection;
+        bool alive;
+    };
+    std::vector<Done> done;  // guarded by done_mutex
+
+    void accept_all();
+    bool make_room();
+    void poll_once();
+    void on_event(Connection& c, short events);
+    void on_timeout(Connection& c);
+    void take_back_done();
+    void begin_drain();
+    bool drained() const;
+
+    void advance(Connection& c);
+    void begin_request(Connection& c);
+    void begin_body(Connection& c);
+    void charge_body(Connection& c, std::size_t bytes);
+    void dispatch(Connection& c);
+    bool answer(Connection& c, HttpCodec& with, bool here);
+    void answer_here(Connection& c, const HttpCodec::Answer& what);
+    void refuse(Connection& c, int status, std::string_view detail, std::string_view reason);
+    void taken_back(Connection& c, bool alive);
+    void written(Connection& c);
+    void end(Connection& c);  // closes it; it leaves the list at the end of the turn
+};
+
+}  // namespace awan

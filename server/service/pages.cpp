@@ -1,0 +1,67 @@
+#include "server/service/pages.h"
+
+#include <algorithm>
+
+#include "core/base/embedded.h"
+#include "server/service/negotiation.h"
+
+namespace awan {
+namespace {
+
+std::string_view content_type_of(std::string_view name) {
+    if (name.ends_with(".html")) return "text/html; charset=utf-8";
+    if (name.ends_with(".css")) return "text/css; charset=utf-8";
+    if (name.ends_with(".js")) return "text/javascript; charset=utf-8";
+    if (name.ends_with(".svg")) return "image/svg+xml";
+    if (name.ends_with(".json")) return "application/json";
+    return "application/octet-stream";
+}
+
+std::string_view embedded(std::string_view name) {
+    for (const EmbeddedFile& file : web_files())
+        if (file.name == name) return file.text;
+    return {};
+}
+
+// The next string of `text` after "key":. Enough for presets/index.json, which is ours, flat and
+// without escapes (service_test reads every title).
+std::string_view next_value(std::string_view& text, std::string_view key) {
+    std::size_t at = text.find(key);
+    if (at == std::string_view::npos) return {};
+    at = text.find('"', text.find(':', at + key.size()));
+    const std::size_t end = at == std::string_view::npos ? at : text.find('"', at + 1);
+    if (end == std::string_view::npos) return {};
+    const std::string_view value = text.substr(at + 1, end - at - 1);
+    text.remove_prefix(end + 1);
+    return value;
+}
+
+}  // namespace
+
+std::vector<Page> make_pages() {
+    std::vector<Page> pages;
+    for (const EmbeddedFile& file : web_files()) {
+        if (file.name.starts_with("presets/")) continue;
+        const std::string etag = make_etag({file.text});
+        pages.push_back(
+            {"/" + std::string(file.name), content_type_of(file.name), file.text, etag});
+        if (file.name == "index.html")
+            pages.push_back({"/", content_type_of(file.name), file.text, etag});
+    }
+    return pages;
+}
+
+std::vector<Preset> make_presets() {
+    std::vector<Preset> presets;
+    std::string_view index = embedded("presets/index.json");
+    while (true) {
+        const std::string_view name = next_value(index, "\"name\"");
+        const std::string_view title = next_value(index, "\"title\"");
+        if (name.empty() || title.empty()) break;
+        const std::string_view text = embedded("presets/" + std::string(name) + ".json");
+        if (!text.empty()) presets.push_back({{name, title, text}, make_etag({text})});
+    }
+    return presets;
+}
+
+}  // namespace awan

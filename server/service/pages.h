@@ -1,0 +1,36 @@
+// What is served from memory: the page's files, the contract, the presets. Found by exact name, so
+// no path can lead anywhere else.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/document/json.h"
+
+namespace awan {
+
+struct Page {
+    std::string path;  // "/", "/main.js", "/openapi.json"
+    std::string_view content_type;
+    std::string_view text;
+    std::string etag;
+};
+
+// Every page, and `/` for index.html.
+std::vector<Page> make_pages();
+
+struct Preset {
+    PresetEntry entry;
+    std::string etag;
+};
+
+// The presets in the order of web/presets/index.json, which gives their titles.
+std::vector<Preset> make_presets();
+
+// Scripts, styles and pictures of this server only: a scene's text can never become a script.
+inline constexpr std::string_view kContentSecurityPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
+    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+}  // namespace awan

@@ -1,0 +1,338 @@
+// POST /v1/particles, /v1/render, /v1/plan: from a body to an answer. /v1/accuracy begins here and
+// goes on in accuracy.cpp.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <span>
+#include <vector>
+
+#include "core/formats/awn.h"
+#include "core/formats/image_file.h"
+#include "core/formats/particle_files.h"
+#include "core/generate/generate.h"
+#include "core/scene/validate.h"
+#include "server/document/json.h"
+#include "server/document/scene_text.h"
+#include "server/service/negotiation.h"
+#include "server/service/problem.h"
+#include "server/service/state.h"
+
+namespace awan {
+namespace {
+
+using Clock = Deadline::Clock;
+
+constexpr std::string_view kJson = "application/json";
+constexpr std::string_view kCsv = "text/csv";
+constexpr std::string_view kPly = "application/x-ply";
+constexpr std::string_view kAwn = "text/x-awn";
+constexpr std::string_view kPng = "image/png";
+constexpr std::string_view kExr = "image/x-exr";
+constexpr std::array kParticleOffers = {kJson, kCsv, kPly, kAwn};
+constexpr std::array kPlanOffers = {kJson};
+constexpr std::array kAccuracyOffers = {kJson, kCsv, kPng};
+constexpr std::array kImageOffers = {kPng, kExr};
+constexpr std::array kImageOffersExrFirst = {kExr, kPng};
+
+std::span<const std::string_view> offers_of(std::string_view path) {
+    if (path == "/v1/particles") return kParticleOffers;
+    if (path == "/v1/render") return kImageOffers;
+    if (path == kAccuracyPath) return kAccuracyOffers;
+    return kPlanOffers;
+}
+
+Result<Scene> read(const Request& request) {
+    const auto format = scene_format_of_type(media_type(request.header("Content-Type")));
+    auto draft = read_scene(*format, request.body);
+    if (!draft) return draft.error();
+    return validate(std::move(draft).value());
+}
+
+Response ok(std::string_view content_type, std::string_view etag) {
+    Response response;
+    response.headers = {{"Content-Type", std::string(content_type)},
+                        {"ETag", std::string(etag)},
+                        {"Cache-Control", "no-cache"},
+                        {"Vary", "Accept"}};
+    return response;
+}
+
+// Predicted times are of this machine, and so is every rung that is chosen by them.
+std::string speed_text(const Service::State& state) {
+    return std::to_string(state.options.speed.slowness);
+}
+
+// --- /v1/particles
+
+// A particle answer in pieces: the memory of its text is one piece, however long it is.
+struct ParticleText {
+    std::string_view type;
+    ParticleSet particles;
+    std::uint64_t seed = 1;
+    WorkBudget::Lease lease;  // held until the last piece is written
+    std::size_t next = 0;
+
+    void append_head(std::string& out) const {
+        if (type == kJson) out += particles_json_head(particles, seed);
+        if (type == kCsv) append_csv_header(out);
+        if (type == kPly) append_ply_header(particles, out);
+    }
+    // False when that was the last piece.
+    bool append_piece(std::string& out) {
+        if (next == 0) append_head(out);
+        const std::size_t last = std::min(next + limits::kParticlesPerPiece, particles.size());
+        if (type == kJson) append_particles_json(particles, next, last, out);
+        if (type == kCsv) append_csv(particles, next, last, out);
+        if (type == kPly) append_ply(particles, next, last, out);
+        next = last;
+        if (next < particles.size()) return true;
+        if (type == kJson) out += particles_json_tail();
+        return false;
+    }
+};
+
+Response answer_particles(Service::State& state, const Request& request, const Scene& scene,
+                          std::string_view type, WorkGate::Pass& pass) {
+    const std::string etag = make_etag({"particles", fingerprint(scene), engine_version(), type});
+    if (none_match_names(joined_header(request, "If-None-Match"), etag))
+        return not_modified(etag, true);
+    Response response = ok(type, etag);
+    if (type == kAwn) {
+        auto layout = write_awn(*scene);
+        if (!layout) return fail(layout.error(), request);
+        response.body = std::move(layout).value();
+        return response;
+    }
+    auto text = std::make_shared<ParticleText>();
+    text->lease = state.budget.take(work_bytes(*scene, false));
+    if (!text->lease) return busy(state, request, "other requests use the memory this one needs");
+
+    const auto start = Clock::now();
+    auto particles = generate(scene, state.options.threads, request.deadline);
+    if (!particles) return fail(particles.error(), request);
+    state.metrics.stage_done("generate", ms_since(start));
+    pass.leave();
+
+    text->type = type;
+    text->particles = std::move(particles).value();
+    text->seed = scene->seed;
+    response.headers.emplace_back("Awan-Particles", std::to_string(text->particles.size()));
+    if (text->particles.size() <= limits::kParticlesPerPiece) {
+        text->append_piece(response.body);
+    } else {
+        response.stream = [text](std::string& piece) { return text->append_piece(piece); };
+    }
+    return response;
+}
+
+// --- /v1/plan
+
+Response answer_plan(Service::State& state, const Request& request, const Scene& scene) {
+    const std::string etag =
+        make_etag({"plan", fingerprint(scene), engine_version(), speed_text(state)});
+    if (none_match_names(joined_header(request, "If-None-Match"), etag))
+        return not_modified(etag, true);
+    const WorkBudget::Lease lease = state.budget.take(work_bytes(*scene, false));
+    if (!lease) return busy(state, request, "other requests use the memory this one needs");
+    auto planned = plan_only(scene, state.options.threads, request.deadline, state.options.speed);
+    if (!planned) return fail(planned.error(), request);
+    state.metrics.stage_done("generate", planned->times.generate_ms);
+    state.metrics.stage_done("survey", planned->times.survey_ms);
+    Response response = ok(kJson, etag);
+    response.body = plan_to_json(planned->survey, planned->plan);
+    return response;
+}
+
+// --- /v1/render
+
+struct Timing {
+    double queue_ms = 0;
+    StageTimes stages;
+    double encode_ms = 0;
+};
+
+// The stages, in order, then those effects whose share of them can be told apart.
+std::string report(Metrics& metrics, const Timing& timing) {
+    std::vector<std::pair<const char*, double>> entries = {
+        {"queue", timing.queue_ms},          {"generate", timing.stages.generate_ms},
+        {"survey", timing.stages.survey_ms}, {"light", timing.stages.light_ms},
+        {"draw", timing.stages.draw_ms},     {"encode", timing.encode_ms}};
+    for (const auto& [name, ms] : entries) metrics.stage_done(name, ms);
+    for (int i = 0; i < kEffectCount; ++i) {
+        const auto effect = static_cast<Effect>(i);
+        const double ms = timing.stages.effects.of(effect);
+        if (ms > 0) entries.emplace_back(effect_name(effect), ms);
+    }
+    return server_timing(entries);
+}
+
+std::string effects_on(const Plan& plan) {
+    std::string names;
+    for (const EffectDecision& decision : plan.effects)
+        if (decision.on)
+            names += (names.empty() ? "" : ", ") + std::string(effect_name(decision.effect));
+    return names;
+}
+
+Result<std::string> encode(const Image& image, const Scene& scene, std::string_view type) {
+    if (type == kExr) return encode_exr(image, scene->image.precision);
+    return encode_png(image, scene->image.exposure.value_or(auto_exposure(scene)));
+}
+
+// A number of a header.
+std::string number_text(const char* format, double value) {
+    std::array<char, 64> text{};
+    const int length = std::snprintf(text.data(), text.size(), format, value);
+    return {text.data(), static_cast<std::size_t>(std::min<int>(length, text.size() - 1))};
+}
+
+std::string seconds_text(double ms) {
+    return number_text("%.2g s", ms / 1000);
+}
+
+// Predictions may be wrong by this much; what is still too slow then is refused before it costs
+// anything.
+constexpr double kHopeless = 3;
+
+// Why a plan cannot be carried out before the deadline, and what could be; nothing when it may.
+std::optional<std::string> hopeless(const Plan& plan, const Deadline& deadline) {
+    if (deadline.until == Clock::time_point::max() || plan.predicted.rung == nullptr)
+        return std::nullopt;
+    const double left_ms =
+        std::chrono::duration<double, std::milli>(deadline.until - Clock::now()).count();
+    if (!(plan.predicted.time_ms > kHopeless * std::max(left_ms, 0.0))) return std::nullopt;
+    const RungForecast* best = nullptr;
+    for (const RungForecast& forecast : plan.forecasts)
+        if (forecast.time_ms < 0.7 * left_ms && (best == nullptr || forecast.error < best->error))
+            best = &forecast;
+    std::string detail = "rung " + plan.rung + " would take about " +
+                         seconds_text(plan.predicted.time_ms) + " and " + seconds_text(left_ms) +
+                         " are left; ask for a smaller picture";
+    if (best != nullptr)
+        detail += number_text(", or for \"accuracy\": {\"time_ms\": %.0f}", 0.7 * left_ms) +
+                  ", which would be rung " + best->rung->name;
+    return detail;
+}
+
+void add_predictions(const RungForecast& predicted, Response& response) {
+    if (predicted.rung == nullptr) return;
+    if (std::isfinite(predicted.error))
+        response.headers.emplace_back("Awan-Error", number_text("%.3g", predicted.error));
+    if (std::isfinite(predicted.time_ms))
+        response.headers.emplace_back("Awan-Time", number_text("%.1f", predicted.time_ms));
+}
+
+Response answer_render(Service::State& state, const Request& request, const Scene& scene,
+                       double waited_ms, WorkGate::Pass& pass) {
+    // What the client prefers; where it has no preference, what the document says.
+    const bool exr = scene->image.format == ImageFormat::kExr;
+    const std::string_view type =
+        *best_offer(joined_header(request, "Accept"), exr ? kImageOffersExrFirst : kImageOffers);
+
+    if (const Status over = state.renderer.wait_until_started(request.deadline))
+        return fail(*over, request);
+    const RenderThread::Info info = state.renderer.info();
+    if (info.state == RenderThread::Info::State::kNoRenderer)
+        return problem(503, "there is no renderer here: " + info.reason, "", request.id);
+    const std::string etag =
+        make_etag({"render", fingerprint(scene), engine_version(), info.device.renderer,
+                   info.device.version, type, scene->accuracy.rung ? "" : speed_text(state)});
+    if (none_match_names(joined_header(request, "If-None-Match"), etag))
+        return not_modified(etag, true);
+
+    const RenderThread::Place place = state.renderer.take_place();
+    if (!place) return busy(state, request, "the render queue is full");
+    const WorkBudget::Lease lease = state.budget.take(work_bytes(*scene, true));
+    if (!lease) return busy(state, request, "other requests use the memory this one needs");
+
+    Timing timing;
+    auto planned = plan_scene(scene, state.options.threads, request.deadline, state.options.speed,
+                              &state.tiles);
+    if (!planned) return fail(planned.error(), request);
+    if (const auto reason = hopeless(planned->plan, request.deadline))
+        return problem(504, *reason, "", request.id);
+    pass.leave();  // the passes run on the render thread; others may compute meanwhile
+    RenderJobResult job =
+        state.renderer.render(place, scene, std::move(planned).value(), request.deadline);
+    timing.queue_ms = waited_ms + job.queue_ms;
+    if (!job.rendered) return fail(job.rendered.error(), request);
+
+    const auto encode_queued = Clock::now();
+    if (const Status over = pass.enter(request.deadline)) return fail(*over, request);
+    timing.queue_ms += ms_since(encode_queued);
+    const auto start = Clock::now();
+    auto bytes = encode(job.rendered->image, scene, type);
+    timing.encode_ms = ms_since(start);
+    if (!bytes) return fail(bytes.error(), request);
+    timing.stages = job.rendered->times;
+
+    Response response = ok(type, etag);
+    response.headers.emplace_back("Server-Timing", report(state.metrics, timing));
+    response.headers.emplace_back("Awan-Effects", effects_on(job.rendered->plan));
+    response.headers.emplace_back("Awan-Rung", job.rendered->plan.rung);
+    add_predictions(job.rendered->plan.predicted, response);
+    response.headers.emplace_back("Awan-Particles", std::to_string(job.rendered->survey.particles));
+    response.body = std::move(bytes).value();
+    return response;
+}
+
+}  // namespace
+
+Response fail(const Error& error, const Request& request) {
+    Response response = problem(error, request.id);
+    response.abandoned = error.code == ErrorCode::kCancelled;
+    return response;
+}
+
+Response busy(Service::State& state, const Request& request, std::string_view detail) {
+    return problem_retry(429, detail, state.renderer.retry_after_seconds(), request.id);
+}
+
+std::string server_timing(std::span<const std::pair<const char*, double>> milliseconds) {
+    std::string header;
+    for (const auto& [name, ms] : milliseconds) {
+        header += header.empty() ? "" : ", ";
+        header += name + number_text(";dur=%.3f", ms);
+    }
+    return header;
+}
+
+std::optional<Response> check_scene_request(const Request& request) {
+    if (!scene_format_of_type(media_type(request.header("Content-Type")))) {
+        Response response = problem(
+            415,
+            "a scene comes as " + std::string(kSceneTypes) + ", in UTF-8; name it in Content-Type",
+            "", request.id);
+        response.headers.emplace_back("Accept", kSceneTypes);
+        return response;
+    }
+    if (request.path == kAccuracyPath)
+        if (const Status wrong = check_accuracy_query(request)) return fail(*wrong, request);
+    const auto offers = offers_of(request.path);
+    if (best_offer(joined_header(request, "Accept"), offers)) return std::nullopt;
+    std::string detail = "this can be answered as";
+    for (const std::string_view offer : offers)
+        detail.append(offer == offers.front() ? " " : ", ").append(offer);
+    return problem(406, detail, "", request.id);
+}
+
+Response answer_scene_request(Service::State& state, const Request& request) {
+    const auto start = Clock::now();
+    WorkGate::Pass pass(state.gate);
+    if (const Status over = pass.enter(request.deadline)) return fail(*over, request);
+    const double waited_ms = ms_since(start);
+    auto scene = read(request);
+    if (!scene) return fail(scene.error(), request);
+
+    if (request.path == "/v1/render") return answer_render(state, request, *scene, waited_ms, pass);
+    if (request.path == "/v1/plan") return answer_plan(state, request, *scene);
+    const auto type = best_offer(joined_header(request, "Accept"), offers_of(request.path));
+    if (request.path == kAccuracyPath) {
+        pass.leave();  // a sweep takes long, and there is one at most: others compute beside it
+        return answer_accuracy(state, request, *scene, *type);
+    }
+    return answer_particles(state, request, *scene, *type, pass);
+}
+
+}  // namespace awan

@@ -1,0 +1,81 @@
+// Request -> response: routing, content types, statuses, headers. No sockets (server/http/server.h) and no
+// GL.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/deadline.h"
+#include "server/limits.h"
+#include "server/service/metrics.h"
+#include "server/service/render_thread.h"
+
+namespace awan {
+
+struct Request {
+    std::string method;                                      // upper case
+    std::string path;                                        // decoded, without the query
+    std::vector<std::pair<std::string, std::string>> query;  // decoded names and values
+    std::vector<std::pair<std::string, std::string>> headers;
+    std::string body;
+    std::string id;     // X-Request-Id: the client's if it is 1..128 of [A-Za-z0-9._-], else made
+    Deadline deadline;  // its `cancelled` becomes true when the client goes away
+    bool admitted = false;  // it came before the server began to drain, and is finished
+
+    std::string_view header(std::string_view name) const;  // "" when absent; names ignore case
+};
+
+struct Response {
+    int status = 200;
+    std::vector<std::pair<std::string, std::string>> headers;  // without Content-Length
+    std::string body;
+    // Instead of `body`: appends the next piece to its argument; false when that was the last. Must
+    // not throw.
+    std::function<bool(std::string& piece)> stream;
+    // Nobody waits for it any more: it need not be written.
+    bool abandoned = false;
+
+    std::string_view header(std::string_view name) const;  // "" when absent; names ignore case
+};
+
+struct ServiceOptions {
+    int threads = 1;          // for one request: generate, survey, and the rungs without a device
+    MachineSpeed speed;       // for what is predicted
+    std::size_t working = 2;  // requests that generate, survey or encode at once; more wait
+    std::size_t work_bytes = limits::kWorkBytes;  // server/service/work_budget.h
+};
+
+class Service {
+  public:
+    Service(RenderThread& renderer, Metrics& metrics, ServiceOptions options);
+    ~Service();
+    Service(const Service&) = delete;
+    Service& operator=(const Service&) = delete;
+
+    // Thread-safe. Never throws: a bug inside becomes a 500 without details of the exception.
+    // Anything but POST is answered from memory and never waits for a render or another request.
+    Response answer(const Request& request);
+
+    // What answer() would say whatever the body is: for clients that ask before they send it
+    // (Expect: 100-continue) or announce a long one. Nothing: the body is wanted.
+    std::optional<Response> refuse(const Request& request);
+
+    // From now on /readyz says 503 and new work is refused with 503 + Retry-After; health and what
+    // has begun go on.
+    void drain();
+
+    // When a client that was refused for load may come again, seconds.
+    int retry_after_seconds() const;
+
+    struct State;
+
+  private:
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace awan
