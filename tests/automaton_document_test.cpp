@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "core/scene/fingerprint.h"
 #include "core/generate/automaton/parcels.h"
 #include "core/generate/automaton/run.h"
 #include "core/generate/automaton/state_file.h"

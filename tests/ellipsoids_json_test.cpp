@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 
+#include "core/scene/fingerprint.h"
 #include "core/scene/limits.h"
 #include "tests/ellipsoids_scenes.h"
 #include "tests/random_models_ellipsoids.h"

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "core/scene/fingerprint.h"
 #include "core/scene/implicit.h"
 #include "core/scene/limits.h"
 #include "tests/random_models_implicit.h"

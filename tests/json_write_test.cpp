@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/scene/fingerprint.h"
 #include "core/formats/awn.h"
 #include "server/document/json.h"
 #include "tests/scene_checks.h"

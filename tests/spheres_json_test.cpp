@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 
+#include "core/scene/fingerprint.h"
 #include "core/scene/limits.h"
 #include "core/scene/spheres.h"
 #include "core/scene/validate.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/scene/fingerprint.h"
 #include "core/plan/ladder.h"
 #include "core/scene/limits.h"
 #include "core/scene/validate.h"

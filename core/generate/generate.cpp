@@ -45,10 +45,9 @@ std::vector<Piece> cut_into_pieces(const Scene& scene, const std::vector<ModelPa
                                    std::size_t& total) {
     std::vector<Piece> pieces;
     total = 0;
-    const double scene_density = scene->density.value_or(kDefaultDensity);
     for (std::size_t k = 0; k < scene->clouds.size(); ++k) {
         const Cloud& cloud = scene->clouds[k];
-        const std::uint64_t key = keyed(cloud.seed.value_or(scene->seed), k);
+        const std::uint64_t key = keyed(seed_of(*scene, cloud), k);
         Piece piece{&cloud,
                     nullptr,
                     is_procedural(cloud) ? &made[k].particles : &cloud.ready,
@@ -56,8 +55,8 @@ std::vector<Piece> cut_into_pieces(const Scene& scene, const std::vector<ModelPa
                     0,
                     0,
                     0,
-                    made[k].extinctions ? 1.0 : cloud.density.value_or(scene_density),
-                    cloud.fill.value_or(scene->fill)};
+                    made[k].extinctions ? 1.0 : density_of(*scene, cloud),
+                    fill_of(*scene, cloud)};
         if (cloud.model != CloudModel::kCubes) {
             add_pieces(pieces, piece, piece.ready->positions.size(), total);
             continue;
@@ -148,9 +147,9 @@ Status run_models(const Scene& scene, int threads, const Deadline& deadline, boo
         }
         const Motion motion = motion_of(cloud, scene->time);
         ModelRequest request;
-        request.key = keyed(cloud.seed.value_or(scene->seed), k);
+        request.key = keyed(seed_of(*scene, cloud), k);
         request.place = k;
-        request.density = cloud.density.value_or(scene->density.value_or(kDefaultDensity));
+        request.density = density_of(*scene, cloud);
         request.time = scene->time;
         request.threads = threads;
         request.coarse = coarse;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/scene/validate.h"
+#include "core/scene/fingerprint.h"
 
 namespace awan {
 

@@ -14,48 +14,182 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/scene/cloud.h"
+#include "core/scene/limits.h"
+#include "core/scene/table.h"
 
 namespace awan {
 
 struct AutomatonState;  // core/generate/automaton/state.h
 
 // A parcel of wet air: vapour and phase transition are supplied in it, most at its centre, and clouds in it vanish fastest
-// at its edge; all linear in d, the distance from the centre in radii (document 001, "Controlling Clouds with Ellipsoids").
+// at its edge; all linear in d, the distance from the centre in radii (Upchurch 2009, "Controlling Clouds with Ellipsoids").
 struct AutomatonEllipsoid {
     glm::dvec3 center{0};
     glm::dvec3 radii{8};
 };
 
-// The random ellipsoid generator of document 001: each radius uniform from `smallest` to `largest`, each ellipsoid anywhere
-// as long as it lies in the grid. One radius there serves all three axes; here each axis has its own.
+inline constexpr const char* kCellsWanted = "[x, y, z]: three numbers (cells)";
+inline constexpr Range kAutomatonPlace = within(limits::kMaxAutomatonPlace);
+inline constexpr Range kAutomatonRadius =
+    from_to(limits::kMinAutomatonRadius, limits::kMaxAutomatonRadius);
+
+inline constexpr Field kAutomatonEllipsoidFields[] = {
+    field<&AutomatonEllipsoid::center>({.name = "center",
+                                        .wanted = kCellsWanted,
+                                        .range = kAutomatonPlace,
+                                        .required = true,
+                                        .unit = "cells",
+                                        .says = "In cells from the grid's corner."}),
+    field<&AutomatonEllipsoid::radii>({.name = "radii",
+                                       .wanted = kCellsWanted,
+                                       .range = kAutomatonRadius,
+                                       .required = true,
+                                       .unit = "cells",
+                                       .says = "In cells."}),
+};
+static_assert(covers<AutomatonEllipsoid>(kAutomatonEllipsoidFields));
+inline constexpr Table kAutomatonEllipsoidTable{.name = "AutomatonEllipsoid",
+                                                .says = "A parcel of wet air, along the axes.",
+                                                .fields = kAutomatonEllipsoidFields,
+                                                .standard = standard_of<AutomatonEllipsoid>};
+template <>
+inline const Table& table_of<AutomatonEllipsoid>() {
+    return kAutomatonEllipsoidTable;
+}
+
+// The random ellipsoid generator of Upchurch 2009: each radius uniform from `smallest` to `largest`, each ellipsoid
+// anywhere as long as it lies in the grid. One radius there serves all three axes; here each axis has its own.
 struct RandomEllipsoids {
     std::uint64_t count = 30;
     glm::dvec3 smallest{5, 5, 5};
     glm::dvec3 largest{15, 13, 15};
-    // Height of all centres: clouds of one condensation level, domes with the automaton's `base` there. None: anywhere.
+    // Clouds of one condensation level, domes with the automaton's `base` there. None: anywhere.
     std::optional<double> level = 5.0;
 };
 
-// Which of several ellipsoids that contain a cell says its probabilities: the first one (document 001; its edge then cuts
+inline constexpr Field kRandomEllipsoidsFields[] = {
+    field<&RandomEllipsoids::count>({.name = "count",
+                                     .wanted = "an integer >= 0",
+                                     .counts = at_most(limits::kMaxAutomatonEllipsoids),
+                                     .says = "How many, with those listed at most 1000."}),
+    field<&RandomEllipsoids::smallest>({.name = "smallest",
+                                        .wanted = kCellsWanted,
+                                        .range = kAutomatonRadius,
+                                        .unit = "cells",
+                                        .says = "Radii, in cells."}),
+    field<&RandomEllipsoids::largest>(
+        {.name = "largest",
+         .wanted = kCellsWanted,
+         .range = kAutomatonRadius,
+         .unit = "cells",
+         .says = "Radii, in cells; each is drawn evenly from `smallest` to this."}),
+    field<&RandomEllipsoids::level>(
+        {.name = "level",
+         .wanted = R"(a number (cells) or "any")",
+         .range = kAutomatonPlace,
+         .absent = "any",
+         .unit = "cells",
+         .says = "Height of all centres in cells, or \"any\" within the grid."}),
+};
+static_assert(covers<RandomEllipsoids>(kRandomEllipsoidsFields));
+inline constexpr Table kRandomEllipsoidsTable{.name = "AutomatonRandom",
+                                              .says = "Ellipsoids drawn at random within the grid.",
+                                              .fields = kRandomEllipsoidsFields,
+                                              .standard = standard_of<RandomEllipsoids>};
+template <>
+inline const Table& table_of<RandomEllipsoids>() {
+    return kRandomEllipsoidsTable;
+}
+
+// Which of several ellipsoids that contain a cell says its probabilities: the first one (Upchurch 2009; its edge then cuts
 // through the middle of others), or the one in which the cell lies deepest (the smallest d).
 enum class AutomatonOverlap { kDeepest, kFirst };
+inline constexpr const char* kAutomatonOverlapWords[] = {"deepest", "first"};
 
 // Of height y (cells): constant + linear y + quadratic y^2, cells a step towards +x.
 struct AutomatonSpeed {
-    double constant = 0, linear = 0, quadratic = 0;
+    double constant = 0;
+    double linear = 0;
+    double quadratic = 0;
     bool operator==(const AutomatonSpeed&) const = default;
 };
 
-// Moves the ellipsoids whose centre's y is from `from` to `to`; those in several bands by the sum (document 001, "Cloud
-// Advection by Wind").
+inline constexpr Row kSpeedConstant{.name = "constant",
+                                    .wanted = "a number (cells a step)",
+                                    .range = within(limits::kMaxAutomatonSpeed),
+                                    .unit = "cells a step",
+                                    .says = "Cells a step towards +x."};
+inline constexpr Row kSpeedLinear{.name = "linear",
+                                  .wanted = "a number (cells a step, a cell of height)",
+                                  .range = within(limits::kMaxAutomatonSpeed),
+                                  .says = "Times the height in cells."};
+inline constexpr Row kSpeedQuadratic{.name = "quadratic",
+                                     .wanted = "a number (cells a step, a cell of height squared)",
+                                     .range = within(limits::kMaxAutomatonSpeed),
+                                     .says = "Times the height squared."};
+
+inline constexpr Field kAutomatonSpeedFields[] = {
+    field<&AutomatonSpeed::constant>(kSpeedConstant),
+    field<&AutomatonSpeed::linear>(kSpeedLinear),
+    field<&AutomatonSpeed::quadratic>(kSpeedQuadratic),
+};
+static_assert(covers<AutomatonSpeed>(kAutomatonSpeedFields));
+inline constexpr Table kAutomatonSpeedTable{
+    .name = "AutomatonLayers",
+    .says = "Whole layers of cells shift, constant + linear y + quadratic y^2.",
+    .fields = kAutomatonSpeedFields,
+    .standard = standard_of<AutomatonSpeed>};
+template <>
+inline const Table& table_of<AutomatonSpeed>() {
+    return kAutomatonSpeedTable;
+}
+
+// Moves the ellipsoids whose centre's y is from `from` to `to`; those in several bands by the sum (Upchurch 2009, "Cloud
+// Advection by Wind"). In documents the speed's parts stand beside `from` and `to`.
 struct AutomatonWindBand {
-    double from = 0, to = 1024;
+    double from = 0;
+    double to = 1024;
     AutomatonSpeed speed;
 };
 
+constexpr Row part_of_speed(Row row) {
+    row.part_of = "speed";
+    return row;
+}
+
+inline constexpr Field kAutomatonWindBandFields[] = {
+    field<&AutomatonWindBand::from>({.name = "from",
+                                     .wanted = "a number (cells)",
+                                     .range = kAutomatonPlace,
+                                     .unit = "cells",
+                                     .says = "Lowest height, in cells."}),
+    field<&AutomatonWindBand::to>({.name = "to",
+                                   .wanted = "a number (cells)",
+                                   .range = kAutomatonPlace,
+                                   .unit = "cells",
+                                   .says = "Greatest height."}),
+    field_within<&AutomatonWindBand::speed, &AutomatonSpeed::constant>(
+        part_of_speed(kSpeedConstant)),
+    field_within<&AutomatonWindBand::speed, &AutomatonSpeed::linear>(part_of_speed(kSpeedLinear)),
+    field_within<&AutomatonWindBand::speed, &AutomatonSpeed::quadratic>(
+        part_of_speed(kSpeedQuadratic)),
+};
+static_assert(covers<AutomatonWindBand>(kAutomatonWindBandFields));
+static_assert(covers_part<AutomatonSpeed>(kAutomatonWindBandFields, "speed"));
+inline constexpr Table kAutomatonWindBandTable{
+    .name = "AutomatonWindBand",
+    .says = "Moves ellipsoids by constant + linear y + quadratic y^2 a step.",
+    .fields = kAutomatonWindBandFields,
+    .standard = standard_of<AutomatonWindBand>};
+template <>
+inline const Table& table_of<AutomatonWindBand>() {
+    return kAutomatonWindBandTable;
+}
+
 struct AutomatonWind {
-    // All three bits of a layer of cells shift by v(j + 1/2) a step, document 000 (3.8)-(3.10): whole cells, the fractions
-    // of slow winds saved up. Nothing comes in at the border.
+    // All three bits of a layer of cells shift by v(j + 1/2) a step, Dobashi et al. 2000 (8)-(10): whole cells, the
+    // fractions of slow winds saved up. Nothing comes in at the border.
     AutomatonSpeed layers;
     std::vector<AutomatonWindBand> ellipsoids;
     // An ellipsoid that has left the grid comes back at the upwind side, at a random y and z, its radii those of the
@@ -63,22 +197,49 @@ struct AutomatonWind {
     double mutation = 0.25;
 };
 
+inline constexpr Field kAutomatonWindFields[] = {
+    field<&AutomatonWind::layers>(
+        {.name = "layers", .wanted = "an object", .says = "Moves the cells, bits and all."}),
+    field<&AutomatonWind::ellipsoids>(
+        {.name = "ellipsoids",
+         .wanted = "a list of bands",
+         .counts = at_most(limits::kMaxAutomatonBands),
+         .says = "Each moves the ellipsoids whose centre is in its range of heights."}),
+    field<&AutomatonWind::mutation>({.name = "mutation",
+                                     .wanted = "a number from 0 to 1",
+                                     .range = from_to(0, 1),
+                                     .says = "How much the radii of an ellipsoid change that has "
+                                             "left and comes back upwind, relative."}),
+};
+static_assert(covers<AutomatonWind>(kAutomatonWindFields));
+inline constexpr Table kAutomatonWindTable{.name = "AutomatonWind",
+                                           .says = "Wind along x, of two kinds.",
+                                           .fields = kAutomatonWindFields,
+                                           .standard = standard_of<AutomatonWind>};
+template <>
+inline const Table& table_of<AutomatonWind>() {
+    return kAutomatonWindTable;
+}
+
 struct AutomatonCloud {
-    glm::dvec3 cells{96, 32, 96};  // whole numbers
-    double cell = 5;               // length of a cell, units
+    // Whole numbers.
+    glm::dvec3 cells{96, 32, 96};
+    double cell = 5;
 
     std::vector<AutomatonEllipsoid> ellipsoids;
     // Further ones. Where neither these nor `ellipsoids` are given: RandomEllipsoids{}.
     std::optional<RandomEllipsoids> random;
     AutomatonOverlap overlap = AutomatonOverlap::kDeepest;
-    double base = 5;  // no vapour is supplied to cells below: clouds are flat there. 0: none
+    // Clouds are flat there. 0: none.
+    double base = 5;
 
-    // Probabilities a step, 0..1, each a damping factor of document 001 (without, "puff-balls"):
-    double humidity = 0.1;      // p_hum = humidity (1 - d) in an ellipsoid, else 0
-    double activation = 0.002;  // p_act = activation (1 - d) in an ellipsoid, else 0
-    double extinction = 0.12;   // p_ext = extinction d in an ellipsoid
-    double outside_extinction =
-        0.25;  // p_ext elsewhere: 0 (document 001) leaves stranded clouds for ever
+    // Probabilities a step, each a damping factor of Upchurch 2009 (without, "puff-balls"): p_hum = humidity (1 - d) in an
+    // ellipsoid, else 0; p_act = activation (1 - d), else 0; p_ext = extinction d, else outside_extinction, for which
+    // Upchurch's 0 leaves stranded clouds for ever.
+    double humidity = 0.1;
+    double activation = 0.002;
+    double extinction = 0.12;
+    double outside_extinction = 0.25;
 
     AutomatonWind wind;
 
@@ -88,14 +249,13 @@ struct AutomatonCloud {
     double steps_per_second = 1;
     std::uint64_t steps = 1000;
 
-    // Density of a cell, 0..1: the mean of cld over (2i+1)(2j+1)(2k+1) cells and the last `smooth_steps` steps (Dobashi et
-    // al.'s q, weights 1).
-    glm::dvec3 smooth{1, 1, 1};  // i, j, k; whole numbers
+    // Density of a cell, 0..1: the mean of cld over (2i+1)(2j+1)(2k+1) cells (i, j, k whole numbers) and the last
+    // `smooth_steps` steps (q of Dobashi et al. 2000, weights 1).
+    glm::dvec3 smooth{1, 1, 1};
     std::uint64_t smooth_steps = 1;
-    // Each cell is a metaball of this effective radius, in cells; drawn as the Gaussian of the same mass and second moment.
+    // Each cell is a metaball of this effective radius; drawn as the Gaussian of the same mass and second moment.
     double metaball_radius = 2;
-    double threshold = 0;  // cells of at most this density make no particle
-    // More cells than these with matter are merged, 2x2x2, 4x4x4, ... to one Gaussian, until they are no more.
+    double threshold = 0;
     std::uint64_t most_particles = 1u << 20;
 
     // Where to begin instead of at step 0, if it fits: set by the command line, never by a document, and it changes nothing
@@ -103,18 +263,122 @@ struct AutomatonCloud {
     std::shared_ptr<const AutomatonState> start;
 };
 
+inline constexpr Field kAutomatonFields[] = {
+    field<&AutomatonCloud::cells>({.name = "cells",
+                                   .wanted = "[x, y, z]: three whole numbers",
+                                   .range = from_to(1, limits::kMaxAutomatonSide),
+                                   .whole = true,
+                                   .says = "The grid, at most 67108864 cells in all."}),
+    field<&AutomatonCloud::cell>(
+        {.name = "cell",
+         .wanted = "a number > 0 (units)",
+         .range = from_to(limits::kMinAutomatonCell, limits::kMaxAutomatonCell),
+         .unit = "units",
+         .says = "Length of a cell, scene units. The middle of the grid's floor is the cloud's "
+                 "origin."}),
+    field<&AutomatonCloud::ellipsoids>(
+        {.name = "ellipsoids",
+         .wanted = "a list of ellipsoids",
+         .counts = at_most(limits::kMaxAutomatonEllipsoids),
+         .says = "Parcels of wet air; without these and `random`, the default of `random`."}),
+    field<&AutomatonCloud::random>(
+        {.name = "random",
+         .wanted = "an object",
+         .says = "Further parcels of wet air.",
+         .otherwise = "one of the defaults, where no ellipsoids are given"}),
+    field<&AutomatonCloud::overlap>({.name = "overlap",
+                                     .wanted = R"("deepest" or "first")",
+                                     .words = kAutomatonOverlapWords,
+                                     .says = "Which of several ellipsoids says a cell's "
+                                             "probabilities: that in which it lies deepest, or the "
+                                             "first."}),
+    field<&AutomatonCloud::base>({.name = "base",
+                                  .wanted = "a number (cells)",
+                                  .range = kAutomatonPlace,
+                                  .unit = "cells",
+                                  .says = "Cells; no vapour is supplied below."}),
+    field<&AutomatonCloud::humidity>({.name = "humidity",
+                                      .wanted = "a number from 0 to 1",
+                                      .range = from_to(0, 1),
+                                      .says = "Probability a step that vapour comes to the middle "
+                                              "of an ellipsoid; linear to 0 at its edge."}),
+    field<&AutomatonCloud::activation>(
+        {.name = "activation",
+         .wanted = "a number from 0 to 1",
+         .range = from_to(0, 1),
+         .says = "Probability a step of a phase transition, likewise."}),
+    field<&AutomatonCloud::extinction>(
+        {.name = "extinction",
+         .wanted = "a number from 0 to 1",
+         .range = from_to(0, 1),
+         .says = "Probability a step that a cloud vanishes at the edge of an ellipsoid; linear to "
+                 "0 at its middle."}),
+    field<&AutomatonCloud::outside_extinction>({.name = "outside_extinction",
+                                                .wanted = "a number from 0 to 1",
+                                                .range = from_to(0, 1),
+                                                .says = "The same outside of all ellipsoids."}),
+    field<&AutomatonCloud::wind>({.name = "wind", .wanted = "an object", .says = "What moves."}),
+    field<&AutomatonCloud::warm_up>({.name = "warm_up",
+                                     .wanted = "an integer >= 0",
+                                     .counts = at_most(limits::kMaxAutomatonSteps),
+                                     .says = "Steps made at time 0; at most `steps`."}),
+    field<&AutomatonCloud::steps_per_second>(
+        {.name = "steps_per_second",
+         .wanted = "a number >= 0",
+         .range = from_to(0, limits::kMaxStepsPerSecond),
+         .says = "Steps made a second; between two steps density is interpolated."}),
+    field<&AutomatonCloud::steps>(
+        {.name = "steps",
+         .wanted = "an integer >= 0",
+         .counts = at_most(limits::kMaxAutomatonSteps),
+         .says =
+             "The last step; later the cloud stands still. Cells times steps are at most 2^36."}),
+    field<&AutomatonCloud::smooth>(
+        {.name = "smooth",
+         .wanted = "[x, y, z]: three whole numbers (cells)",
+         .range = from_to(0, limits::kMaxAutomatonSmooth),
+         .whole = true,
+         .unit = "cells",
+         .says = "i, j, k: density is the mean of (2i+1)(2j+1)(2k+1) cells."}),
+    field<&AutomatonCloud::smooth_steps>({.name = "smooth_steps",
+                                          .wanted = "an integer >= 1",
+                                          .counts = count_from_to(1, limits::kMaxAutomatonHistory),
+                                          .says = "And of so many steps, the last ones."}),
+    field<&AutomatonCloud::metaball_radius>(
+        {.name = "metaball_radius",
+         .wanted = "a number (cells)",
+         .range = from_to(limits::kMinMetaballRadius, limits::kMaxMetaballRadius),
+         .unit = "cells",
+         .says = "Effective radius of a cell's metaball, in cells."}),
+    field<&AutomatonCloud::threshold>({.name = "threshold",
+                                       .wanted = "a number from 0 to 1",
+                                       .range = from_to(0, 1),
+                                       .says = "Cells of at most this density make no particle."}),
+    field<&AutomatonCloud::most_particles>(
+        {.name = "most_particles",
+         .wanted = "an integer >= 1",
+         .counts = count_from_to(1, limits::kMaxParticles),
+         .says = "More cells with matter are merged, 2x2x2, 4x4x4, ... to one particle."}),
+    outside_document<&AutomatonCloud::start>("only where to begin; the cloud is the same"),
+};
+static_assert(covers<AutomatonCloud>(kAutomatonFields));
+inline constexpr Table kAutomatonTable{
+    .name = "Automaton",
+    .says =
+        "A cellular automaton of three bits a cell: vapour, phase transition and cloud (Nagel & "
+        "Raschke 1992, Dobashi "
+        "et al. 2000, Upchurch 2009).",
+    .fields = kAutomatonFields,
+    .standard = standard_of<AutomatonCloud>};
+
 // The ellipsoids to be drawn, if any.
 RandomEllipsoids random_ellipsoids_of(const AutomatonCloud& cloud);
 // Steps made at time t: from 0 to cloud.steps.
 double automaton_steps_at(const AutomatonCloud& cloud, double time);
 
-// Every value of it as numbers, lists with their lengths: two clouds are equal when these are. Not `start`.
-std::vector<double> figures_of(const AutomatonCloud& cloud);
-// Of these, what the bits of the automaton depend on.
-std::vector<double> automaton_rules_of(const AutomatonCloud& cloud);
-
-// What cannot be, with the pointer to it; `at` is the pointer to the cloud's "automaton".
-Status check_automaton(const AutomatonCloud& cloud, const std::string& at);
+// Equal for clouds whose automata have the same bits at every step (with the same seed): all fields but those that only say
+// how bits become particles, or which step is looked at.
+std::string automaton_rules_of(const AutomatonCloud& cloud);
 
 // No more particles are made of it; of one that can be.
 std::uint64_t most_particles(const AutomatonCloud& cloud);

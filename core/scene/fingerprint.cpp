@@ -1,22 +1,26 @@
-// fingerprint(): XXH3-128 over a canonical byte serialisation.
+// XXH3-128 over a canonical byte serialisation.
 //
-// Canonical means: what is inherited is resolved (a cloud's density is the one that holds for it,
-// wherever it was written), what has no meaning is left out (the eye of an automatic camera), and
-// every list, optional and string is preceded by its length or presence, so that no two scenes
-// share their bytes by running together. Numbers go in as their little-endian bytes (the engine is
-// built for x86-64 only), with -0 as 0.
+// A walk over the tables puts every field in, in their order: every list, optional and string preceded by its length or
+// presence, so that no two scenes share their bytes by running together. Numbers go in as their little-endian bytes (the
+// engine is built for x86-64 only), with -0 as 0.
+//
+// Equal scenes may be written in several ways, and some values have no meaning beside others. Those, and only those, are
+// named here (Instead): another value stands for the member, or the member is left out. What is not named goes in as it is,
+// so a new field is part of every fingerprint until somebody says otherwise.
+#include "core/scene/fingerprint.h"
+
 #define XXH_STATIC_LINKING_ONLY  // the state may stand on the stack
 #include <xxhash.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
+#include <map>
 #include <span>
-#include <type_traits>
 
 #include "core/scene/automaton.h"
 #include "core/scene/ellipsoids.h"
 #include "core/scene/implicit.h"
-#include "core/scene/scene.h"
 #include "core/scene/spheres.h"
 
 namespace awan {
@@ -36,26 +40,16 @@ class Hasher {
         number(v.y);
         number(v.z);
     }
-    void text(const std::string& s) {
+    void text(std::string_view s) {
         integer(s.size());
         raw(s.data(), s.size());
     }
     template <typename T>
-    void list(std::span<const T> values) {
-        static_assert(std::has_unique_object_representations_v<T> || sizeof(T) % 4 == 0);
+    void list(const std::vector<T>& values) {
         integer(values.size());
-        raw(values.data(), values.size_bytes());
+        raw(values.data(), values.size() * sizeof(T));
     }
-    template <typename E>
-    void choice(E v) {
-        static_assert(std::is_enum_v<E>);
-        integer(static_cast<std::uint64_t>(v));
-    }
-    template <typename T, typename Add>
-    void optional(const std::optional<T>& v, Add add) {
-        integer(v.has_value());
-        if (v) add(*v);
-    }
+    void raw(const void* data, std::size_t size) { XXH3_128bits_update(&state_, data, size); }
 
     std::string hex() const {
         XXH128_canonical_t bytes;
@@ -69,133 +63,233 @@ class Hasher {
     }
 
   private:
-    void raw(const void* data, std::size_t size) { XXH3_128bits_update(&state_, data, size); }
     XXH3_state_t state_;
 };
 
-void add_cube(Hasher& hash, const Cube& cube) {
-    hash.integer(cube.particles);
-    hash.vector(cube.size);
-    hash.vector(cube.center);
-    hash.number(cube.radius);
-    hash.number(cube.density);
-    hash.optional(cube.texture, [&](const std::string& name) { hash.text(name); });
+// What stands for members of one scene. Keeps the values that it is given.
+class Instead {
+  public:
+    // As if the member were absent.
+    template <typename Member>
+    void leave_out(const Member& member) {
+        at(member) = nullptr;
+    }
+    // `value`: of the type that the member holds (of an optional, its value's).
+    template <typename Member>
+    void put(const Member& member, double value) {
+        at(member) = &numbers_.emplace_back(value);
+    }
+    template <typename Member>
+    void put(const Member& member, const glm::dvec3& value) {
+        at(member) = &vectors_.emplace_back(value);
+    }
+    template <typename Member>
+    void put(const Member& member, std::uint64_t value) {
+        at(member) = &integers_.emplace_back(value);
+    }
+    template <typename Member>
+    void put(const Member& member, Fill value) {
+        at(member) = &fills_.emplace_back(value);
+    }
+    template <typename Member, typename Model>
+    void put(const Member& member, std::shared_ptr<const Model> value) {
+        at(member) = value.get();
+        models_.push_back(std::move(value));
+    }
+
+    // The value that goes in for a field: null when there is none.
+    const void* value_of(const Field& field, const void* object) const {
+        const auto found = of_.find({field.access.member(object), field.access.type});
+        return found == of_.end() ? field.access.get(object) : found->second;
+    }
+
+  private:
+    using Place = std::pair<const void*, const void*>;  // address and type
+
+    template <typename Member>
+    const void*& at(const Member& member) {
+        return of_[{&member, &kTypeTag<Member>}];
+    }
+
+    std::map<Place, const void*> of_;
+    // Places do not move.
+    std::deque<double> numbers_;
+    std::deque<glm::dvec3> vectors_;
+    std::deque<std::uint64_t> integers_;
+    std::deque<Fill> fills_;
+    std::vector<std::shared_ptr<const void>> models_;
+};
+
+void add_object(Hasher& hash, const Table& table, const void* object, const Instead& instead);
+
+void add_value(Hasher& hash, const Field& field, const void* value, const Instead& instead) {
+    switch (field.access.holds) {
+        case Holds::kNumber:
+            return hash.number(*static_cast<const double*>(value));
+        case Holds::kInteger:
+            return hash.integer(*static_cast<const std::uint64_t*>(value));
+        case Holds::kInt:
+            return hash.integer(static_cast<std::uint64_t>(*static_cast<const int*>(value)));
+        case Holds::kVector:
+            return hash.vector(*static_cast<const glm::dvec3*>(value));
+        case Holds::kWord:
+            return hash.integer(field.access.word(value));
+        case Holds::kText:
+            return hash.text(*static_cast<const std::string*>(value));
+        case Holds::kSwitch:
+            return hash.integer(static_cast<std::uint64_t>(*static_cast<const Switch*>(value)));
+        case Holds::kObject:
+            return add_object(hash, field.access.table(), value, instead);
+        case Holds::kObjects: {
+            const std::size_t size = field.access.size(value);
+            hash.integer(size);
+            for (std::size_t i = 0; i < size; ++i)
+                add_object(hash, field.access.table(), field.access.element(value, i), instead);
+            return;
+        }
+        case Holds::kFloats:
+            return hash.list(*static_cast<const std::vector<float>*>(value));
+        case Holds::kPoints:
+            return hash.list(*static_cast<const std::vector<glm::dvec3>*>(value));
+        case Holds::kColors:
+            return hash.list(*static_cast<const std::vector<glm::vec3>*>(value));
+        case Holds::kAbsence:
+        case Holds::kOutside:
+            return;
+    }
 }
+
+void add_field(Hasher& hash, const Field& field, const void* object, const Instead& instead) {
+    if (field.access.holds == Holds::kOutside) return;
+    const void* const value = instead.value_of(field, object);
+    const bool idle = field.idle != nullptr && field.idle(object);
+    const bool used = value != nullptr && !idle &&
+                      !(field.access.unused != nullptr && *field.access.unused(object));
+    hash.integer(used);
+    if (used) add_value(hash, field, value, instead);
+}
+
+void add_object(Hasher& hash, const Table& table, const void* object, const Instead& instead) {
+    for (const Field& field : table.fields) {
+        if (field.access.holds != Holds::kAbsence) continue;
+        const bool absent = *static_cast<const bool*>(field.access.member(object));
+        hash.integer(absent);
+        if (absent) return;
+    }
+    for (const Field& field : table.fields) add_field(hash, field, object, instead);
+}
+
+// --- what stands for what
 
 // A list that only repeats the default says the same as no list.
 template <typename T>
-std::span<const T> unless_all(const std::vector<T>& values, const T& standard) {
-    const bool all = std::all_of(values.begin(), values.end(),
-                                 [&](const T& value) { return value == standard; });
-    return all ? std::span<const T>() : std::span<const T>(values);
+void leave_out_if_all(Instead& instead, const std::vector<T>& values, const T& standard) {
+    if (std::all_of(values.begin(), values.end(), [&](const T& v) { return v == standard; }))
+        instead.leave_out(values);
 }
 
-void add_cloud(Hasher& hash, const SceneDraft& scene, const Cloud& cloud) {
-    hash.choice(cloud.model);
-    hash.integer(cloud.cubes.size());
-    for (const Cube& cube : cloud.cubes) add_cube(hash, cube);
-    hash.list(std::span<const glm::dvec3>(cloud.ready.positions));
-    hash.list(std::span<const float>(cloud.ready.radii));
-    hash.list(unless_all(cloud.ready.densities, 1.0f));
-    hash.list(unless_all(cloud.ready.colors, glm::vec3(1.0f)));
-    const auto add_model = [&](const auto& model) {
-        if (model) hash.list(std::span<const double>(figures_of(*model)));
-    };
-    add_model(cloud.automaton);
-    add_model(cloud.spheres);
-    add_model(cloud.implicit);
-    add_model(cloud.ellipsoids);
-    hash.vector(cloud.translate);
-    hash.vector(scene.time * cloud.velocity);
-    hash.number(is_procedural(cloud) ? scene.time : 0.0);
-    hash.number(cloud.scale);
-    hash.number(cloud.rotate_y);
-    hash.choice(cloud.fill.value_or(scene.fill));
-    hash.number(cloud.density.value_or(scene.density.value_or(kDefaultDensity)));
-    hash.integer(cloud.seed.value_or(scene.seed));
-}
-
-void add_lights(Hasher& hash, const SceneDraft& scene) {
-    hash.number(scene.medium.albedo);
-    hash.number(scene.medium.g);
-    hash.choice(scene.medium.phase);
-    hash.vector(sun_direction(scene.sun));
-    hash.integer(scene.sun.auto_color);
-    hash.integer(scene.effects[static_cast<int>(Effect::kSunColor)] == Switch::kOff);
-    if (!scene.sun.auto_color) hash.vector(scene.sun.color);
-    hash.number(scene.sun.intensity);
-    hash.integer(scene.sky.none);
-    if (!scene.sky.none) {
-        hash.integer(scene.sky.physical);
-        if (!scene.sky.physical) {
-            hash.vector(scene.sky.zenith);
-            hash.vector(scene.sky.horizon);
-        }
-        hash.number(scene.sky.intensity);
+void settle_model(Instead& instead, const Cloud& cloud) {
+    if (cloud.implicit)
+        instead.put(cloud.implicit,
+                    std::shared_ptr<const ImplicitCloud>(
+                        std::make_shared<ImplicitCloud>(spelled_out(*cloud.implicit))));
+    if (cloud.automaton) {
+        auto all = std::make_shared<AutomatonCloud>(*cloud.automaton);
+        all->random = random_ellipsoids_of(*cloud.automaton);
+        instead.put(cloud.automaton, std::shared_ptr<const AutomatonCloud>(std::move(all)));
     }
-    if (scene.sun.auto_color || (!scene.sky.none && scene.sky.physical))
-        hash.number(scene.sky.turbidity);
-    hash.optional(scene.ground, [&](const Ground& ground) {
-        hash.number(ground.height);
-        hash.vector(ground.albedo);
-    });
-    hash.optional(scene.detail, [&](const Detail& detail) {
-        hash.number(detail.amount);
-        hash.number(detail.size);
-    });
+    if (cloud.spheres) {
+        // Ranges that only repeat the kind's say the same as none.
+        const Span ratios = ratios_of(*cloud.spheres), shifts = shifts_of(*cloud.spheres);
+        auto all = std::make_shared<SpheresCloud>(*cloud.spheres);
+        all->kind = SpheresKind::kCumulus;
+        all->ratio_min = ratios.low;
+        all->ratio_max = ratios.high;
+        all->shift_min = shifts.low;
+        all->shift_max = shifts.high;
+        instead.put(cloud.spheres, std::shared_ptr<const SpheresCloud>(std::move(all)));
+    }
 }
 
-void add_picture(Hasher& hash, const SceneDraft& scene) {
-    hash.optional(scene.haze, [&](const Haze& haze) {
-        hash.number(haze.extinction);
-        hash.number(haze.height);
-        hash.number(haze.scale_height);
-        hash.vector(haze.albedo);
-        hash.number(haze.g);
-    });
-    hash.integer(scene.camera.automatic);
-    if (!scene.camera.automatic) {
-        hash.vector(scene.camera.eye);
-        hash.vector(scene.camera.target);
-        hash.vector(scene.camera.up);
-        hash.number(scene.camera.fov);
-    }
-    hash.integer(static_cast<std::uint64_t>(scene.image.width));
-    hash.integer(static_cast<std::uint64_t>(scene.image.height));
-    hash.choice(scene.image.format);
-    hash.choice(scene.image.background);
-    hash.choice(scene.image.precision);
-    hash.optional(scene.image.exposure, [&](double stops) { hash.number(stops); });
-    for (const Switch effect : scene.effects) hash.choice(effect);
-    hash.choice(scene.look);
-    hash.optional(scene.sequence, [&](const Sequence& sequence) {
-        hash.number(sequence.from);
-        hash.number(sequence.to);
-    });
-    const Accuracy& accuracy = scene.accuracy;
-    const bool none = !accuracy.error && !accuracy.time_ms && !accuracy.rung;
-    hash.optional(none ? kDefaultError : accuracy.error, [&](double error) { hash.number(error); });
-    hash.optional(accuracy.time_ms, [&](double time_ms) { hash.number(time_ms); });
-    hash.optional(accuracy.rung, [&](const std::string& rung) { hash.text(rung); });
+void settle_cloud(Instead& instead, const SceneDraft& scene, const Cloud& cloud) {
+    leave_out_if_all(instead, cloud.ready.densities, 1.0f);
+    leave_out_if_all(instead, cloud.ready.colors, glm::vec3(1.0f));
+    settle_model(instead, cloud);
+    // Where it stands is what tells two times apart.
+    instead.put(cloud.velocity, scene.time * cloud.velocity);
+    instead.put(cloud.fill, fill_of(scene, cloud));
+    instead.put(cloud.density, density_of(scene, cloud));
+    instead.put(cloud.seed, seed_of(scene, cloud));
+}
+
+void settle_lights(Instead& instead, const SceneDraft& scene) {
+    // By angles or by a direction: the same sun.
+    instead.leave_out(scene.sun.elevation);
+    instead.leave_out(scene.sun.azimuth);
+    instead.put(scene.sun.direction, sun_direction(scene.sun));
+    const bool physical = !scene.sky.none && scene.sky.physical;
+    if (!physical && !scene.sun.auto_color) instead.leave_out(scene.sky.turbidity);
+}
+
+// What holds for light and picture alike.
+Instead settled(const SceneDraft& scene) {
+    Instead instead;
+    // Clouds have the scene's, and there is one way to list them.
+    instead.leave_out(scene.fill);
+    instead.leave_out(scene.density);
+    for (const Cloud& cloud : scene.clouds) settle_cloud(instead, scene, cloud);
+    settle_lights(instead, scene);
+    // The time moves clouds, which is said of each above, and shows in those that change.
+    if (!std::any_of(scene.clouds.begin(), scene.clouds.end(), is_procedural))
+        instead.leave_out(scene.time);
+    return instead;
+}
+
+void settle_accuracy(Instead& instead, const Accuracy& accuracy) {
+    if (!accuracy.error && !accuracy.time_ms && !accuracy.rung)
+        instead.put(accuracy.error, kDefaultError);
+}
+
+std::string digest(const SceneDraft& scene, const Instead& instead) {
+    Hasher hash;
+    // The clouds first, as a list, however the document had them.
+    hash.integer(scene.clouds.size());
+    for (const Cloud& cloud : scene.clouds) add_object(hash, table_of<Cloud>(), &cloud, instead);
+    for (const Field& field : table_of<SceneDraft>().fields)
+        if (field.access.holds != Holds::kObjects) add_field(hash, field, &scene, instead);
+    return hash.hex();
 }
 
 }  // namespace
 
-std::string light_fingerprint(const Scene& scene) {
-    Hasher hash;
-    hash.integer(scene->clouds.size());
-    for (const Cloud& cloud : scene->clouds) add_cloud(hash, *scene, cloud);
-    add_lights(hash, *scene);
-    return hash.hex();
+std::string fingerprint(const Scene& scene) {
+    Instead instead = settled(*scene);
+    settle_accuracy(instead, scene->accuracy);
+    // A picture is of one time, whatever their number.
+    if (scene->sequence) instead.leave_out(scene->sequence->frames);
+    return digest(*scene, instead);
 }
 
-std::string fingerprint(const Scene& scene) {
+std::string light_fingerprint(const Scene& scene) {
+    Instead instead = settled(*scene);
+    // Clouds have theirs.
+    instead.leave_out(scene->seed);
+    instead.leave_out(scene->haze);
+    instead.leave_out(scene->camera);
+    instead.leave_out(scene->image);
+    instead.leave_out(scene->accuracy);
+    instead.leave_out(scene->look);
+    instead.leave_out(scene->sequence);
+    for (const Switch& effect : scene->effects)
+        if (!(&effect == &scene->effects[static_cast<std::size_t>(Effect::kSunColor)] &&
+              effect == Switch::kOff))
+            instead.leave_out(effect);
+    return digest(*scene, instead);
+}
+
+std::string fingerprint_of(const Table& table, const void* object) {
     Hasher hash;
-    hash.integer(scene->seed);  // also where every cloud has its own: answers quote it
-    hash.integer(scene->clouds.size());
-    for (const Cloud& cloud : scene->clouds) add_cloud(hash, *scene, cloud);
-    add_lights(hash, *scene);
-    add_picture(hash, *scene);
+    add_object(hash, table, object, Instead());
     return hash.hex();
 }
 

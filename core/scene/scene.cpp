@@ -1,7 +1,6 @@
 #include "core/scene/scene.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -9,37 +8,177 @@
 #include <string_view>
 
 #include "core/base/exact_math.h"
-#include "core/scene/automaton.h"
-#include "core/scene/ellipsoids.h"
-#include "core/scene/implicit.h"
-#include "core/scene/spheres.h"
 
 namespace awan {
 namespace {
 
-constexpr std::array<const char*, kEffectCount> kEffectNames = {
-    "self_shadow",     "multiple_scattering",
-    "view_extinction", "sky_light",
-    "ground_light",    "ground_shadow",
-    "sun_color",       "aerial_perspective",
-    "light_shafts",    "detail",
-    "interior",        "texture",
+// The cubes at the top of a document are those of its only cloud, if it says nothing else.
+const std::vector<Cube>* top_cubes(const SceneDraft& scene) {
+    if (!scene.top_level_cubes || scene.clouds.size() != 1) return nullptr;
+    const Cloud& cloud = scene.clouds[0];
+    const bool plain = cloud.model == CloudModel::kCubes && cloud.translate == glm::dvec3(0) &&
+                       cloud.scale == 1 && cloud.rotate_y == 0 && cloud.velocity == glm::dvec3(0) &&
+                       !cloud.fill && !cloud.density && !cloud.seed;
+    return plain ? &cloud.cubes : nullptr;
+}
+
+constexpr Field top_cubes_field() {
+    Access a;
+    a.holds = Holds::kObjects;
+    a.optional = true;
+    a.get = [](const void* o) -> const void* {
+        return top_cubes(*static_cast<const SceneDraft*>(o));
+    };
+    a.member = a.get;
+    a.put = [](void* o) -> void* {
+        auto& scene = *static_cast<SceneDraft*>(o);
+        scene.top_level_cubes = true;
+        scene.clouds.assign(1, Cloud{});
+        return &scene.clouds[0].cubes;
+    };
+    a.size = [](const void* l) { return static_cast<const std::vector<Cube>*>(l)->size(); };
+    a.element = [](const void* l, std::size_t i) -> const void* {
+        return &(*static_cast<const std::vector<Cube>*>(l))[i];
+    };
+    a.append = [](void* l) -> void* { return &static_cast<std::vector<Cube>*>(l)->emplace_back(); };
+    a.table = &table_of<Cube>;
+    return {{.name = "cubes",
+             .wanted = "a list of cubes",
+             .counts = at_most(limits::kMaxCubes),
+             .says = "The cubes of one cloud. Either this or clouds."},
+            a};
+}
+
+constexpr Field clouds_field() {
+    Field made = field<&SceneDraft::clouds>({.name = "clouds",
+                                             .wanted = "a list of clouds",
+                                             .counts = at_most(limits::kMaxClouds),
+                                             .says = "Several clouds. Either this or cubes."});
+    made.access.optional = true;
+    made.access.get = [](const void* o) -> const void* {
+        const auto& scene = *static_cast<const SceneDraft*>(o);
+        return top_cubes(scene) ? nullptr : &scene.clouds;
+    };
+    made.access.put = [](void* o) -> void* {
+        auto& scene = *static_cast<SceneDraft*>(o);
+        scene.top_level_cubes = false;
+        return &scene.clouds;
+    };
+    return made;
+}
+
+constexpr Field kFields[] = {
+    // Covers top_level_cubes: how the clouds were written.
+    top_cubes_field(),
+    clouds_field(),
+    field<&SceneDraft::fill>({.name = "fill",
+                              .wanted = kFillWanted,
+                              .words = kFillWords,
+                              .says = "How cubes are filled: uniform (centred, low-discrepancy), "
+                                      "gardner (uniform and a phase-shift warp), "
+                                      "printed (the source's equations as they stand)."}),
+    field<&SceneDraft::seed>(
+        {.name = "seed",
+         .wanted = "an integer from 0 to 18446744073709551615",
+         .says = "Same scene and same seed: same particles, on every machine and thread count."}),
+    field<&SceneDraft::density>({.name = "density",
+                                 .wanted = "a number >= 0 (extinction, 1/unit)",
+                                 .range = from_to(0, limits::kMaxDensity),
+                                 .unit = "1/unit",
+                                 .says = "Peak extinction of a particle, 1/unit.",
+                                 .usual = [](const void*) { return kDefaultDensity; }}),
+    field<&SceneDraft::medium>(
+        {.name = "medium", .wanted = "an object", .says = "What the particles do with light."}),
+    field<&SceneDraft::sun>({.name = "sun", .wanted = "an object", .says = "The sun."}),
+    field<&SceneDraft::sky>(
+        {.name = "sky",
+         .wanted = R"(an object, "physical" or "none")",
+         .says =
+             "\"none\": black, and no light from it. \"physical\": {\"model\": \"physical\"}."}),
+    field<&SceneDraft::ground>({.name = "ground",
+                                .wanted = R"(an object or "none")",
+                                .absent = "none",
+                                .says = "A level, matt plane without end, seen from above only."}),
+    field<&SceneDraft::haze>({.name = "haze",
+                              .wanted = R"(an object or "none")",
+                              .absent = "none",
+                              .says = "Air that is seen."}),
+    field<&SceneDraft::detail>({.name = "detail",
+                                .wanted = R"(an object or "none")",
+                                .absent = "none",
+                                .says = "Structure finer than the particles."}),
+    field<&SceneDraft::camera>({.name = "camera",
+                                .wanted = R"(an object or "auto")",
+                                .says = "\"auto\": the whole cloud, three-quarter view."}),
+    field<&SceneDraft::image>({.name = "image", .wanted = "an object", .says = "The picture."}),
+    field<&SceneDraft::effects>({.name = "effects",
+                                 .wanted = R"(an object or "auto")",
+                                 .absent = "auto",
+                                 .says = "What is simulated."}),
+    field<&SceneDraft::accuracy>(
+        {.name = "accuracy",
+         .wanted = "an object",
+         .says = "How accurate the picture is to be, or how fast; left out: error 0.1."}),
+    field<&SceneDraft::look>({.name = "look",
+                              .wanted = R"(one of "physical", "ostroushko", "gardner")",
+                              .words = kLookWords,
+                              .says = "How the picture is made: by light as it is, or by the rules "
+                                      "of a published system: ostroushko for "
+                                      "clouds of model spheres, gardner for model ellipsoids. A "
+                                      "look has no rungs and no stated error, and "
+                                      "goes without accuracy."}),
+    field<&SceneDraft::time>(
+        {.name = "time",
+         .wanted = "a number (seconds)",
+         .range = within(limits::kMaxTime),
+         .unit = "seconds",
+         .says = "Seconds: when the picture is of, where clouds move or change."}),
+    field<&SceneDraft::sequence>(
+        {.name = "sequence",
+         .wanted = R"(an object or "none")",
+         .absent = "none",
+         .says = "The times that belong together. An automatic camera then holds the clouds at all "
+                 "of them, and rung, "
+                 "effects and detail are settled for all; a render is still of one time, `time`."}),
 };
+static_assert(covers<SceneDraft>(kFields));
+
+constexpr Table kTable{.name = "Scene",
+                       .says =
+                           "The smallest scene is a layout; everything else has a default. "
+                           "Right-handed axes, y up; the unit of length is "
+                           "the scene's own; angles in degrees; colours linear, Rec. 709 "
+                           "primaries. At most 4194304 particles in all "
+                           "clouds together. Unknown fields, wrong types, values out of range and "
+                           "duplicate keys are errors that name "
+                           "the place.",
+                       .fields = kFields,
+                       .standard = standard_of<SceneDraft>};
+static_assert(limits::kMaxParticles == 4194304, "the prose above says it");
 
 }  // namespace
 
-const char* effect_name(Effect effect) {
-    return kEffectNames[static_cast<std::size_t>(effect)];
+template <>
+const Table& table_of<SceneDraft>() {
+    return kTable;
 }
 
 std::optional<Effect> effect_from_name(std::string_view name) {
-    for (std::size_t i = 0; i < kEffectNames.size(); ++i)
-        if (name == kEffectNames[i]) return static_cast<Effect>(i);
+    for (int i = 0; i < kEffectCount; ++i)
+        if (name == effect_name(static_cast<Effect>(i))) return static_cast<Effect>(i);
     return std::nullopt;
 }
 
-bool in_this_version(Effect effect) {
-    return effect != Effect::kTexture;
+double density_of(const SceneDraft& scene, const Cloud& cloud) {
+    return cloud.density.value_or(scene.density.value_or(kDefaultDensity));
+}
+
+Fill fill_of(const SceneDraft& scene, const Cloud& cloud) {
+    return cloud.fill.value_or(scene.fill);
+}
+
+std::uint64_t seed_of(const SceneDraft& scene, const Cloud& cloud) {
+    return cloud.seed.value_or(scene.seed);
 }
 
 glm::dvec3 sun_direction(const Sun& sun) {
@@ -55,18 +194,6 @@ glm::dvec3 sun_direction(const Sun& sun) {
     // + 0.0: no negative zeros, which print as "-0".
     return glm::dvec3(elevation.cos * azimuth.sin, elevation.sin, elevation.cos * azimuth.cos) +
            0.0;
-}
-
-bool is_procedural(const Cloud& cloud) {
-    return cloud.model != CloudModel::kCubes && cloud.model != CloudModel::kParticles;
-}
-
-std::uint64_t most_particles(const Cloud& cloud) {
-    if (cloud.automaton) return most_particles(*cloud.automaton);
-    if (cloud.spheres) return most_particles(*cloud.spheres);
-    if (cloud.implicit) return most_particles(*cloud.implicit);
-    if (cloud.ellipsoids) return most_particles(*cloud.ellipsoids);
-    return 0;
 }
 
 std::uint64_t particle_count(const SceneDraft& scene) {

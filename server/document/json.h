@@ -17,6 +17,8 @@ Result<SceneDraft> parse_scene(std::string_view text);
 
 // The scene as a document that parses back to an equal draft (defaults are left out).
 std::string scene_to_json(const SceneDraft& scene);
+// One object of it, on one line: the fields that differ from `standards`, an object of the same table.
+std::string object_to_json(const Table& table, const void* object, const void* standards);
 
 // Particle answer, in pieces so that a million particles never stand in memory as text:
 // {"count","seed","bounds":{"min","max"},"particles":[{"center","radius","density","color"}...]}.

@@ -1,15 +1,17 @@
 // Text -> SceneDraft, through nlohmann's SAX interface: no tree is built, numbers go straight to
 // where they are kept, and reading stops at the first thing that is wrong. Every value is held
-// against the tables of fields.cpp as it comes, so a document can only be as deep and as wide
-// as they are.
+// against the tables of core/scene (table.h) as it comes, so a document can only be as deep and as
+// wide as they are.
 #include <array>
+#include <climits>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/formats/numbers.h"
 #include "core/scene/limits.h"
-#include "server/document/fields.h"
+#include "core/scene/rules.h"
 #include "server/document/json.h"
 #include "server/document/number_runs.h"
 
@@ -27,13 +29,175 @@ struct Frame {
         kRow,     // three numbers, an element of a list
     };
     Type type = Type::kObject;
-    ObjectKind object = ObjectKind::kNone;
-    ListKind list = ListKind::kNone;
-    int field = -1;          // the member being read, in fields_of(object)
-    std::uint32_t seen = 0;  // members so far
-    std::size_t index = 0;   // of the element being read, in the other types
+    // Of an object.
+    const Table* table = nullptr;
+    void* object = nullptr;
+    // The member being read, in table->fields; none: -1.
+    int field = -1;
+    // Members so far, bit i for field i.
+    std::uint64_t seen = 0;
+    // Of a list: the field that it is the value of, and where its elements go.
+    const Field* list_field = nullptr;
+    void* list = nullptr;
+    // Of the element being read, in the other types.
+    std::size_t index = 0;
     glm::dvec3* vector = nullptr;
 };
+
+int find_field(const Table& table, std::string_view name) {
+    for (std::size_t i = 0; i < table.fields.size(); ++i)
+        if (table.fields[i].in_documents() && table.fields[i].name == name)
+            return static_cast<int>(i);
+    return -1;
+}
+
+// `"a", "b", ...`: what find_field would find.
+std::string allowed_names(const Table& table) {
+    std::string names;
+    for (const Field& field : table.fields) {
+        if (!field.in_documents()) continue;
+        names += names.empty() ? "\"" : ", \"";
+        names += field.name;
+        names += '"';
+    }
+    return names;
+}
+
+// The row that says by a bool that the object is not there; null: it has none.
+const Field* absence_of(const Table& table) {
+    for (const Field& field : table.fields)
+        if (field.access.holds == Holds::kAbsence) return &field;
+    return nullptr;
+}
+
+void set_absent(const Table& table, void* object, bool absent) {
+    if (const Field* const field = absence_of(table))
+        *static_cast<bool*>(field->access.put(object)) = absent;
+}
+
+bool set_word(const Field& field, void* object, std::string_view word) {
+    for (std::size_t i = 0; i < field.words.size(); ++i)
+        if (field.words[i] == word) {
+            field.access.set_word(field.access.put(object), i);
+            return true;
+        }
+    return false;
+}
+
+// Defaults that depend on other fields of the object, once it has ended.
+void complete(const Table& table, std::uint64_t seen, void* object) {
+    for (std::size_t i = 0; i < table.fields.size(); ++i) {
+        const Field& field = table.fields[i];
+        if (field.usual == nullptr || field.access.optional || (seen >> i & 1) != 0) continue;
+        *static_cast<double*>(field.access.put(object)) = field.usual(object);
+    }
+}
+
+// A word in place of an object.
+bool set_object_by_word(const Field& field, void* object, std::string_view word) {
+    const Table& table = field.access.table();
+    const Field* const absence = absence_of(table);
+    if (absence != nullptr && absence->absent == word) {
+        set_absent(table, field.access.put(object), true);
+        return true;
+    }
+    if (table.shorthand == nullptr) return false;
+    const int which = find_field(table, table.shorthand);
+    void* const inner = field.access.put(object);
+    if (!set_word(table.fields[static_cast<std::size_t>(which)], inner, word)) return false;
+    complete(table, std::uint64_t{1} << which, inner);
+    return true;
+}
+
+// Whether any string may be the field's value.
+bool takes_words(const Field& field) {
+    if (field.absent != nullptr || !field.words.empty()) return true;
+    if (field.access.holds == Holds::kText) return true;
+    if (field.access.holds != Holds::kObject) return false;
+    const Table& table = field.access.table();
+    return table.shorthand != nullptr || absence_of(table) != nullptr;
+}
+
+// Takes the word that a field has for "not given".
+void set_not_given(const Field& field, void* object) {
+    if (field.access.set_unused != nullptr)
+        *field.access.set_unused(object) = true;
+    else if (field.access.holds == Holds::kSwitch)
+        *static_cast<Switch*>(field.access.put(object)) = Switch::kAuto;
+    else if (field.access.clear != nullptr)
+        field.access.clear(object);
+}
+
+// The value, which is then used.
+void* put(const Field& field, void* object) {
+    if (field.access.set_unused != nullptr) *field.access.set_unused(object) = false;
+    return field.access.put(object);
+}
+
+// Out of float32's range becomes infinite, which validate() refuses.
+float to_float(double value) {
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    if (std::abs(value) <= kLargest) return static_cast<float>(value);
+    return std::copysign(std::numeric_limits<float>::infinity(),
+                         static_cast<float>(value > 0) - 0.5f);
+}
+
+// Whether the word is one that the field has.
+bool take_word(const Field& field, void* object, std::string& word) {
+    if (field.absent != nullptr && word == field.absent) {
+        set_not_given(field, object);
+        return true;
+    }
+    switch (field.access.holds) {
+        case Holds::kText:
+            *static_cast<std::string*>(put(field, object)) = std::move(word);
+            return true;
+        case Holds::kWord:
+            return set_word(field, object, word);
+        case Holds::kObject:
+            return set_object_by_word(field, object, word);
+        default:
+            return false;
+    }
+}
+
+// Lists of numbers, and of three numbers each.
+bool is_of_rows(const Field& list) {
+    return list.access.holds == Holds::kPoints || list.access.holds == Holds::kColors;
+}
+void append_number(void* list, double value) {
+    static_cast<std::vector<float>*>(list)->push_back(to_float(value));
+}
+void append_row(const Field& field, void* list, const glm::dvec3& v) {
+    if (field.access.holds == Holds::kPoints)
+        static_cast<std::vector<glm::dvec3>*>(list)->push_back(v);
+    else
+        static_cast<std::vector<glm::vec3>*>(list)->emplace_back(to_float(v.x), to_float(v.y),
+                                                                 to_float(v.z));
+}
+
+// Completes "must be ...", for an element of a list.
+const char* wanted_element(const Field& list) {
+    switch (list.access.holds) {
+        case Holds::kFloats:
+            return "a number";
+        case Holds::kPoints:
+            return "[x, y, z]: three numbers";
+        case Holds::kColors:
+            return "[r, g, b]: three numbers";
+        default:
+            return "an object";
+    }
+}
+
+bool is_list(const Field& field) {
+    return field.access.holds == Holds::kObjects || field.access.holds == Holds::kFloats ||
+           is_of_rows(field);
+}
+
+bool is_integer(const Field& field) {
+    return field.access.holds == Holds::kInteger || field.access.holds == Holds::kInt;
+}
 
 // RFC 6901. A name that is long or not plain is left out: the pointer is then the object's.
 std::string escaped_name(std::string_view name) {
@@ -63,7 +227,7 @@ std::string reason_of(std::string_view what) {
 class SceneReader {
   public:
     std::optional<Error> error;
-    DraftInProgress state;
+    SceneDraft draft;
     TextCursor text;  // where the parser is
 
     explicit SceneReader(std::string_view document)
@@ -76,27 +240,27 @@ class SceneReader {
 
     bool boolean(bool value) {
         const Field* const field = open_field();
-        if (!field || !field->flag) return wrong_type("a boolean");
-        field->flag(state, value);
+        if (!field || field->access.holds != Holds::kSwitch) return wrong_type("a boolean");
+        *static_cast<Switch*>(put(*field, top().object)) = value ? Switch::kOn : Switch::kOff;
         return true;
     }
 
     bool number_integer(json::number_integer_t value) {
         const Field* const field = open_field();
-        if (!field || !field->integer) return number(static_cast<double>(value));
+        if (!field || !is_integer(*field)) return number(static_cast<double>(value));
         if (value == 0) return integer(*field, 0);  // "-0"
         return fail("must be " + std::string(field->wanted) + ", not " + std::to_string(value));
     }
 
     bool number_unsigned(json::number_unsigned_t value) {
         const Field* const field = open_field();
-        if (field && field->integer) return integer(*field, value);
+        if (field && is_integer(*field)) return integer(*field, value);
         return number(static_cast<double>(value));
     }
 
     bool number_float(json::number_float_t value, const std::string& text) {
         const Field* const field = open_field();
-        if (!field || !field->integer) return number(value);
+        if (!field || !is_integer(*field)) return number(value);
         // 200.0 is an integer written at length; beyond 2^53 its digits would be guesses.
         if (value >= 0 && value <= 9007199254740992.0 && std::floor(value) == value)
             return integer(*field, static_cast<std::uint64_t>(value));
@@ -105,68 +269,66 @@ class SceneReader {
 
     bool string(std::string& value) {
         const Field* const field = open_field();
-        if (!field || !field->word) return wrong_type("a string");
+        if (!field || !takes_words(*field)) return wrong_type("a string");
         if (value.size() > limits::kMaxString)
             return fail("must be at most " + std::to_string(limits::kMaxString) + " bytes long");
-        if (field->word(state, value) == WordOutcome::kTaken) return true;
+        if (take_word(*field, top().object, value)) return true;
         return fail("must be " + std::string(field->wanted) + ", not " + short_quote(value));
     }
 
     bool start_object(std::size_t) {
-        ObjectKind kind = ObjectKind::kNone;
-        if (frames_.empty())
-            kind = ObjectKind::kScene;
-        else if (const Field* const field = open_field())
-            kind = field->object;
-        else
-            kind = list_at(top().list).object;
-        if (kind == ObjectKind::kNone) return wrong_type("an object");
+        if (frames_.empty()) return push_object(table_of<SceneDraft>(), &draft);
+        if (const Field* const field = open_field()) {
+            if (field->access.holds != Holds::kObject) return wrong_type("an object");
+            return push_object(field->access.table(), put(*field, top().object));
+        }
+        const Field* const list = top().list_field;
+        if (list == nullptr || list->access.holds != Holds::kObjects)
+            return wrong_type("an object");
         if (!has_room()) return false;
-        state.begin(kind);
-        return push({.type = Frame::Type::kObject, .object = kind});
+        return push_object(list->access.table(), list->access.append(top().list));
     }
 
     bool key(std::string& name) {
         Frame& frame = top();
         frame.field = -1;
-        const int field = find_field(frame.object, name);
+        const int field = find_field(*frame.table, name);
         if (field < 0) {
             std::string at = pointer() + escaped_name(name);
             return fail_at(std::move(at), "unknown field " + short_quote(name) + "; allowed are " +
-                                              allowed_names(frame.object));
+                                              allowed_names(*frame.table));
         }
         frame.field = field;
-        const std::uint32_t bit = 1u << field;
+        const std::uint64_t bit = std::uint64_t{1} << field;
         if ((frame.seen & bit) != 0) return fail("stands twice in its object");
         frame.seen |= bit;
-        if (frame.object == ObjectKind::kEffects) state.effect = static_cast<Effect>(field);
         return true;
     }
 
     bool end_object() {
         Frame& frame = top();
         frame.field = -1;
-        if (const Status wrong = check_together(frame.object, frame.seen, state))
+        if (const Status wrong = check_written({*frame.table, frame.seen}, frame.object))
             return fail_at(pointer() + wrong->pointer, wrong->message, wrong->code);
-        complete(frame.object, frame.seen, state);
+        complete(*frame.table, frame.seen, frame.object);
         return pop();
     }
 
     bool start_array(std::size_t) {
         if (frames_.empty()) return wrong_type("an array");
         if (const Field* const field = open_field()) {
-            if (field->vector)
-                return push({.type = Frame::Type::kVector, .vector = field->vector(state)});
-            if (field->list == ListKind::kNone) return wrong_type("an array");
-            if (top().object == ObjectKind::kScene) {
-                state.draft.top_level_cubes = field->list == ListKind::kCubes;
-                if (field->list == ListKind::kCubes) state.begin(ObjectKind::kCloud);
-            }
-            const bool pushed = push({.type = Frame::Type::kList, .list = field->list});
+            if (field->access.holds == Holds::kVector)
+                return push({.type = Frame::Type::kVector,
+                             .vector = static_cast<glm::dvec3*>(put(*field, top().object))});
+            if (!is_list(*field)) return wrong_type("an array");
+            void* const list = put(*field, top().object);
+            const bool pushed =
+                push({.type = Frame::Type::kList, .list_field = field, .list = list});
             if (pushed) read_ahead();
             return pushed;
         }
-        if (list_at(top().list).row == nullptr) return wrong_type("an array");
+        if (top().list_field == nullptr || !is_of_rows(*top().list_field))
+            return wrong_type("an array");
         if (!has_room()) return false;
         return push({.type = Frame::Type::kRow, .vector = &row_});
     }
@@ -181,7 +343,7 @@ class SceneReader {
         }
         const bool is_row = frame.type == Frame::Type::kRow;
         pop();
-        if (is_row) list_at(top().list).row(state, row_);
+        if (is_row) append_row(*top().list_field, top().list, row_);
         return true;
     }
 
@@ -200,7 +362,7 @@ class SceneReader {
     // The row of the member whose value comes next; null outside objects.
     const Field* open_field() {
         if (frames_.empty() || top().type != Frame::Type::kObject) return nullptr;
-        return &field_at(top().object, top().field);
+        return &top().table->fields[static_cast<std::size_t>(top().field)];
     }
 
     std::string pointer() const {
@@ -209,7 +371,8 @@ class SceneReader {
             if (frame.type != Frame::Type::kObject)
                 at += "/" + std::to_string(frame.index);
             else if (frame.field >= 0)
-                at += "/" + std::string(field_name(frame.object, frame.field));
+                at += "/" +
+                      std::string(frame.table->fields[static_cast<std::size_t>(frame.field)].name);
         }
         return at;
     }
@@ -224,7 +387,7 @@ class SceneReader {
         if (frames_.empty()) return "must be an object, the scene";
         if (const Field* const field = open_field()) return std::string("must be ") + field->wanted;
         return std::string("must be ") +
-               (top().type == Frame::Type::kList ? list_at(top().list).wanted : "a number");
+               (top().type == Frame::Type::kList ? wanted_element(*top().list_field) : "a number");
     }
 
     bool wrong_type(const char* what) { return fail(wanted() + ", not " + what); }
@@ -235,9 +398,14 @@ class SceneReader {
     }
 
     bool integer(const Field& field, std::uint64_t value) {
-        if (value > field.largest_integer)
+        void* const place = put(field, top().object);
+        if (field.access.holds == Holds::kInteger) {
+            *static_cast<std::uint64_t*>(place) = value;
+            return true;
+        }
+        if (value > INT_MAX)
             return fail("must be " + std::string(field.wanted) + ", not " + std::to_string(value));
-        field.integer(state, value);
+        *static_cast<int*>(place) = static_cast<int>(value);
         return true;
     }
 
@@ -248,8 +416,12 @@ class SceneReader {
         switch (frame.type) {
             case Frame::Type::kObject: {
                 const Field& field = *open_field();
-                if (!field.number) return wrong_type("a number");
-                field.number(state, value);
+                if (field.access.holds == Holds::kNumber)
+                    *static_cast<double*>(put(field, frame.object)) = value;
+                else if (field.one_for_all)
+                    *static_cast<glm::dvec3*>(put(field, frame.object)) = glm::dvec3(value);
+                else
+                    return wrong_type("a number");
                 return true;
             }
             case Frame::Type::kVector:
@@ -260,10 +432,9 @@ class SceneReader {
             case Frame::Type::kList:
                 break;
         }
-        const List& list = list_at(frame.list);
-        if (list.number == nullptr) return wrong_type("a number");
+        if (frame.list_field->access.holds != Holds::kFloats) return wrong_type("a number");
         if (!has_room()) return false;
-        list.number(state, value);
+        append_number(frame.list, value);
         ++frame.index;
         return true;
     }
@@ -271,13 +442,15 @@ class SceneReader {
     // The regular part of a list of numbers that begins here (number_runs.h).
     void read_ahead() {
         Frame& frame = top();
-        const List& list = list_at(frame.list);
-        if (list.number != nullptr)
-            frame.index = take_run<1>(
-                text, list.most, [&](const std::array<double, 1>& v) { list.number(state, v[0]); });
-        if (list.row != nullptr)
-            frame.index = take_run<3>(text, list.most, [&](const std::array<double, 3>& v) {
-                list.row(state, {v[0], v[1], v[2]});
+        const Field& field = *frame.list_field;
+        const std::uint64_t most = field.counts.highest;
+        if (field.access.holds == Holds::kFloats)
+            frame.index = take_run<1>(text, most, [&](const std::array<double, 1>& v) {
+                append_number(frame.list, v[0]);
+            });
+        if (is_of_rows(field))
+            frame.index = take_run<3>(text, most, [&](const std::array<double, 3>& v) {
+                append_row(field, frame.list, {v[0], v[1], v[2]});
             });
     }
 
@@ -290,9 +463,14 @@ class SceneReader {
     // keeps a hostile text from filling memory before it gets there.
     bool has_room() {
         if (frames_.empty() || top().type != Frame::Type::kList) return true;
-        const std::uint64_t most = list_at(top().list).most;
+        const std::uint64_t most = top().list_field->counts.highest;
         if (top().index < most) return true;
         return fail("at most " + std::to_string(most) + " elements are allowed");
+    }
+
+    bool push_object(const Table& table, void* object) {
+        set_absent(table, object, false);
+        return push({.type = Frame::Type::kObject, .table = &table, .object = object});
     }
 
     bool push(const Frame& frame) {
@@ -324,7 +502,7 @@ Result<SceneDraft> parse_scene(std::string_view text) {
         return Error{ErrorCode::kInternal, "", std::string("reading JSON failed: ") + e.what()};
     }
     if (reader.error) return std::move(*reader.error);
-    return std::move(reader.state.draft);
+    return std::move(reader.draft);
 }
 
 }  // namespace awan

@@ -1,201 +1,219 @@
-// SceneDraft -> a document for people to go on with: a cube a line, defaults left out.
+// SceneDraft -> a document for people to go on with: a cube a line, defaults left out. A walk over the tables of
+// core/scene, so what can be read is written.
+#include <string>
+
 #include "server/document/json.h"
 #include "server/document/json_text.h"
-#include "server/document/models.h"
-#include "server/document/object_text.h"
 
 namespace awan {
 namespace {
 
-const char* fill_name(Fill fill) {
-    switch (fill) {
-        case Fill::kUniform:
-            return "uniform";
-        case Fill::kGardner:
-            return "gardner";
-        case Fill::kPrinted:
-            return "printed";
-    }
-    return "uniform";
+const Field* absence_of(const Table& table) {
+    for (const Field& field : table.fields)
+        if (field.access.holds == Holds::kAbsence) return &field;
+    return nullptr;
 }
 
-void cube_list(const std::vector<Cube>& cubes, const char* indent, std::string& out) {
+bool is_absent(const Field* absence, const void* object) {
+    return absence != nullptr && *static_cast<const bool*>(absence->access.member(object));
+}
+
+// How deep an object stands: the scene 0, a cloud or the sun 1, ...
+// `standards`: an object of the table with what need not be said.
+void append_object(const Table& table, const void* object, const void* standards, int depth,
+                   std::string& out);
+
+// Elements a line each where people shape them by hand: cubes and clouds.
+void append_objects(const Field& field, const void* list, int depth, std::string& out) {
+    const std::size_t size = field.access.size(list);
+    const bool lines = depth <= 1 && size > 0;
+    const std::string indent(static_cast<std::size_t>(2 * depth + 2), ' ');
     out += '[';
-    for (std::size_t i = 0; i < cubes.size(); ++i) {
-        out += i == 0 ? "\n" : ",\n";
-        out += indent;
-        const Cube& cube = cubes[i];
-        ObjectText text(out);
-        text.integer("particles", cube.particles);
-        text.vector("size", cube.size);
-        text.vector("center", cube.center);
-        text.number("radius", cube.radius);
-        text.number("density", cube.density, Cube{}.density);
-        if (cube.texture) text.text("texture", *cube.texture);
-        text.end();
+    for (std::size_t i = 0; i < size; ++i) {
+        if (i > 0) out += ',';
+        if (lines) out += "\n" + indent + "  ";
+        const Table& table = field.access.table();
+        append_object(table, field.access.element(list, i), table.standard(), depth + 1, out);
     }
-    out += cubes.empty() ? "]" : "\n" + std::string(indent).substr(2) + "]";
+    if (lines) out += "\n" + indent;
+    out += ']';
 }
 
-void ready_lists(ObjectText& text, const ReadyParticles& ready) {
-    const auto number = [](float value, std::string& out) { append_json_number(value, out); };
-    const auto vector = [](const auto& value, std::string& out) { append_json_vector(value, out); };
-    write_list(text, "positions", ready.positions, vector);
-    write_list(text, "radii", ready.radii, number);
-    if (!ready.densities.empty()) write_list(text, "densities", ready.densities, number);
-    if (!ready.colors.empty()) write_list(text, "colors", ready.colors, vector);
-}
-
-void cloud_object(const Cloud& cloud, std::string& out) {
-    ObjectText text(out);
-    if (is_procedural(cloud)) {
-        write_model(cloud, text);
-    } else if (cloud.model == CloudModel::kParticles) {
-        text.text("model", "particles");
-        ready_lists(text, cloud.ready);
-    } else {
-        cube_list(cloud.cubes, "      ", text.name("cubes"));
+template <typename T, typename Append>
+void append_list(const void* list, Append append, std::string& out) {
+    const auto& values = *static_cast<const std::vector<T>*>(list);
+    out += '[';
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (i > 0) out += ',';
+        append(values[i], out);
     }
-    const Cloud standard;
-    text.vector("translate", cloud.translate, standard.translate);
-    text.number("scale", cloud.scale, standard.scale);
-    text.number("rotate_y", cloud.rotate_y, standard.rotate_y);
-    text.vector("velocity", cloud.velocity, standard.velocity);
-    if (cloud.fill) text.text("fill", fill_name(*cloud.fill));
-    if (cloud.density) text.number("density", *cloud.density);
-    if (cloud.seed) text.integer("seed", *cloud.seed);
-    text.end();
+    out += ']';
 }
 
-// Whether one cloud says no more than its cubes, so that they may stand at the top.
-bool is_plain(const Cloud& cloud) {
-    return cloud.model == CloudModel::kCubes && cloud.translate == glm::dvec3(0) &&
-           cloud.scale == 1 && cloud.rotate_y == 0 && cloud.velocity == glm::dvec3(0) &&
-           !cloud.fill && !cloud.density && !cloud.seed;
+void append_switch(Switch value, std::string& out) {
+    out += value == Switch::kOn ? "true" : value == Switch::kOff ? "false" : "\"auto\"";
 }
 
-void clouds(ObjectText& text, const SceneDraft& scene) {
-    if (scene.top_level_cubes && scene.clouds.size() == 1 && is_plain(scene.clouds[0])) {
-        cube_list(scene.clouds[0].cubes, "    ", text.name("cubes"));
+void append_value(const Field& field, const void* value, int depth, std::string& out) {
+    const auto number = [](float v, std::string& to) { append_json_number(v, to); };
+    const auto vector = [](const auto& v, std::string& to) { append_json_vector(v, to); };
+    switch (field.access.holds) {
+        case Holds::kNumber:
+            return append_json_number(*static_cast<const double*>(value), out);
+        case Holds::kInteger:
+            out += std::to_string(*static_cast<const std::uint64_t*>(value));
+            return;
+        case Holds::kInt:
+            out += std::to_string(*static_cast<const int*>(value));
+            return;
+        case Holds::kVector:
+            return append_json_vector(*static_cast<const glm::dvec3*>(value), out);
+        case Holds::kWord:
+            return append_json_string(field.words[field.access.word(value)], out);
+        case Holds::kText:
+            return append_json_string(*static_cast<const std::string*>(value), out);
+        case Holds::kSwitch:
+            return append_switch(*static_cast<const Switch*>(value), out);
+        case Holds::kObjects:
+            return append_objects(field, value, depth, out);
+        case Holds::kFloats:
+            return append_list<float>(value, number, out);
+        case Holds::kPoints:
+            return append_list<glm::dvec3>(value, vector, out);
+        case Holds::kColors:
+            return append_list<glm::vec3>(value, vector, out);
+        case Holds::kObject:  // add_object
+        case Holds::kAbsence:
+        case Holds::kOutside:
+            return;
+    }
+}
+
+bool is_empty_list(const Field& field, const void* value) {
+    switch (field.access.holds) {
+        case Holds::kObjects:
+            return field.access.size(value) == 0;
+        case Holds::kFloats:
+            return static_cast<const std::vector<float>*>(value)->empty();
+        case Holds::kPoints:
+            return static_cast<const std::vector<glm::dvec3>*>(value)->empty();
+        case Holds::kColors:
+            return static_cast<const std::vector<glm::vec3>*>(value)->empty();
+        default:
+            return false;
+    }
+}
+
+// Whether a value that is there says no more than the default, which is there too.
+bool is_standard(const Field& field, const void* value, const void* standard, const void* object) {
+    switch (field.access.holds) {
+        case Holds::kNumber:
+            return *static_cast<const double*>(value) ==
+                   (field.usual ? field.usual(object) : *static_cast<const double*>(standard));
+        case Holds::kInteger:
+            return *static_cast<const std::uint64_t*>(value) ==
+                   *static_cast<const std::uint64_t*>(standard);
+        case Holds::kInt:
+            return *static_cast<const int*>(value) == *static_cast<const int*>(standard);
+        case Holds::kVector:
+            return *static_cast<const glm::dvec3*>(value) ==
+                   *static_cast<const glm::dvec3*>(standard);
+        case Holds::kWord:
+            return field.access.word(value) == field.access.word(standard);
+        case Holds::kText:
+            return *static_cast<const std::string*>(value) ==
+                   *static_cast<const std::string*>(standard);
+        case Holds::kSwitch:
+            return *static_cast<const Switch*>(value) == *static_cast<const Switch*>(standard);
+        default:
+            return is_empty_list(field, value);
+    }
+}
+
+class Members {
+  public:
+    Members(std::string& out, int depth) : out_(out), depth_(depth) { out_ += '{'; }
+
+    // Names a member; its value comes next.
+    std::string& name(const char* field) {
+        if (!empty_) out_ += ',';
+        empty_ = false;
+        out_ += depth_ == 0 ? "\n  \"" : " \"";
+        out_ += field;
+        out_ += "\": ";
+        return out_;
+    }
+    void end() { out_ += depth_ == 0 ? "\n}" : empty_ ? "}" : " }"; }
+
+  private:
+    std::string& out_;
+    int depth_;
+    bool empty_ = true;
+};
+
+void add_word(const char* word, const char* field, Members& members) {
+    append_json_string(word, members.name(field));
+}
+
+// Objects that are always there say nothing by being empty; those that need not be do.
+void add_object(const Field& field, const void* value, const void* standard, int depth,
+                Members& members) {
+    const Field* const absence = absence_of(field.access.table());
+    const bool absent = is_absent(absence, value);
+    const bool usually_absent = standard == nullptr || is_absent(absence, standard);
+    if (absent) {
+        if (!usually_absent) add_word(absence->absent, field.name, members);
         return;
     }
-    std::string& out = text.name("clouds");
-    out += '[';
-    for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
-        out += i == 0 ? "\n    " : ",\n    ";
-        cloud_object(scene.clouds[i], out);
-    }
-    out += scene.clouds.empty() ? "]" : "\n  ]";
+    std::string text;
+    const Table& table = field.access.table();
+    append_object(table, value, standard ? standard : table.standard(), depth + 1, text);
+    if (text != "{}" || usually_absent) members.name(field.name) += text;
 }
 
-void lights(ObjectText& text, const SceneDraft& scene, const SceneDraft& standard) {
-    write_object(text, "medium", [&](ObjectText& medium) {
-        medium.number("albedo", scene.medium.albedo, standard.medium.albedo);
-        medium.number("g", scene.medium.g, standard.medium.g);
-        if (scene.medium.phase == PhaseFunction::kCornetteShanks)
-            medium.text("phase", "cornette-shanks");
-    });
-    write_object(text, "sun", [&](ObjectText& sun) {
-        if (scene.sun.direction) {
-            sun.vector("direction", *scene.sun.direction);
-        } else {
-            sun.number("elevation", scene.sun.elevation, standard.sun.elevation);
-            sun.number("azimuth", scene.sun.azimuth, standard.sun.azimuth);
-        }
-        if (scene.sun.auto_color)
-            sun.text("color", "auto");
-        else
-            sun.vector("color", scene.sun.color, standard.sun.color);
-        sun.number("intensity", scene.sun.intensity, standard.sun.intensity);
-    });
-    if (scene.sky.none) {
-        text.text("sky", "none");
-    } else {
-        write_object(text, "sky", [&](ObjectText& sky) {
-            if (scene.sky.physical) {
-                sky.text("model", "physical");
-                sky.number("intensity", scene.sky.intensity, kPhysicalSkyIntensity);
-            } else {
-                sky.vector("zenith", scene.sky.zenith, standard.sky.zenith);
-                sky.vector("horizon", scene.sky.horizon, standard.sky.horizon);
-                sky.number("intensity", scene.sky.intensity, standard.sky.intensity);
-            }
-            sky.number("turbidity", scene.sky.turbidity, standard.sky.turbidity);
-        });
+void add_member(const Field& field, const void* object, const void* standards, int depth,
+                Members& members) {
+    if (field.idle != nullptr && field.idle(object)) return;
+    const void* const value = field.access.get(object);
+    const void* const standard = field.access.get(standards);
+    const bool unused = field.access.unused != nullptr && *field.access.unused(object);
+    if (value == nullptr || unused) {
+        // Not given, where that is not what leaving it out means.
+        if (field.absent != nullptr && (unused || standard != nullptr))
+            add_word(field.absent, field.name, members);
+        return;
     }
-    if (scene.ground)
-        write_object(text, "ground", [&](ObjectText& ground) {
-            ground.number("height", scene.ground->height);
-            ground.vector("albedo", scene.ground->albedo);
-        });
-    if (scene.haze)
-        write_object(text, "haze", [&](ObjectText& haze) {
-            const Haze usual;
-            haze.number("extinction", scene.haze->extinction);
-            haze.number("height", scene.haze->height, usual.height);
-            haze.number("scale_height", scene.haze->scale_height);
-            haze.vector("albedo", scene.haze->albedo, usual.albedo);
-            haze.number("g", scene.haze->g, usual.g);
-        });
-    if (scene.detail)
-        write_object(text, "detail", [&](ObjectText& detail) {
-            detail.number("amount", scene.detail->amount);
-            detail.number("size", scene.detail->size);
-        });
+    if (field.access.holds == Holds::kObject)
+        return add_object(field, value, standard, depth, members);
+    const bool may_be_left_out = standard != nullptr && !field.required;
+    if (may_be_left_out && is_standard(field, value, standard, object)) return;
+    if (field.of_model &&
+        *field.of_model != static_cast<int>(static_cast<const Cloud*>(object)->model))
+        return;
+    append_value(field, value, depth, members.name(field.name));
 }
 
-void picture(ObjectText& text, const SceneDraft& scene, const SceneDraft& standard) {
-    if (!scene.camera.automatic)
-        write_object(text, "camera", [&](ObjectText& camera) {
-            camera.vector("eye", scene.camera.eye);
-            camera.vector("target", scene.camera.target);
-            camera.vector("up", scene.camera.up, standard.camera.up);
-            camera.number("fov", scene.camera.fov, standard.camera.fov);
-        });
-    write_object(text, "image", [&](ObjectText& image) {
-        image.number("width", scene.image.width, standard.image.width);
-        image.number("height", scene.image.height, standard.image.height);
-        if (scene.image.format == ImageFormat::kExr) image.text("format", "exr");
-        if (scene.image.background == Background::kTransparent)
-            image.text("background", "transparent");
-        if (scene.image.exposure) image.number("exposure", *scene.image.exposure);
-        if (scene.image.precision == Precision::kFloat) image.text("precision", "float");
-    });
-    write_object(text, "effects", [&](ObjectText& effects) {
-        for (int i = 0; i < kEffectCount; ++i)
-            if (scene.effects[i] != Switch::kAuto)
-                effects.name(effect_name(static_cast<Effect>(i))) +=
-                    scene.effects[i] == Switch::kOn ? "true" : "false";
-    });
-    write_object(text, "accuracy", [&](ObjectText& accuracy) {
-        if (scene.accuracy.error) accuracy.number("error", *scene.accuracy.error);
-        if (scene.accuracy.time_ms) accuracy.number("time_ms", *scene.accuracy.time_ms);
-        if (scene.accuracy.rung) accuracy.text("rung", *scene.accuracy.rung);
-    });
+void append_object(const Table& table, const void* object, const void* standards, int depth,
+                   std::string& out) {
+    Members members(out, depth);
+    for (const Field& field : table.fields)
+        if (field.in_documents()) add_member(field, object, standards, depth, members);
+    members.end();
 }
 
 }  // namespace
 
 std::string scene_to_json(const SceneDraft& scene) {
-    const SceneDraft standard;
     std::string out;
-    ObjectText text(out, "\n  ", "\n}\n");
-    clouds(text, scene);
-    if (scene.fill != standard.fill) text.text("fill", fill_name(scene.fill));
-    if (scene.seed != standard.seed) text.integer("seed", scene.seed);
-    if (scene.density) text.number("density", *scene.density);
-    if (scene.look != Look::kPhysical)
-        text.text("look", scene.look == Look::kGardner ? "gardner" : "ostroushko");
-    text.number("time", scene.time, standard.time);
-    if (scene.sequence)
-        write_object(text, "sequence", [&](ObjectText& sequence) {
-            sequence.number("from", scene.sequence->from);
-            sequence.number("to", scene.sequence->to);
-            sequence.integer("frames", scene.sequence->frames);
-        });
-    lights(text, scene, standard);
-    picture(text, scene, standard);
-    text.end();
+    const Table& table = table_of<SceneDraft>();
+    append_object(table, &scene, table.standard(), 0, out);
+    return out + "\n";
+}
+
+std::string object_to_json(const Table& table, const void* object, const void* standards) {
+    constexpr int kDeep = 2;
+    std::string out;
+    append_object(table, object, standards, kDeep, out);
     return out;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/embedded.h"
+#include "server/document/schema.h"
 #include "server/service/negotiation.h"
 
 namespace awan {
@@ -36,17 +37,28 @@ std::string_view next_value(std::string_view& text, std::string_view key) {
     return value;
 }
 
+// The contract: routes and answers as web/openapi.json has them, scenes as the tables of core/scene do.
+std::string whole_contract(std::string_view routes) {
+    constexpr std::string_view kSchemas = "\"schemas\": {";
+    const std::size_t at = routes.find(kSchemas) + kSchemas.size();
+    std::string text(routes.substr(0, at));
+    text += '\n' + scene_schemas() + ',';
+    return text.append(routes.substr(at));
+}
+
 }  // namespace
 
 std::vector<Page> make_pages() {
     std::vector<Page> pages;
     for (const EmbeddedFile& file : web_files()) {
         if (file.name.starts_with("presets/")) continue;
-        const std::string etag = make_etag({file.text});
-        pages.push_back(
-            {"/" + std::string(file.name), content_type_of(file.name), file.text, etag});
+        std::string text(file.text);
+        if (file.name == "openapi.json") text = whole_contract(file.text);
+        const std::string etag = make_etag({text});
         if (file.name == "index.html")
-            pages.push_back({"/", content_type_of(file.name), file.text, etag});
+            pages.push_back({"/", content_type_of(file.name), text, etag});
+        pages.push_back(
+            {"/" + std::string(file.name), content_type_of(file.name), std::move(text), etag});
     }
     return pages;
 }

@@ -13,7 +13,7 @@ namespace awan {
 struct Page {
     std::string path;  // "/", "/main.js", "/openapi.json"
     std::string_view content_type;
-    std::string_view text;
+    std::string text;
     std::string etag;
 };
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/scene/fingerprint.h"
 #include "core/formats/awn.h"
 #include "core/formats/image_file.h"
 #include "core/formats/particle_files.h"

@@ -1,0 +1,75 @@
+// The picture that a scene asks for.
+#pragma once
+
+#include <optional>
+
+#include "core/scene/limits.h"
+#include "core/scene/table.h"
+
+namespace awan {
+
+enum class ImageFormat { kPng, kExr };
+inline constexpr const char* kImageFormatWords[] = {"png", "exr"};
+
+enum class Background { kSky, kTransparent };
+inline constexpr const char* kBackgroundWords[] = {"sky", "transparent"};
+
+// Of EXR's samples.
+enum class Precision { kHalf, kFloat };
+inline constexpr const char* kPrecisionWords[] = {"half", "float"};
+
+struct ImageSettings {
+    int width = 800;
+    int height = 600;
+    ImageFormat format = ImageFormat::kPng;
+    Background background = Background::kSky;
+    Precision precision = Precision::kHalf;
+    // None: automatic (core/formats/tone.h).
+    std::optional<double> exposure;
+};
+
+inline constexpr Field kImageFields[] = {
+    field<&ImageSettings::width>({.name = "width",
+                                  .wanted = "an integer from 1 to 8192 (pixels)",
+                                  .counts = count_from_to(1, limits::kMaxImageSide),
+                                  .unit = "pixels",
+                                  .says = "Pixels."}),
+    field<&ImageSettings::height>({.name = "height",
+                                   .wanted = "an integer from 1 to 8192 (pixels)",
+                                   .counts = count_from_to(1, limits::kMaxImageSide),
+                                   .unit = "pixels",
+                                   .says = "Pixels."}),
+    field<&ImageSettings::format>({.name = "format",
+                                   .wanted = R"("png" or "exr")",
+                                   .words = kImageFormatWords,
+                                   .says = "PNG: sRGB after exposure and the tone curve. EXR: "
+                                           "linear radiance, premultiplied, alpha = 1 - "
+                                           "transmittance."}),
+    field<&ImageSettings::background>({.name = "background",
+                                       .wanted = R"("sky" or "transparent")",
+                                       .words = kBackgroundWords,
+                                       .says = "What stands behind the clouds."}),
+    field<&ImageSettings::exposure>({.name = "exposure",
+                                     .wanted = R"(a number (stops) or "auto")",
+                                     .range = within(limits::kMaxExposure),
+                                     .absent = "auto",
+                                     .unit = "stops",
+                                     .says = "Stops: radiance is multiplied by 2^exposure."}),
+    field<&ImageSettings::precision>({.name = "precision",
+                                      .wanted = R"("half" or "float")",
+                                      .words = kPrecisionWords,
+                                      .says = "Of EXR's samples."}),
+};
+static_assert(covers<ImageSettings>(kImageFields));
+
+inline constexpr Table kImageTable{.name = "Image",
+                                   .says = "At most 33554432 pixels.",
+                                   .fields = kImageFields,
+                                   .standard = standard_of<ImageSettings>};
+static_assert(limits::kMaxPixels == 33554432, "the prose above says it");
+template <>
+inline const Table& table_of<ImageSettings>() {
+    return kImageTable;
+}
+
+}  // namespace awan

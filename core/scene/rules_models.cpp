@@ -1,0 +1,219 @@
+// The rules of the models that concern several fields at once.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/scene/automaton.h"
+#include "core/scene/checks.h"
+#include "core/scene/ellipsoids.h"
+#include "core/scene/implicit.h"
+#include "core/scene/limits.h"
+#include "core/scene/rules.h"
+#include "core/scene/spheres.h"
+
+namespace awan {
+namespace {
+
+Error too_small(std::string pointer, const char* least, double its_value, double value) {
+    return invalid(std::move(pointer), std::string("must be at least `") + least + "`, " +
+                                           to_text(its_value) + ", not " + to_text(value));
+}
+
+// --- automaton
+
+Status check_random(const AutomatonCloud& cloud, const std::string& at) {
+    if (!cloud.random) return std::nullopt;
+    const RandomEllipsoids& random = *cloud.random;
+    if (Status wrong = count_in_range(random.count, 0,
+                                      limits::kMaxAutomatonEllipsoids - cloud.ellipsoids.size(),
+                                      at + "/random/count"))
+        return wrong;
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(random.largest[axis] >= random.smallest[axis]))
+            return too_small(at + "/random/largest/" + std::to_string(axis), "smallest",
+                             random.smallest[axis], random.largest[axis]);
+    return std::nullopt;
+}
+
+Status check_bands(const AutomatonWind& wind, const std::string& at) {
+    for (std::size_t i = 0; i < wind.ellipsoids.size(); ++i) {
+        const AutomatonWindBand& band = wind.ellipsoids[i];
+        if (!(band.to >= band.from))
+            return too_small(at + "/ellipsoids/" + std::to_string(i) + "/to", "from", band.from,
+                             band.to);
+    }
+    return std::nullopt;
+}
+
+// Cells within the boxes around all ellipsoids, at most.
+double cells_of_ellipsoids(const AutomatonCloud& cloud) {
+    const double wider = 1 + cloud.wind.mutation;
+    const auto box = [&](const glm::dvec3& radii) {
+        double cells = 1;
+        for (int axis = 0; axis < 3; ++axis)
+            cells *= std::min(cloud.cells[axis], 2 * wider * radii[axis] + 1);
+        return cells;
+    };
+    double cells = 0;
+    for (const AutomatonEllipsoid& ellipsoid : cloud.ellipsoids) cells += box(ellipsoid.radii);
+    const RandomEllipsoids random = random_ellipsoids_of(cloud);
+    return cells + static_cast<double>(random.count) * box(random.largest);
+}
+
+Status check_work(const AutomatonCloud& cloud, const std::string& at) {
+    const double cells = cloud.cells.x * cloud.cells.y * cloud.cells.z;
+    const double own = cells_of_ellipsoids(cloud);
+    const double a_step = cells + (cloud.wind.ellipsoids.empty() ? 0 : own);
+    const double work = own + a_step * static_cast<double>(cloud.steps);
+    if (work <= limits::kMaxAutomatonWork) return std::nullopt;
+    const double left = std::floor((limits::kMaxAutomatonWork - own) / a_step);
+    return invalid(at + "/steps", "is more than this grid may make: cells" +
+                                      std::string(cloud.wind.ellipsoids.empty()
+                                                      ? ""
+                                                      : " (and those in ellipsoids, which move)") +
+                                      " times steps may be " + to_text(limits::kMaxAutomatonWork) +
+                                      ", here " + to_text(std::max(left, 0.0)) + " steps");
+}
+
+// --- spheres
+
+Status check_span(const Span& span, const std::string& pointer_to_low) {
+    if (span.low <= span.high) return std::nullopt;
+    return invalid(pointer_to_low, "must be at most the upper end, " + to_text(span.high) +
+                                       ", not " + to_text(span.low));
+}
+
+// --- implicit
+
+Status check_shape(const ImplicitPrimitive& p, const std::string& at) {
+    const bool cylinder = p.shape == ImplicitShape::kCylinder;
+    const bool skeleton = cylinder || p.shape == ImplicitShape::kSegment;
+    const std::size_t points = p.points.size();
+    if (!skeleton && points > 0)
+        return invalid(at + "/points", "belongs to a cylinder or a segment");
+    if (cylinder && points != 2)
+        return invalid(at + "/points",
+                       "must have the two ends of a cylinder, not " + std::to_string(points));
+    if (skeleton && points < 2)
+        return invalid(at + "/points",
+                       "must have two points at least, not " + std::to_string(points));
+    if (p.shape != ImplicitShape::kEllipsoid && p.radii != glm::dvec3(1))
+        return invalid(at + "/radii", "belongs to an ellipsoid");
+    if (p.shape == ImplicitShape::kEllipsoid && p.core != 0)
+        return invalid(at + "/core", "belongs to spheres, cylinders and segments");
+    return std::nullopt;
+}
+
+Status check_primitive(const ImplicitPrimitive& p, const std::string& at) {
+    if (Status wrong = check_shape(p, at)) return wrong;
+    for (std::size_t i = 1; i < p.keys.size(); ++i)
+        if (!(p.keys[i].time > p.keys[i - 1].time))
+            return invalid(
+                at + "/keys/" + std::to_string(i) + "/time",
+                "must be later than that of the key before, " + to_text(p.keys[i - 1].time));
+    // Semi-axes are lengths too, whatever radius a key gives.
+    double largest = p.radius;
+    for (const ImplicitKey& key : p.keys) largest = std::max(largest, key.radius.value_or(0));
+    for (int i = 0; i < 3; ++i)
+        if (largest * p.radii[i] > limits::kMaxImplicitRadius)
+            return invalid(at + "/radii/" + std::to_string(i),
+                           "times the radius must be at most " +
+                               to_text(limits::kMaxImplicitRadius) + ", not " +
+                               to_text(largest * p.radii[i]));
+    return std::nullopt;
+}
+
+Status check_primitives(const std::vector<ImplicitPrimitive>& primitives, const std::string& at) {
+    std::uint64_t elements = 0;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const std::size_t points = primitives[i].points.size();
+        elements += points > 1 ? points - 1 : 1;
+        if (elements > limits::kMaxImplicitElements)
+            return invalid(at + "/" + std::to_string(i),
+                           "a cloud may have at most " +
+                               std::to_string(limits::kMaxImplicitElements) +
+                               " primitives in all, each piece of a skeleton counted");
+    }
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+        if (Status wrong = check_primitive(primitives[i], at + "/" + std::to_string(i)))
+            return wrong;
+    return std::nullopt;
+}
+
+Status check_flow(const ImplicitFlow& flow, const std::string& at) {
+    for (int i = 0; i < 3; ++i)
+        if (!(flow.max[i] - flow.min[i] >= limits::kMinImplicitRadius))
+            return invalid(at + "/max/" + std::to_string(i),
+                           "must be greater than `min` by " + to_text(limits::kMinImplicitRadius) +
+                               " at least");
+    const double wanted = flow.size.x * flow.size.y * flow.size.z;
+    if (wanted != static_cast<double>(flow.vectors.size()))
+        return invalid(at + "/vectors", "must have as many vectors as `size` says, " +
+                                            to_text(wanted) + ", not " +
+                                            std::to_string(flow.vectors.size()));
+    return std::nullopt;
+}
+
+// --- ellipsoids
+
+// All lists together, named at the one that goes over.
+Status check_counts(const EllipsoidsCloud& cloud, const std::string& at) {
+    const std::string most = "a cloud may have at most " + std::to_string(limits::kMaxEllipsoids) +
+                             " ellipsoids in all, this makes it more";
+    if (cloud.ellipsoids.size() > limits::kMaxEllipsoids) return invalid(at + "/ellipsoids", most);
+    std::uint64_t count = cloud.ellipsoids.size();
+    for (std::size_t i = 0; i < cloud.formations.size(); ++i) {
+        if (cloud.formations[i].count > limits::kMaxEllipsoids - count)
+            return invalid(at + "/formations/" + std::to_string(i) + "/count", most);
+        count += cloud.formations[i].count;
+    }
+    if (most_particles(cloud) > limits::kMaxParticles)
+        return invalid(at + "/plane/resolution", "the plane and the ellipsoids may have " +
+                                                     std::to_string(limits::kMaxParticles) +
+                                                     " cells together, not " +
+                                                     std::to_string(most_particles(cloud)));
+    return std::nullopt;
+}
+
+}  // namespace
+
+Status check_rules(const AutomatonCloud& cloud, const std::string& at) {
+    const double cells = cloud.cells.x * cloud.cells.y * cloud.cells.z;
+    if (cells > limits::kMaxAutomatonCells)
+        return invalid(at + "/cells", "must be at most " + to_text(limits::kMaxAutomatonCells) +
+                                          " cells in all, not " + to_text(cells));
+    if (Status wrong = check_random(cloud, at)) return wrong;
+    if (Status wrong = check_bands(cloud.wind, at + "/wind")) return wrong;
+    if (Status wrong = count_in_range(cloud.warm_up, 0, cloud.steps, at + "/warm_up")) return wrong;
+    return check_work(cloud, at);
+}
+
+Status check_rules(const SpheresCloud& cloud, const std::string& at) {
+    if (Status wrong = check_span(ratios_of(cloud), at + "/ratio_min")) return wrong;
+    return check_span(shifts_of(cloud), at + "/shift_min");
+}
+
+Status check_rules(const ImplicitCloud& cloud, const std::string& at) {
+    if (cloud.primitives)
+        if (Status wrong = check_primitives(*cloud.primitives, at + "/primitives")) return wrong;
+    if (cloud.growth)
+        if (Status wrong = count_in_range(cloud.growth->most, cloud.growth->seeds,
+                                          limits::kMaxGrowth, at + "/growth/most"))
+            return wrong;
+    for (std::size_t i = 0; i < cloud.vortices.size(); ++i)
+        if (!(glm::length(cloud.vortices[i].axis) >= 1e-6))
+            return invalid(at + "/vortices/" + std::to_string(i) + "/axis",
+                           "must have a length of 1e-6 at least");
+    if (cloud.flow) return check_flow(*cloud.flow, at + "/flow");
+    return std::nullopt;
+}
+
+Status check_rules(const EllipsoidsCloud& cloud, const std::string& at) {
+    if (cloud.plane)
+        if (Status wrong =
+                in_range(cloud.plane->thickness, 0, cloud.plane->extent, at + "/plane/thickness"))
+            return wrong;
+    return check_counts(cloud, at);
+}
+
+}  // namespace awan

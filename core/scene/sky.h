@@ -1,0 +1,81 @@
+// The sky of a scene: a gradient, radiance `intensity * mix(horizon, zenith, f(sine of elevation))` (core/shaders/sky.glsl),
+// or the clear sky that belongs to the sun (core/scene/daylight.h), times `intensity`.
+#pragma once
+
+#include "core/scene/limits.h"
+#include "core/scene/table.h"
+
+namespace awan {
+
+// The default of a physical sky: the clear skies of Preetham et al. 1999 are 1.8 times as bright as measured ones (IES: 14
+// klx on the ground at 45 degrees, the model 25).
+inline constexpr double kPhysicalSkyIntensity = 0.55;
+inline constexpr double kGradientSkyIntensity = 1.7;
+inline constexpr const char* kSkyModelWords[] = {"gradient", "physical"};
+
+struct Sky {
+    // "none": black, no light.
+    bool none = false;
+    // Then `zenith` and `horizon` are unused.
+    bool physical = false;
+    glm::dvec3 zenith{0.09, 0.25, 0.72};
+    glm::dvec3 horizon{0.44, 0.67, 0.95};
+    double intensity = kGradientSkyIntensity;
+    double turbidity = 3;
+};
+
+inline constexpr auto kSkyIsPhysical = [](const void* sky) {
+    return static_cast<const Sky*>(sky)->physical;
+};
+
+inline constexpr Field kSkyFields[] = {
+    absence<&Sky::none>("none"),
+    field<&Sky::physical>(
+        {.name = "model",
+         .wanted = R"("gradient" or "physical")",
+         .words = kSkyModelWords,
+         .says = "physical: the clear sky that belongs to the sun (Preetham et al. 1999); zenith "
+                 "and horizon are errors then."}),
+    field<&Sky::turbidity>(
+        {.name = "turbidity",
+         .wanted = "a number from 2 (very clear) to 10 (hazy)",
+         .range = from_to(limits::kMinTurbidity, limits::kMaxTurbidity),
+         .says = "Of the air: 2 very clear, 3 clear, 6 hazy. For a physical sky and a sun of "
+                 "colour \"auto\"."}),
+    field<&Sky::zenith>({.name = "zenith",
+                         .wanted = "[r, g, b]: three numbers",
+                         .range = from_to(0, limits::kMaxColor),
+                         .says = "Linear radiance.",
+                         .idle = kSkyIsPhysical}),
+    field<&Sky::horizon>({.name = "horizon",
+                          .wanted = "[r, g, b]: three numbers",
+                          .range = from_to(0, limits::kMaxColor),
+                          .says = "Linear radiance.",
+                          .idle = kSkyIsPhysical}),
+    field<&Sky::intensity>(
+        {.name = "intensity",
+         .wanted = "a number >= 0",
+         .range = from_to(0, limits::kMaxIntensity),
+         .says = "Multiplies the colours; of a physical sky (default 0.55) the sun's intensity.",
+         .usual =
+             [](const void* sky) {
+                 return static_cast<const Sky*>(sky)->physical ? kPhysicalSkyIntensity
+                                                               : kGradientSkyIntensity;
+             }}),
+};
+static_assert(covers<Sky>(kSkyFields));
+
+inline constexpr Table kSkyTable{.name = "Sky",
+                                 .says =
+                                     "Of a gradient: radiance intensity * mix(horizon, zenith, "
+                                     "1.09 u^2 / (u^2 + 0.09)), u = max(0, sine of "
+                                     "the elevation).",
+                                 .fields = kSkyFields,
+                                 .standard = standard_of<Sky>,
+                                 .shorthand = "model"};
+template <>
+inline const Table& table_of<Sky>() {
+    return kSkyTable;
+}
+
+}  // namespace awan

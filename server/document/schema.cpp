@@ -1,0 +1,305 @@
+#include "server/document/schema.h"
+
+#include <limits>
+#include <map>
+
+#include "core/plan/ladder.h"
+#include "core/scene/fingerprint.h"
+#include "core/scene/implicit.h"
+#include "core/scene/limits.h"
+#include "core/scene/scene.h"
+#include "server/document/json.h"
+#include "server/document/json_text.h"
+
+namespace awan {
+namespace {
+
+using json_text::member;
+using json_text::name;
+
+void words(const char* field, const char* value, std::string& out) {
+    member(field, std::string_view(value), out);
+}
+
+// Schemas by name, each written once.
+using Schemas = std::map<std::string, std::string>;
+
+void ends(const Range& range, std::string& out) {
+    const char* const lowest = range.above ? "exclusiveMinimum" : "minimum";
+    member(lowest, range.lowest, out);
+    if (range.highest < std::numeric_limits<double>::max()) member("maximum", range.highest, out);
+}
+
+// One number: of a field, of a component, or of a list's element.
+std::string number_schema(const Field& field) {
+    std::string out = "{";
+    words("type", field.whole ? "integer" : "number", out);
+    ends(field.range, out);
+    out += '}';
+    if (!field.or_zero) return out;
+    return R"({"anyOf":[{"type":"number","const":0},)" + out + "]}";
+}
+
+std::string array_schema(const std::string& items, std::uint64_t least, std::uint64_t most) {
+    std::string out = "{";
+    words("type", "array", out);
+    name("items", out);
+    out += items;
+    if (least > 0) member("minItems", least, out);
+    member("maxItems", most, out);
+    return out + '}';
+}
+
+std::string integer_schema(const Field& field) {
+    std::string out = "{";
+    words("type", "integer", out);
+    member("minimum", field.counts.lowest, out);
+    member("maximum", field.counts.highest, out);
+    return out + '}';
+}
+
+std::string word_list(std::span<const char* const> words) {
+    std::string out = "[";
+    for (const char* const word : words) {
+        if (out.size() > 1) out += ',';
+        append_json_string(word, out);
+    }
+    return out + ']';
+}
+
+std::string words_schema(std::span<const char* const> words) {
+    return R"({"type":"string","enum":)" + word_list(words) + '}';
+}
+
+std::string reference(const std::string& schema) {
+    return R"({"$ref":"#/components/schemas/)" + schema + "\"}";
+}
+
+// A name; of a rung, one of those there are.
+std::string text_schema(const Field& field) {
+    if (std::string_view(field.name) == "rung") return reference("Rung");
+    return R"({"type":"string","maxLength":)" + std::to_string(limits::kMaxString) + '}';
+}
+
+// The alternatives, each a schema; one stands alone.
+std::string any_of(const std::vector<std::string>& schemas) {
+    if (schemas.size() == 1) return schemas[0];
+    std::string out = R"({"oneOf":[)";
+    for (std::size_t i = 0; i < schemas.size(); ++i) out += (i > 0 ? "," : "") + schemas[i];
+    return out + "]}";
+}
+
+const Field* absence_of(const Table& table) {
+    for (const Field& field : table.fields)
+        if (field.access.holds == Holds::kAbsence) return &field;
+    return nullptr;
+}
+
+std::string object_schema(const Table& table, const void* standards, Schemas& schemas);
+
+// Named, unless its defaults are other than those of its kind.
+std::string object_reference(const Table& table, const void* standards, Schemas& schemas) {
+    const bool usual = standards == nullptr ||
+                       fingerprint_of(table, standards) == fingerprint_of(table, table.standard());
+    if (!usual) return object_schema(table, standards, schemas);
+    if (!schemas.contains(table.name)) {
+        // A mark first: what refers to itself ends.
+        schemas[table.name] = "{}";
+        schemas[table.name] = object_schema(table, table.standard(), schemas);
+    }
+    return reference(table.name);
+}
+
+std::string value_schema(const Field& field, const void* standard, Schemas& schemas) {
+    const std::uint64_t most = field.counts.highest;
+    const std::string number = number_schema(field);
+    switch (field.access.holds) {
+        case Holds::kNumber:
+            return number;
+        case Holds::kInteger:
+        case Holds::kInt:
+            return integer_schema(field);
+        case Holds::kVector:
+            return array_schema(number, 3, 3);
+        case Holds::kWord:
+            return words_schema(field.words);
+        case Holds::kText:
+            return text_schema(field);
+        case Holds::kSwitch:
+            return field.later ? R"({"type":"boolean","const":false})" : R"({"type":"boolean"})";
+        case Holds::kObject:
+            return object_reference(field.access.table(), standard, schemas);
+        case Holds::kObjects:
+            return array_schema(object_reference(field.access.table(), nullptr, schemas), 0, most);
+        case Holds::kFloats:
+            return array_schema(number, 0, most);
+        case Holds::kPoints:
+        case Holds::kColors:
+            return array_schema(array_schema(number, 3, 3), 0, most);
+        case Holds::kAbsence:
+        case Holds::kOutside:
+            return "{}";
+    }
+    return "{}";
+}
+
+// What may stand for the field: its value, one number for a vector, words.
+std::vector<std::string> alternatives(const Field& field, const void* standard, Schemas& schemas) {
+    std::vector<std::string> all;
+    if (field.one_for_all) all.push_back(number_schema(field));
+    all.push_back(value_schema(field, standard, schemas));
+    std::vector<const char*> instead;
+    if (field.access.holds == Holds::kObject) {
+        const Table& table = field.access.table();
+        if (const Field* const absence = absence_of(table)) instead.push_back(absence->absent);
+        for (const Field& inner : table.fields)
+            if (table.shorthand != nullptr && std::string_view(inner.name) == table.shorthand)
+                instead.insert(instead.end(), inner.words.begin(), inner.words.end());
+    }
+    if (field.absent != nullptr) instead.push_back(field.absent);
+    if (!instead.empty()) all.push_back(words_schema(instead));
+    return all;
+}
+
+void add_default(const Field& field, const void* standards, std::string& out) {
+    const void* const value = field.access.get(standards);
+    if (field.required || field.access.holds == Holds::kObjects) return;
+    if (field.usual != nullptr) return member("default", field.usual(standards), out);
+    switch (field.access.holds) {
+        case Holds::kNumber:
+            if (value) member("default", *static_cast<const double*>(value), out);
+            break;
+        case Holds::kInteger:
+            if (value) member("default", *static_cast<const std::uint64_t*>(value), out);
+            break;
+        case Holds::kInt:
+            if (value) member("default", *static_cast<const int*>(value), out);
+            break;
+        case Holds::kVector:
+            if (value) {
+                name("default", out);
+                append_json_vector(*static_cast<const glm::dvec3*>(value), out);
+            }
+            break;
+        case Holds::kWord:
+            if (value) words("default", field.words[field.access.word(value)], out);
+            break;
+        case Holds::kSwitch:
+            words("default", "auto", out);
+            break;
+        case Holds::kObject: {
+            const Field* const absence = absence_of(field.access.table());
+            if (value && absence && *static_cast<const bool*>(absence->access.member(value)))
+                words("default", absence->absent, out);
+            break;
+        }
+        default:
+            break;
+    }
+    if (!value && field.absent != nullptr) words("default", field.absent, out);
+}
+
+std::string field_schema(const Field& field, const void* standards, Schemas& schemas) {
+    std::string out = any_of(alternatives(field, field.access.get(standards), schemas));
+    out.pop_back();  // its bracket: there is more to say
+    words("description", field.says, out);
+    if (field.unit != nullptr) words("x-unit", field.unit, out);
+    add_default(field, standards, out);
+    if (field.otherwise != nullptr) words("x-otherwise", field.otherwise, out);
+    return out + '}';
+}
+
+// The members of one object, those of a cloud only of its model.
+std::string object_members(const Table& table, const void* standards, std::optional<int> model,
+                           Schemas& schemas) {
+    std::string properties, required;
+    for (const Field& field : table.fields) {
+        if (!field.in_documents() || (field.later && field.access.holds != Holds::kSwitch))
+            continue;
+        if (field.of_model && field.of_model != model) continue;
+        if (!properties.empty()) properties += ',';
+        append_json_string(field.name, properties);
+        properties += ':' + field_schema(field, standards, schemas);
+        if (!field.required) continue;
+        if (!required.empty()) required += ',';
+        append_json_string(field.name, required);
+    }
+    std::string out =
+        R"("type":"object","properties":{)" + properties + R"(},"additionalProperties":false)";
+    if (!required.empty()) out += ",\"required\":[" + required + ']';
+    return out;
+}
+
+std::string capitalised(std::string word) {
+    word[0] = static_cast<char>(word[0] - 'a' + 'A');
+    return word;
+}
+
+// A schema for clouds of each model, and that one of them holds.
+std::string cloud_schema(const Table& table, const void* standards, Schemas& schemas) {
+    std::vector<std::string> models;
+    for (std::size_t i = 0; i < std::size(kCloudModelWords); ++i) {
+        const std::string word = kCloudModelWords[i];
+        const std::string schema = capitalised(word) + "Cloud";
+        std::string members = object_members(table, standards, static_cast<int>(i), schemas);
+        // Which model it is: the word, and nothing else. Cubes are what a cloud is that does not say.
+        const std::string all = word_list(kCloudModelWords);
+        members.replace(members.find(all), all.size(), "[\"" + word + "\"]");
+        const std::string standard = R"("default":"cubes")";
+        if (i != static_cast<std::size_t>(CloudModel::kCubes)) {
+            const std::size_t at = members.find("," + standard);
+            members.erase(at, standard.size() + 1);
+            const std::size_t list = members.rfind("\"required\":[") + 12;
+            members.insert(list, "\"model\",");
+        }
+        schemas[schema] = '{' + members + '}';
+        models.push_back(reference(schema));
+    }
+    return any_of(models);
+}
+
+// What the fields that a preset decides come to with each.
+std::string implicit_presets() {
+    std::string out;
+    for (std::size_t i = 0; i < std::size(kImplicitPresetWords); ++i) {
+        ImplicitCloud cloud;
+        cloud.preset = static_cast<ImplicitPreset>(i);
+        const ImplicitCloud all = spelled_out(cloud);
+        if (i > 0) out += ',';
+        append_json_string(kImplicitPresetWords[i], out);
+        out += ':' + object_to_json(table_of<ImplicitCloud>(), &all, &cloud);
+    }
+    return out;
+}
+
+std::string object_schema(const Table& table, const void* standards, Schemas& schemas) {
+    if (&table == &table_of<Cloud>()) return cloud_schema(table, standards, schemas);
+    std::string out = '{' + object_members(table, standards, {}, schemas);
+    words("description", table.says, out);
+    if (&table == &table_of<SceneDraft>())
+        out +=
+            R"(,"oneOf":[{"required":["cubes"]},{"required":["clouds"]}],"example":{"cubes":[{"particles":200,)"
+            R"("size":[7.4,1.07,2.9],"center":[-3.4,-3.3,-0.6],"radius":2.1}]})";
+    if (&table == &table_of<Accuracy>()) out += R"(,"minProperties":1,"maxProperties":1)";
+    if (&table == &table_of<ImplicitCloud>()) out += ",\"x-presets\":{" + implicit_presets() + '}';
+    return out + '}';
+}
+
+}  // namespace
+
+std::string scene_schemas() {
+    Schemas schemas;
+    object_reference(table_of<SceneDraft>(), nullptr, schemas);
+    std::vector<const char*> rungs;
+    for (const Rung& rung : ladder()) rungs.push_back(rung.name);
+    schemas["Rung"] = words_schema(rungs);
+    std::string out;
+    for (const auto& [schema, text] : schemas) {
+        if (!out.empty()) out += ",\n";
+        append_json_string(schema, out);
+        out += ": " + text;
+    }
+    return out;
+}
+
+}  // namespace awan
