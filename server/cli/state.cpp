@@ -5,7 +5,6 @@
 #include "core/generate/automaton/state_file.h"
 #include "core/generate/keyed_random.h"
 #include "core/scene/automaton.h"
-#include "core/scene/check_ranges.h"
 #include "core/scene/rules.h"
 #include "server/cli/cli.h"
 #include "server/cli/files.h"
@@ -61,7 +60,7 @@ Status begin_with_state(const std::string& path, SceneDraft& draft) {
         resumed.start = std::make_shared<const AutomatonState>(*std::move(state));
         // Whether it fits is asked here, where the pointer can name the cloud; a draft that cannot be says so later.
         const std::string at = "/clouds/" + std::to_string(k) + "/automaton";
-        if (!check_ranges(table_of<AutomatonCloud>(), &resumed, at) && !check_rules(resumed, at))
+        if (!check_model(resumed, at))
             if (Status wrong = check_start(resumed, resumed.start->key)) {
                 wrong->pointer = at;
                 return wrong;
