@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/plan/ladder.h"
 #include "core/scene/limits.h"
+#include "core/scene/rungs.h"
 #include "core/scene/validate.h"
 #include "server/document/json.h"
 #include "tests/scene_checks.h"

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include "core/plan/ladder.h"
 #include "core/plan/transport_settings.h"
+#include "core/scene/rungs.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
 

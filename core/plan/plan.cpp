@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <limits>
 
-#include "core/looks/looks.h"
 #include "core/plan/criteria.h"
 
 namespace awan {
@@ -49,10 +48,6 @@ void join_shafts_to_haze(Plan& plan) {
     shafts.reason =
         "aerial_perspective is off, and shadows are seen in the haze (" + shafts.reason + ")";
 }
-
-}  // namespace
-
-namespace {
 
 std::string percent(double error) {
     std::array<char, 32> text{};
@@ -165,7 +160,7 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
     plan.samples =
         samples_for(accuracy.rung || accuracy.time_ms ? kTruthNoise : wanted_error, scene, survey);
     if (accuracy.time_ms) {  // as many paths as fit
-        const Rung& truth = *find_rung("truth");
+        const Rung& truth = rung_of(RungId::kTruth);
         const double one = forecast(truth, scene, survey, 2, threads, speed).time_ms;
         const double two = forecast(truth, scene, survey, 4, threads, speed).time_ms;
         const double pairs = two > one ? (*accuracy.time_ms - one) / (two - one) : 1;
@@ -180,7 +175,7 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
         plan.forecasts.push_back(forecast(rung, scene, survey, plan.samples, threads, speed));
         if (rung.method == Method::kSplats) {
             double& error = plan.forecasts.back().error;
-            const bool additive = &rung == find_rung("additive");
+            const bool additive = rung.id == RungId::kAdditive;
             error = std::hypot(std::min(error, thin_error(plan, scene, survey, additive)),
                                lost_by_splats(plan));
         }
@@ -194,7 +189,7 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
     if (accuracy.rung) {
         const Rung* named = find_rung(*accuracy.rung);
         for (const RungForecast& candidate : plan.forecasts)
-            if (candidate.rung == named) choice.forecast = candidate;
+            if (*candidate.rung == *named) choice.forecast = candidate;
         choice.reason = "asked for by name";
     } else if (accuracy.time_ms) {
         choice = best_in_time(*accuracy.time_ms, candidates);
@@ -224,9 +219,9 @@ void fit_effects_to_rung(Plan& plan) {
         decision.reason = "rung " + plan.rung + (on ? " always has it (" : " goes without (") +
                           decision.reason + ")";
     };
-    const bool additive = &rung == find_rung("additive"), harris = &rung == find_rung("harris");
+    const bool additive = rung.id == RungId::kAdditive;
     if (rung.method == Method::kSplats) set(Effect::kDetail, false);
-    if (harris) return;
+    if (rung.id == RungId::kHarris) return;
     set(Effect::kSelfShadow, !additive);
     set(Effect::kMultipleScattering,
         !additive && (rung.cells > 0 || rung.method == Method::kPaths));
@@ -234,8 +229,8 @@ void fit_effects_to_rung(Plan& plan) {
     if (rung.method == Method::kMarch && rung.cells == 0) set(Effect::kSkyLight, false);
 }
 
-// A look is not lit: nothing is simulated.
-Plan plan_look(const Scene& scene, const Survey& survey, int threads) {
+// A look is not lit: nothing is simulated. What it takes is added by who knows the looks (core/planning.cpp).
+Plan plan_look() {
     Plan plan;
     for (int i = 0; i < kEffectCount; ++i) {
         EffectDecision& decision = plan.effects[static_cast<std::size_t>(i)];
@@ -243,10 +238,10 @@ Plan plan_look(const Scene& scene, const Survey& survey, int threads) {
         decision.available = in_this_version(decision.effect);
         decision.reason = "the scene asks for a look, which follows its own rules";
     }
-    plan.predicted.rung = &look_rung();
+    const Rung& look = rung_of(RungId::kLook);
+    plan.predicted.rung = &look;
     plan.predicted.error = std::numeric_limits<double>::quiet_NaN();
-    plan.predicted.time_ms = look_time_ms(scene, survey.view, threads);
-    plan.rung = look_rung().name;
+    plan.rung = look.name;
     plan.rung_reason = "the scene asks for a look: there is no truth to be near to";
     return plan;
 }
@@ -254,7 +249,7 @@ Plan plan_look(const Scene& scene, const Survey& survey, int threads) {
 }  // namespace
 
 Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSpeed& speed) {
-    if (scene->look != Look::kPhysical) return plan_look(scene, survey, threads);
+    if (scene->look != Look::kPhysical) return plan_look();
     Plan plan;
     const std::array<Criterion, kEffectCount> own_of = criteria(scene, survey);
     for (int i = 0; i < kEffectCount; ++i) {

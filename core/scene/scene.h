@@ -176,7 +176,7 @@ inline constexpr double kDefaultError = 0.1;
 struct Accuracy {
     std::optional<double> error;      // relative, > 0
     std::optional<double> time_ms;    // > 0
-    std::optional<std::string> rung;  // by name (core/plan/ladder.h)
+    std::optional<std::string> rung;  // by name (core/scene/rungs.h)
 };
 
 // How a picture is made: by light as it is, or by the rules of a published system, which are a look and have no error

@@ -83,8 +83,9 @@ Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles,
     if (!matter.ok()) return matter.error();
     const Setting setting = truth::setting_of(scene, *matter, options);
     const std::uint32_t samples = std::max(options.samples / 2, 1u) * 2;
-    const auto air = options.aerial_perspective ? truth::haze_of(scene, options.light_shafts)
-                                                : std::optional<truth::HazeSetting>();
+    const auto air = options.eye_effects.aerial_perspective
+                         ? truth::haze_of(scene, options.eye_effects.light_shafts)
+                         : std::optional<truth::HazeSetting>();
 
     const int across = (width + kTile - 1) / kTile, down = (height + kTile - 1) / kTile;
     const std::size_t tiles = static_cast<std::size_t>(across) * static_cast<std::size_t>(down);
