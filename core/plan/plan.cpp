@@ -19,9 +19,8 @@ constexpr double kTruthNoise = 0.05;  // of a pixel, when rung truth is asked fo
 // Forward-scattered light travels with the light pass of self_shadow: one does not run without the
 // other.
 void join_scattering_to_shadow(Plan& plan, const Scene& scene) {
-    EffectDecision& shadow = plan.effects[static_cast<std::size_t>(Effect::kSelfShadow)];
-    EffectDecision& scattering =
-        plan.effects[static_cast<std::size_t>(Effect::kMultipleScattering)];
+    EffectDecision& shadow = plan.of(Effect::kSelfShadow);
+    EffectDecision& scattering = plan.of(Effect::kMultipleScattering);
     if (!scattering.on || shadow.on) return;
     if (scene->effects[static_cast<int>(Effect::kSelfShadow)] == Switch::kOff) {
         scattering.on = false;
@@ -34,7 +33,7 @@ void join_scattering_to_shadow(Plan& plan, const Scene& scene) {
 
 // Bumps below a pixel are no detail, even where it is asked for.
 void leave_out_unseen_detail(Plan& plan, const Scene& scene, const Survey& survey) {
-    EffectDecision& detail = plan.effects[static_cast<std::size_t>(Effect::kDetail)];
+    EffectDecision& detail = plan.of(Effect::kDetail);
     if (!detail.on || detail_pixels(scene, survey) > kLeastBump) return;
     detail.on = false;
     detail.reason += ": nothing of it could be seen";
@@ -42,7 +41,7 @@ void leave_out_unseen_detail(Plan& plan, const Scene& scene, const Survey& surve
 
 // Shadows are seen in haze that is drawn.
 void join_shafts_to_haze(Plan& plan) {
-    EffectDecision& shafts = plan.effects[static_cast<std::size_t>(Effect::kLightShafts)];
+    EffectDecision& shafts = plan.of(Effect::kLightShafts);
     if (!shafts.on || plan.on(Effect::kAerialPerspective)) return;
     shafts.on = false;
     shafts.reason =
@@ -137,9 +136,7 @@ double thin_error(const Plan& plan, const Scene& scene, const Survey& survey, bo
     const double deepest =
         std::max({survey.optical_depth_eye, survey.optical_depth_sun, survey.optical_depth_zenith});
     if (deepest > (additive ? 0.3 : 0.12)) return std::numeric_limits<double>::infinity();
-    const auto left_out = [&](Effect effect) {
-        return plan.effects[static_cast<std::size_t>(effect)].left_out;
-    };
+    const auto left_out = [&](Effect effect) { return plan.of(effect).left_out; };
     const double sum =
         0.7 * (left_out(Effect::kSelfShadow) + left_out(Effect::kMultipleScattering) +
                left_out(Effect::kViewExtinction)) +
@@ -149,7 +146,7 @@ double thin_error(const Plan& plan, const Scene& scene, const Survey& survey, bo
 
 // Error of what the scene calls for and splats cannot show.
 double lost_by_splats(const Plan& plan) {
-    const EffectDecision& detail = plan.effects[static_cast<std::size_t>(Effect::kDetail)];
+    const EffectDecision& detail = plan.of(Effect::kDetail);
     return detail.on ? detail.left_out : 0;
 }
 
@@ -213,7 +210,7 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
 void fit_effects_to_rung(Plan& plan) {
     const Rung& rung = *plan.predicted.rung;
     const auto set = [&](Effect effect, bool on) {
-        EffectDecision& decision = plan.effects[static_cast<std::size_t>(effect)];
+        EffectDecision& decision = plan.of(effect);
         if (decision.on == on) return;
         decision.on = on;
         decision.reason = "rung " + plan.rung + (on ? " always has it (" : " goes without (") +
@@ -233,7 +230,7 @@ void fit_effects_to_rung(Plan& plan) {
 Plan plan_look() {
     Plan plan;
     for (int i = 0; i < kEffectCount; ++i) {
-        EffectDecision& decision = plan.effects[static_cast<std::size_t>(i)];
+        EffectDecision& decision = plan.of(static_cast<Effect>(i));
         decision.effect = static_cast<Effect>(i);
         decision.available = in_this_version(decision.effect);
         decision.reason = "the scene asks for a look, which follows its own rules";
@@ -254,7 +251,7 @@ Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSp
     const std::array<Criterion, kEffectCount> own_of = criteria(scene, survey);
     for (int i = 0; i < kEffectCount; ++i) {
         const auto effect = static_cast<Effect>(i);
-        EffectDecision& decision = plan.effects[static_cast<std::size_t>(i)];
+        EffectDecision& decision = plan.of(static_cast<Effect>(i));
         decision.effect = effect;
         decision.available = in_this_version(effect);
         if (!decision.available) {

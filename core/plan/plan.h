@@ -32,7 +32,11 @@ struct Plan {
     TransportSettings transport;          // rungs of Method::kMarch
     std::uint32_t samples = 0;            // rung truth: paths a pixel
 
-    bool on(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
+    EffectDecision& of(Effect effect) { return effects[static_cast<std::size_t>(effect)]; }
+    const EffectDecision& of(Effect effect) const {
+        return effects[static_cast<std::size_t>(effect)];
+    }
+    bool on(Effect effect) const { return of(effect).on; }
     EyeEffects eye_effects() const {
         return {on(Effect::kAerialPerspective), on(Effect::kLightShafts)};
     }

@@ -17,7 +17,7 @@
 namespace awan {
 namespace {
 
-constexpr std::array<const char*, kEffectCount> kEffectNames = {
+constexpr std::array kEffectNames = {
     "self_shadow",     "multiple_scattering",
     "view_extinction", "sky_light",
     "ground_light",    "ground_shadow",
@@ -25,6 +25,7 @@ constexpr std::array<const char*, kEffectCount> kEffectNames = {
     "light_shafts",    "detail",
     "interior",        "texture",
 };
+static_assert(kEffectNames.size() == kEffectCount);
 
 }  // namespace
 

@@ -162,7 +162,7 @@ enum class Effect {
     kInterior,
     kTexture,
 };
-inline constexpr int kEffectCount = 12;
+inline constexpr int kEffectCount = static_cast<int>(Effect::kTexture) + 1;
 enum class Switch { kAuto, kOn, kOff };
 
 // The name of an effect in documents, e.g. "self_shadow".
