@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/generate/generate.h"
-#include "core/pipeline.h"
+#include "core/planning.h"
 #include "core/scene/validate.h"
 
 namespace awan {
@@ -78,8 +78,8 @@ Result<Settled> settle(const Scene& scene, int threads, const Deadline& deadline
         auto planned = plan_still(valid(std::move(frame)), threads, deadline, speed, {});
         if (!planned.ok()) return planned.error();
         const Rung* const own = planned->plan.predicted.rung;
-        // The ladder stands in memory in its order.
-        if (chosen == nullptr || (accuracy.time_ms ? own < chosen : own > chosen)) chosen = own;
+        if (chosen == nullptr || (accuracy.time_ms ? own->id < chosen->id : own->id > chosen->id))
+            chosen = own;
         for (const EffectDecision& decision : planned->plan.effects) {
             Switch& asked = with_effects.effects[static_cast<int>(decision.effect)];
             if (decision.on && asked == Switch::kAuto) asked = Switch::kOn;

@@ -8,7 +8,7 @@
 
 #include "core/base/deadline.h"
 #include "core/generate/detail.h"
-#include "core/light/machine_speed.h"
+#include "core/plan/forecast.h"
 #include "core/scene/scene.h"
 
 namespace awan {

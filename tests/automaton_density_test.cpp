@@ -18,6 +18,15 @@
 namespace awan {
 namespace {
 
+using automaton::AutomatonGrid;
+using automaton::CellDensity;
+using automaton::cells_to_particles;
+using automaton::CloudBits;
+using automaton::kMetaballIntegral;
+using automaton::kMetaballVariance;
+using automaton::metaball;
+using automaton::PlaneSmoother;
+
 std::vector<std::uint64_t> random_sky(const AutomatonGrid& grid, std::uint64_t key, bool sparse) {
     std::vector<std::uint64_t> sky(grid.all_words());
     for (std::size_t w = 0; w < sky.size(); ++w) {

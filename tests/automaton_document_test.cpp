@@ -24,9 +24,14 @@ namespace {
 
 // Over every field of it.
 std::string all_fields_of(const AutomatonCloud& cloud) {
-    const AutomatonCloud all = cloud;
-    return fingerprint_of(table_of<AutomatonCloud>(), &all);
+    return fingerprint_of(table_of<AutomatonCloud>(), &cloud);
 }
+
+using automaton::AutomatonScratch;
+using automaton::check_start;
+using automaton::read_state;
+using automaton::run_automaton;
+using automaton::write_state;
 
 using namespace scene_checks;
 
@@ -276,8 +281,8 @@ TEST(AutomatonStates, ARunThatIsResumedIsTheSame) {
             ModelRequest request;
             request.key = 5;
             request.time = static_cast<double>(to) - 12 + 0.3;
-            const auto a = automaton_particles(cloud, request, {});
-            const auto b = automaton_particles(resumed, request, {});
+            const auto a = automaton::make_particles(cloud, request, {});
+            const auto b = automaton::make_particles(resumed, request, {});
             ASSERT_TRUE(a.ok() && b.ok());
             EXPECT_EQ(a->particles.positions, b->particles.positions);
             EXPECT_EQ(a->particles.densities, b->particles.densities);

@@ -13,6 +13,19 @@
 namespace awan {
 namespace {
 
+using automaton::AutomatonGrid;
+using automaton::AutomatonScratch;
+using automaton::chance_of;
+using automaton::FallOff;
+using automaton::first_ellipsoids;
+using automaton::first_state;
+using automaton::kDistancePlanes;
+using automaton::lanes_that_happen;
+using automaton::make_fall_off;
+using automaton::move_ellipsoids;
+using automaton::run_automaton;
+using automaton::step_automaton;
+
 using test::PlainAutomaton;
 
 void expect_same_bits(const AutomatonCloud& cloud, const AutomatonState& state,

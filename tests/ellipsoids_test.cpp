@@ -15,6 +15,15 @@
 namespace awan {
 namespace {
 
+using ellipsoids::limb_in_space;
+using ellipsoids::opacity;
+using ellipsoids::placed_ellipsoids;
+using ellipsoids::PlacedEllipsoid;
+using ellipsoids::texture_at;
+using ellipsoids::texture_function;
+using ellipsoids::TextureFunction;
+using ellipsoids::threshold_at;
+
 using namespace test;
 
 ParticleSet generated(const SceneDraft& draft, int threads = 1, bool coarse = false) {

@@ -13,6 +13,14 @@
 namespace awan {
 namespace {
 
+using ellipsoids::blur_of_blob;
+using ellipsoids::opacity;
+using ellipsoids::sin_turns;
+using ellipsoids::texture_at;
+using ellipsoids::texture_function;
+using ellipsoids::TextureFunction;
+using ellipsoids::TextureValue;
+
 using std::numbers::pi;
 using test::Dice;
 

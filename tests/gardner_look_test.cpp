@@ -15,6 +15,8 @@
 namespace awan {
 namespace {
 
+using ellipsoids::PlacedEllipsoid;
+
 using namespace test;
 using namespace gardner;
 

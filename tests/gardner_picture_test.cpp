@@ -14,6 +14,9 @@
 namespace awan {
 namespace {
 
+using ellipsoids::placed_ellipsoids;
+using ellipsoids::PlacedEllipsoid;
+
 using namespace test;
 
 SceneDraft look_of(EllipsoidsCloud model) {

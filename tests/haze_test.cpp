@@ -222,7 +222,7 @@ TEST(Haze, PixelsAreTheIntegralsAlongTheirRays) {
     light.sun = test::exact_sun(stage.scene, stage.particles, 48, 2);
     for (const bool shafts : {false, true}) {
         MarchSettings settings;
-        settings.light_shafts = shafts;
+        settings.eye_effects.light_shafts = shafts;
         const Image image = test::marched(stage, light, 2, settings);
         double worst = 0, shadows = 0;
         for (int y = 1; y < image.height; y += 5)
@@ -263,7 +263,7 @@ PictureError against_paths(SceneDraft draft, const char* rung, bool shafts, bool
     TruthOptions options;
     options.samples = 32;
     options.threads = 2;
-    options.light_shafts = shadows;
+    options.eye_effects.light_shafts = shadows;
     const auto truth = trace_truth(stage.scene, stage.particles, stage.view, options, {}, {});
     return picture_error(rendered(draft, rung), *truth);
 }

@@ -41,7 +41,7 @@ inline ImplicitPrimitive skeleton(ImplicitShape shape, std::vector<glm::dvec3> p
 inline constexpr std::uint64_t kKey = 77;
 
 inline double density(const ImplicitCloud& cloud, glm::dvec3 p, double time = 0) {
-    return density_at(prepare_field(cloud, kKey, time), p);
+    return implicit::density_at(implicit::prepare_field(cloud, kKey, time), p);
 }
 
 // Points all over a box of half extents `half` around the middle.

@@ -10,6 +10,14 @@
 namespace awan {
 namespace {
 
+using implicit::Box;
+using implicit::Element;
+using implicit::element_of;
+using implicit::grown;
+using implicit::GrownParticle;
+using implicit::growth_box;
+using implicit::kGrowthReach;
+
 void expect_same(const GrownParticle& a, const GrownParticle& b) {
     EXPECT_EQ(a.position, b.position);
     EXPECT_EQ(a.velocity, b.velocity);

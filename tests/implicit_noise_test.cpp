@@ -13,6 +13,18 @@
 namespace awan {
 namespace {
 
+namespace lanes = implicit::lanes;
+using implicit::kMeanAbsNoise;
+using implicit::kRmsNoise;
+using implicit::noise;
+using implicit::noise3;
+using implicit::NoiseLattice;
+using implicit::Octaves;
+using implicit::octaves_of;
+using implicit::swirl_path;
+using implicit::SwirlPath;
+using implicit::turbulence;
+
 using test::all_over;
 
 lanes::Vec everywhere(glm::dvec3 p) {

@@ -13,6 +13,11 @@
 namespace awan {
 namespace {
 
+using implicit::ImplicitField;
+using implicit::lattice_over;
+using implicit::prepare_field;
+using implicit::sample;
+
 using test::all_over;
 using test::ball;
 using test::bare;

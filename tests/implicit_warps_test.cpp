@@ -12,6 +12,14 @@
 namespace awan {
 namespace {
 
+using implicit::Box;
+using implicit::box_of;
+using implicit::density_at;
+using implicit::elements_near;
+using implicit::ImplicitField;
+using implicit::prepare_field;
+using implicit::row_densities;
+
 using test::all_over;
 using test::ball;
 using test::bare;

@@ -32,7 +32,7 @@ ModelParticles made_of(const SpheresCloud& cloud, double angle, std::optional<gl
     request.pixel_angle = angle;
     request.eye = eye;
     request.threads = threads;
-    auto made = spheres_particles(cloud, request, {});
+    auto made = spheres::make_particles(cloud, request, {});
     EXPECT_TRUE(made.ok());
     return *std::move(made);
 }
@@ -181,9 +181,9 @@ TEST(SpheresCut, CoarseOnesHaveAboutTheSameBounds) {
     for (std::uint64_t key = 1; key <= 10; ++key) {
         request.key = key;
         request.coarse = true;
-        const auto coarse = spheres_particles(cloud, request, {});
+        const auto coarse = spheres::make_particles(cloud, request, {});
         request.coarse = false;
-        const auto fine = spheres_particles(cloud, request, {});
+        const auto fine = spheres::make_particles(cloud, request, {});
         ASSERT_LE(coarse->particles.positions.size(), 625u);
         const Bounds a = box(coarse->particles), b = box(fine->particles);
         // Of a cloud of 500; a coarse particle is some 50 wide.

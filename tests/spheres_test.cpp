@@ -21,6 +21,20 @@
 namespace awan {
 namespace {
 
+using spheres::child_offset;
+using spheres::cluster_blob;
+using spheres::cluster_moments;
+using spheres::ClusterMoments;
+using spheres::GaussianBlob;
+using spheres::kLeafMass;
+using spheres::kLeafVariance;
+using spheres::leaf_blob;
+using spheres::other_coordinate;
+using spheres::other_coordinate_printed;
+using spheres::SphereDraw;
+using spheres::SphereNode;
+using spheres::SphereTree;
+
 using test::cloud_of;
 using test::particles_of;
 using test::request_of;

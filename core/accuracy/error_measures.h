@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/draw/image.h"
+#include "core/base/image.h"
 #include "core/truth/path_tracer.h"
 
 namespace awan {

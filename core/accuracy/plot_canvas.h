@@ -10,7 +10,7 @@
 
 #include "core/accuracy/plot.h"
 #include "core/accuracy/plot_layout.h"
-#include "core/draw/image.h"
+#include "core/base/image.h"
 
 namespace awan {
 

@@ -1,9 +1,9 @@
 // The haze over pictures of splats.
 #pragma once
 
+#include "core/base/image.h"
 #include "core/draw/air.h"
 #include "core/draw/backdrop.h"
-#include "core/draw/image.h"
 #include "core/draw/splats.h"
 
 namespace awan {

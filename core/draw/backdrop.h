@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/draw/image.h"
+#include "core/base/image.h"
 #include "core/generate/particle_set.h"
 #include "core/light/ground_light.h"
 #include "core/scene/scene.h"

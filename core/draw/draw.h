@@ -1,7 +1,7 @@
 // Pass 2, from the eye.
 #pragma once
 
-#include "core/draw/image.h"
+#include "core/base/image.h"
 #include "core/light/light.h"
 #include "core/plan/effect_times.h"
 

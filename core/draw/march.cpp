@@ -153,12 +153,12 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     }
 
     std::optional<Air> air;
-    if (settings.aerial_perspective) {
+    if (settings.eye_effects.aerial_perspective) {
         auto start = Deadline::Clock::now();
         air = make_air(scene, view);
         took.of(Effect::kAerialPerspective) = ms_since(start);
         start = Deadline::Clock::now();
-        if (air && settings.light_shafts) {
+        if (air && settings.eye_effects.light_shafts) {
             shade_air(light.sun, threads, *air);
             took.of(Effect::kLightShafts) = ms_since(start);
         }

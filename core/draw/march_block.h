@@ -5,9 +5,9 @@
 #include <mutex>
 #include <vector>
 
+#include "core/base/image.h"
 #include "core/draw/air.h"
 #include "core/draw/backdrop.h"
-#include "core/draw/image.h"
 #include "core/draw/march_bins.h"
 #include "core/draw/march_fineness.h"
 #include "core/draw/march_light.h"

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "core/base/image.h"
 #include "core/base/result.h"
-#include "core/draw/image.h"
 
 namespace awan {
 

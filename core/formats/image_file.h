@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/draw/image.h"
+#include "core/base/image.h"
 #include "core/scene/scene.h"
 
 namespace awan {

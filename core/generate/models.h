@@ -36,14 +36,23 @@ struct ModelParticles {
     std::uint64_t variant = 0;
 };
 
-Result<ModelParticles> automaton_particles(const AutomatonCloud& cloud, const ModelRequest& request,
-                                           const Deadline& deadline);
-Result<ModelParticles> spheres_particles(const SpheresCloud& cloud, const ModelRequest& request,
-                                         const Deadline& deadline);
-Result<ModelParticles> implicit_particles(const ImplicitCloud& cloud, const ModelRequest& request,
-                                          const Deadline& deadline);
-Result<ModelParticles> ellipsoids_particles(const EllipsoidsCloud& cloud,
-                                            const ModelRequest& request, const Deadline& deadline);
+// Of one model each; what else a model needs is in a folder and a namespace of its own.
+namespace automaton {
+Result<ModelParticles> make_particles(const AutomatonCloud& cloud, const ModelRequest& request,
+                                      const Deadline& deadline);
+}
+namespace spheres {
+Result<ModelParticles> make_particles(const SpheresCloud& cloud, const ModelRequest& request,
+                                      const Deadline& deadline);
+}
+namespace implicit {
+Result<ModelParticles> make_particles(const ImplicitCloud& cloud, const ModelRequest& request,
+                                      const Deadline& deadline);
+}
+namespace ellipsoids {
+Result<ModelParticles> make_particles(const EllipsoidsCloud& cloud, const ModelRequest& request,
+                                      const Deadline& deadline);
+}
 
 // Of a cloud that is_procedural().
 Result<ModelParticles> model_particles(const Cloud& cloud, const ModelRequest& request,

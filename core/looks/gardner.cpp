@@ -15,6 +15,13 @@
 namespace awan {
 namespace {
 
+using ellipsoids::blur_along;
+using ellipsoids::blur_of_blob;
+using ellipsoids::opacity;
+using ellipsoids::texture_at;
+using ellipsoids::TextureValue;
+using ellipsoids::threshold_at;
+
 using namespace gardner;
 
 constexpr int kTile = 16;         // pixels

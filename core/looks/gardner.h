@@ -15,6 +15,9 @@
 
 namespace awan::gardner {
 
+using ellipsoids::PlacedEllipsoid;
+using ellipsoids::TextureFunction;
+
 // --- formulas of the source
 
 // I = (1-a){(1-t)[(1-s) Id + s Is] + t It} + a.

@@ -10,6 +10,9 @@
 namespace awan::gardner {
 namespace {
 
+using ellipsoids::placed_ellipsoids;
+using ellipsoids::texture_function;
+
 UnitSphere sphere_of(const PlacedEllipsoid& one, const Motion& motion, const glm::dvec3& eye) {
     UnitSphere sphere;
     // Columns: where the scene's axes go. Motion::back without its translation, then the ellipsoid's own turn and radii.

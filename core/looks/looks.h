@@ -4,8 +4,8 @@
 #pragma once
 
 #include "core/base/deadline.h"
+#include "core/base/image.h"
 #include "core/base/result.h"
-#include "core/draw/image.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
 

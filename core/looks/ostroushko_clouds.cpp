@@ -10,6 +10,11 @@
 namespace awan::looks {
 namespace {
 
+using spheres::cluster_moments;
+using spheres::ClusterMoments;
+using spheres::extinction_of;
+using spheres::SphereNode;
+
 // 781 spheres: their shadows are as soft as light that has been scattered on is.
 constexpr int kUpperLevels = 4;
 

@@ -13,6 +13,9 @@
 
 namespace awan::looks {
 
+using spheres::Sphere;
+using spheres::SphereTree;
+
 // A ray from the origin; direction unit. From `begin` on.
 struct SphereHit {
     double enter = 0, leave = 0;  // distances along the ray; enter >= 0: an eye inside begins at 0

@@ -11,6 +11,8 @@
 namespace awan::looks {
 namespace {
 
+using spheres::SphereNode;
+
 constexpr double kOpaque = 1.0 / 1024;  // less light from behind is a quarter of a step of 8 bits
 constexpr std::uint32_t kNowhere = UINT32_MAX;
 

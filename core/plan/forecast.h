@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/plan/ladder.h"
+#include "core/scene/rungs.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
 

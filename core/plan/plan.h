@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "core/plan/eye_effects.h"
 #include "core/plan/forecast.h"
-#include "core/plan/ladder.h"
 #include "core/plan/transport_settings.h"
+#include "core/scene/rungs.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
 
@@ -31,7 +32,14 @@ struct Plan {
     TransportSettings transport;          // rungs of Method::kMarch
     std::uint32_t samples = 0;            // rung truth: paths a pixel
 
-    bool on(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
+    EffectDecision& of(Effect effect) { return effects[static_cast<std::size_t>(effect)]; }
+    const EffectDecision& of(Effect effect) const {
+        return effects[static_cast<std::size_t>(effect)];
+    }
+    bool on(Effect effect) const { return of(effect).on; }
+    EyeEffects eye_effects() const {
+        return {on(Effect::kAerialPerspective), on(Effect::kLightShafts)};
+    }
 };
 
 // threads: that the rungs of march and paths will have.

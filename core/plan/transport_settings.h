@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/plan/ladder.h"
+#include "core/scene/rungs.h"
 
 namespace awan {
 

@@ -16,9 +16,10 @@
 #include <cstdint>
 
 #include "core/base/deadline.h"
+#include "core/base/image.h"
 #include "core/base/progress.h"
-#include "core/draw/image.h"
 #include "core/generate/particle_set.h"
+#include "core/plan/eye_effects.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
 
@@ -36,8 +37,7 @@ struct TruthOptions {
     std::uint32_t max_orders = 0;  // scatterings a path may have; 0 = no end but the albedo's and
                                    // the limit kMaxOrders
     SkySampling sky = SkySampling::kEscape;
-    bool aerial_perspective = true;  // the scene's haze, if it has any
-    bool light_shafts = true;        // and the clouds' shadows in it
+    EyeEffects eye_effects;
     std::uint64_t seed = 1;
     int threads = 1;
 };

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "core/pipeline.h"
-#include "core/plan/ladder.h"
 #include "core/scene/limits.h"
+#include "core/scene/rungs.h"
 #include "server/cli/cli.h"
 #include "server/service/problem.h"
 

@@ -27,7 +27,7 @@ struct Work {
 };
 
 Result<Rendered> render_frame(const Scene& scene, Result<Planned> planned, Work& work) {
-    planned = ready_to_render(scene, std::move(planned), work.command.threads, &work.tiles);
+    planned = with_detail_made(scene, std::move(planned), work.command.threads, &work.tiles);
     if (!planned) return planned.error();
     if (const Status failed = open_for(planned->plan, work.command.device, work.device))
         return *failed;

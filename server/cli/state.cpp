@@ -13,6 +13,12 @@
 namespace awan {
 namespace {
 
+using automaton::AutomatonScratch;
+using automaton::check_start;
+using automaton::read_state;
+using automaton::run_automaton;
+using automaton::write_state;
+
 // As generate() gives it to the model.
 std::uint64_t key_of(const SceneDraft& draft, std::size_t k) {
     return keyed(draft.clouds[k].seed.value_or(draft.seed), k);

@@ -3,10 +3,10 @@
 #include <limits>
 #include <map>
 
-#include "core/plan/ladder.h"
 #include "core/scene/fingerprint.h"
 #include "core/scene/implicit.h"
 #include "core/scene/limits.h"
+#include "core/scene/rungs.h"
 #include "core/scene/scene.h"
 #include "server/document/json.h"
 #include "server/document/json_text.h"

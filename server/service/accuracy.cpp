@@ -5,7 +5,7 @@
 
 #include "core/accuracy/plot.h"
 #include "core/formats/numbers.h"
-#include "core/plan/ladder.h"
+#include "core/scene/rungs.h"
 #include "server/document/accuracy_text.h"
 #include "server/service/problem.h"
 #include "server/service/state.h"

@@ -16,6 +16,15 @@
 namespace awan {
 namespace {
 
+using automaton::AutomatonGrid;
+using automaton::AutomatonScratch;
+using automaton::FallOff;
+using automaton::first_ellipsoids;
+using automaton::make_fall_off;
+using automaton::PlaneSmoother;
+using automaton::run_automaton;
+using automaton::step_automaton;
+
 constexpr double kSourceMs = 300;
 
 AutomatonCloud cloud_of(double nx, double ny, double nz, std::uint64_t ellipsoids) {
@@ -117,7 +126,7 @@ void DefaultCloud(benchmark::State& state) {
     double particles = 0;
     for (auto _ : state)
         particles = static_cast<double>(
-            automaton_particles(cloud, request, {})->particles.positions.size());
+            automaton::make_particles(cloud, request, {})->particles.positions.size());
     state.counters["particles"] = particles;
 }
 BENCHMARK(DefaultCloud)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
@@ -169,7 +178,7 @@ void LargestGrid(benchmark::State& state) {
     request.time = 1;
     double particles = 0, error = 0;
     for (auto _ : state) {
-        const auto made = automaton_particles(cloud, request, {});
+        const auto made = automaton::make_particles(cloud, request, {});
         particles = static_cast<double>(made->particles.positions.size());
         error = made->error;
     }

@@ -13,6 +13,10 @@
 namespace awan {
 namespace {
 
+using ellipsoids::texture_at;
+using ellipsoids::texture_function;
+using ellipsoids::TextureFunction;
+
 constexpr const char* kSource = "source: \"a reasonable amount of time\", no figure";
 
 // One formation; the camera holds all of it.

@@ -12,6 +12,13 @@
 namespace awan {
 namespace {
 
+using implicit::Box;
+using implicit::box_of;
+using implicit::grown;
+using implicit::ImplicitField;
+using implicit::prepare_field;
+using implicit::row_densities;
+
 ImplicitCloud of_preset(std::int64_t preset) {
     ImplicitCloud cloud;
     cloud.preset = static_cast<ImplicitPreset>(preset);
@@ -52,7 +59,7 @@ void CumulusParticles(benchmark::State& state) {
     request.threads = static_cast<int>(state.range(1));
     double particles = 0, error = 0;
     for (auto _ : state) {
-        const Result<ModelParticles> made = implicit_particles(cloud, request, {});
+        const Result<ModelParticles> made = implicit::make_particles(cloud, request, {});
         particles = static_cast<double>(made->particles.positions.size());
         error = made->error;
     }

@@ -10,7 +10,7 @@
 #include "core/generate/automaton/run.h"
 #include "core/generate/models.h"
 
-namespace awan {
+namespace awan::automaton {
 
 Result<AutomatonState> run_automaton(const AutomatonCloud& cloud, std::uint64_t key,
                                      std::uint64_t step, int threads, const Deadline& deadline,
@@ -44,8 +44,8 @@ Status check_start(const AutomatonCloud& cloud, std::uint64_t key) {
     return std::nullopt;
 }
 
-Result<ModelParticles> automaton_particles(const AutomatonCloud& cloud, const ModelRequest& request,
-                                           const Deadline& deadline) {
+Result<ModelParticles> make_particles(const AutomatonCloud& cloud, const ModelRequest& request,
+                                      const Deadline& deadline) {
     const double steps = automaton_steps_at(cloud, request.time);
     const double whole = std::floor(steps);
     constexpr double kQuick = 0x1p26;  // cells times steps: 50 ms of one core
@@ -88,4 +88,4 @@ Result<ModelParticles> automaton_particles(const AutomatonCloud& cloud, const Mo
     return particles;
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -13,7 +13,7 @@
 #include "core/generate/automaton/metaball.h"
 #include "core/scene/automaton.h"
 
-namespace awan {
+namespace awan::automaton {
 namespace {
 
 struct Moments {  // of the matter of one block, in cells, from the corner of the grid
@@ -160,4 +160,4 @@ Result<CellParticles> cells_to_particles(const AutomatonCloud& cloud, const Cell
     }
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

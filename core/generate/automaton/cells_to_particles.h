@@ -8,7 +8,7 @@
 #include "core/generate/automaton/smooth.h"
 #include "core/generate/models.h"
 
-namespace awan {
+namespace awan::automaton {
 
 struct CellDensity {
     // cld after the steps to smooth over, the last one first; `next` one step later, as many, or empty.
@@ -27,4 +27,4 @@ struct CellParticles {
 Result<CellParticles> cells_to_particles(const AutomatonCloud& cloud, const CellDensity& density,
                                          std::uint64_t most, int threads, const Deadline& deadline);
 
-}  // namespace awan
+}  // namespace awan::automaton

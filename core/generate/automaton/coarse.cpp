@@ -6,7 +6,7 @@
 #include "core/generate/automaton/parcels.h"
 #include "core/scene/automaton.h"
 
-namespace awan {
+namespace awan::automaton {
 
 Result<ModelParticles> coarse_automaton(const AutomatonCloud& cloud, std::uint64_t key,
                                         std::uint64_t steps, const Deadline& deadline) {
@@ -44,4 +44,4 @@ Result<ModelParticles> coarse_automaton(const AutomatonCloud& cloud, std::uint64
     return made;
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

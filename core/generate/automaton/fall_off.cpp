@@ -11,7 +11,7 @@
 // The same bits by wider instructions where there are any: nothing here is contracted or reordered.
 #define AWAN_CLONES __attribute__((target_clones("avx2", "default")))
 
-namespace awan {
+namespace awan::automaton {
 namespace {
 
 constexpr float kOutside = 2;  // a square of a distance that no cell within an ellipsoid has
@@ -164,4 +164,4 @@ Status make_fall_off(const AutomatonGrid& grid, const std::vector<AutomatonEllip
     return std::nullopt;
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -11,7 +11,7 @@
 #include "core/generate/automaton/random_bits.h"
 #include "core/scene/automaton.h"
 
-namespace awan {
+namespace awan::automaton {
 
 struct FallOff {
     std::vector<std::uint64_t> inside;  // a bit a cell: within an ellipsoid, not below the base
@@ -26,4 +26,4 @@ Status make_fall_off(const AutomatonGrid& grid, const std::vector<AutomatonEllip
                      AutomatonOverlap overlap, double base, int threads, const Deadline& deadline,
                      FallOff& into);
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-namespace awan {
+namespace awan::automaton {
 
 struct AutomatonGrid {
     explicit AutomatonGrid(const glm::dvec3& cells)
@@ -32,4 +32,4 @@ inline int useful_threads(int threads, double nanoseconds) {
     return most < 1 ? 1 : most < threads ? static_cast<int>(most) : threads;
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

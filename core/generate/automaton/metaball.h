@@ -1,7 +1,7 @@
 // Wyvill's field function, with which document 001 makes a continuous density of cells, and the Gaussian that stands for it.
 #pragma once
 
-namespace awan {
+namespace awan::automaton {
 
 // h(a) = -4/9 a^6 + 17/9 a^4 - 22/9 a^2 + 1, a = r/R from 0 to 1; 0 beyond.
 constexpr double metaball(double a) {
@@ -17,4 +17,4 @@ inline constexpr double kMetaballIntegral = 736.0 / 2835 * 3.1415926535897932384
 // s = kMetaballSpread R: .3226, for R = 2 cells .645.
 inline constexpr double kMetaballVariance = 79.0 / 759;  // s^2 / R^2
 
-}  // namespace awan
+}  // namespace awan::automaton

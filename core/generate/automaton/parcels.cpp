@@ -4,7 +4,7 @@
 
 #include "core/generate/keyed_random.h"
 
-namespace awan {
+namespace awan::automaton {
 namespace {
 
 constexpr std::uint64_t kFirst = 0x70617263656c7331u, kAgain = 0x70617263656c7332u;
@@ -86,4 +86,4 @@ bool move_ellipsoids(const AutomatonCloud& cloud, const std::vector<AutomatonEll
     return moved;
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

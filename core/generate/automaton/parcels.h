@@ -6,7 +6,7 @@
 
 #include "core/scene/automaton.h"
 
-namespace awan {
+namespace awan::automaton {
 
 // The listed ones, then the random ones: in the grid as far as their radii allow, those that are too wide are narrowed to it.
 std::vector<AutomatonEllipsoid> first_ellipsoids(const AutomatonCloud& cloud, std::uint64_t key);
@@ -17,4 +17,4 @@ bool move_ellipsoids(const AutomatonCloud& cloud, const std::vector<AutomatonEll
                      std::uint64_t key, std::uint64_t step,
                      std::vector<AutomatonEllipsoid>& ellipsoids);
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -12,7 +12,7 @@
 
 #include "core/generate/keyed_random.h"
 
-namespace awan {
+namespace awan::automaton {
 
 // A probability as a binary fraction of 64 digits. 0 never happens, 1 always does.
 struct Chance {
@@ -60,4 +60,4 @@ inline std::uint64_t lanes_below(std::uint64_t lanes, const std::uint64_t* plane
     return below;
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -3,7 +3,7 @@
 
 #include "core/generate/automaton/state.h"
 
-namespace awan {
+namespace awan::automaton {
 
 // From cloud.start where that is set and not later, else from step 0: the same either way.
 // kInvalidScene: the start belongs to another cloud.
@@ -14,4 +14,4 @@ Result<AutomatonState> run_automaton(const AutomatonCloud& cloud, std::uint64_t 
 // Whether cloud.start, which is set, is of this cloud.
 Status check_start(const AutomatonCloud& cloud, std::uint64_t key);
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <utility>
 
-namespace awan {
+namespace awan::automaton {
 namespace {
 
 // Of eight bits: eight bytes, 0 or 1, that of bit 0 first in memory.
@@ -115,4 +115,4 @@ PlaneSmoother::Plane PlaneSmoother::plane(std::size_t k) {
     return {counts_.data(), rows_.data(), stride_};
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -7,7 +7,7 @@
 
 #include "core/generate/automaton/grid.h"
 
-namespace awan {
+namespace awan::automaton {
 
 using CloudBits = const std::vector<std::uint64_t>*;
 
@@ -50,4 +50,4 @@ class PlaneSmoother {
     std::vector<std::uint8_t> rows_;
 };
 
-}  // namespace awan
+}  // namespace awan::automaton

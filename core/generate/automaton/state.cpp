@@ -9,7 +9,7 @@
 #include "core/generate/automaton/parcels.h"
 #include "core/generate/automaton/random_bits.h"
 
-namespace awan {
+namespace awan::automaton {
 namespace {
 
 using Word = std::uint64_t;
@@ -257,4 +257,4 @@ Status step_automaton(const AutomatonCloud& cloud, int threads, const Deadline& 
     return std::nullopt;
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -23,6 +23,10 @@ struct AutomatonState {
     std::vector<AutomatonEllipsoid> ellipsoids;
 };
 
+}  // namespace awan
+
+namespace awan::automaton {
+
 // Of everything that the bits depend on but the key. Two clouds of one rules_key() go on alike.
 std::uint64_t rules_key(const AutomatonCloud& cloud);
 
@@ -46,4 +50,4 @@ Result<AutomatonState> first_state(const AutomatonCloud& cloud, std::uint64_t ke
 Status step_automaton(const AutomatonCloud& cloud, int threads, const Deadline& deadline,
                       AutomatonScratch& scratch, AutomatonState& state);
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -7,7 +7,7 @@
 #include "core/generate/keyed_random.h"
 #include "core/scene/limits.h"
 
-namespace awan {
+namespace awan::automaton {
 namespace {
 
 static_assert(std::endian::native == std::endian::little);
@@ -160,4 +160,4 @@ Result<AutomatonState> read_state(std::string_view bytes) {
     return state;
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -10,11 +10,11 @@
 
 #include "core/generate/automaton/state.h"
 
-namespace awan {
+namespace awan::automaton {
 
 std::string write_state(const AutomatonState& state);
 
 // Any bytes. kMalformed: not such a file, or a damaged one. Whether it belongs to a cloud: check_start() (run.h).
 Result<AutomatonState> read_state(std::string_view bytes);
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -8,7 +8,7 @@
 #include "core/generate/ellipsoids/texture.h"
 #include "core/generate/models.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 namespace {
 
 void add_one(const glm::dvec3& p, double radius, double density, ReadyParticles& particles) {
@@ -68,8 +68,8 @@ ModelParticles coarse_particles(const EllipsoidsCloud& cloud,
 
 }  // namespace
 
-Result<ModelParticles> ellipsoids_particles(const EllipsoidsCloud& cloud,
-                                            const ModelRequest& request, const Deadline& deadline) {
+Result<ModelParticles> make_particles(const EllipsoidsCloud& cloud, const ModelRequest& request,
+                                      const Deadline& deadline) {
     const std::vector<PlacedEllipsoid> ellipsoids = placed_ellipsoids(cloud, request.key);
     if (request.coarse) return coarse_particles(cloud, ellipsoids);
     ModelParticles made;
@@ -98,4 +98,4 @@ Result<ModelParticles> ellipsoids_particles(const EllipsoidsCloud& cloud,
     return made;
 }
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

@@ -5,7 +5,7 @@
 
 #include "core/generate/keyed_random.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 namespace {
 
 // Numbers in (0, 1) for one ellipsoid, by what they are for.
@@ -117,4 +117,4 @@ std::vector<PlacedEllipsoid> placed_ellipsoids(const EllipsoidsCloud& cloud, std
     return all;
 }
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

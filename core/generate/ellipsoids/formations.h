@@ -11,7 +11,7 @@
 #include "core/base/exact_math.h"
 #include "core/scene/ellipsoids.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 
 // Of the cloud, in its own coordinates.
 struct PlacedEllipsoid {
@@ -55,4 +55,4 @@ inline double threshold_at(const Translucence& t, double g) {
     return t.threshold + (t.threshold_edge - t.threshold) * (1 - g);
 }
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

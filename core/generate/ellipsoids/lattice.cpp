@@ -6,7 +6,7 @@
 
 #include "core/base/parallel.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 namespace {
 
 // A cell sees the texture over a blob of this standard deviation: what is finer than two cells is gone, instead of turning up
@@ -166,4 +166,4 @@ ReadyParticles particles_of(LatticeField opacity, double density, int threads) {
     return lattice_particles(opacity, options, threads);
 }
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

@@ -8,7 +8,7 @@
 #include "core/generate/ellipsoids/texture.h"
 #include "core/generate/lattice_particles.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 
 // Opacity, 0..1, at the middles of cells: `resolution` of them along the longest side of the ellipsoids' box. Where ellipsoids
 // overlap the most opaque one counts: they are joined, not stacked. No cells for no ellipsoids.
@@ -39,4 +39,4 @@ double sampling_error(const LatticeField& lattice, const ReadyParticles& particl
                       const SkyPlane& plane, const TextureFunction& texture, int threads,
                       const Deadline& deadline);
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

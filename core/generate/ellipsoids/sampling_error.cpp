@@ -7,7 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/generate/ellipsoids/lattice.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 namespace {
 
 constexpr int kLines = 8;  // along either axis
@@ -130,4 +130,4 @@ double sampling_error(const LatticeField& lattice, const ReadyParticles& particl
     });
 }
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

@@ -6,7 +6,7 @@
 
 #include "core/scene/limits.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 
 inline constexpr double kCoefficientRatio = 0.707;  // C(i+1) / Ci, as printed
 
@@ -73,4 +73,4 @@ inline TermSines clean_term(double& half_x, double& half_z, double& half_y) {
 double scale_to_one(std::size_t terms, double floor, bool in_space,
                     const std::array<double, limits::kMaxTextureTerms>& coefficient);
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

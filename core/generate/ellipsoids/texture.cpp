@@ -6,7 +6,7 @@
 
 #include "core/generate/ellipsoids/sine_sums.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 namespace {
 
 // Turns of a place, -1/2 .. 1/2. Any finite product; beyond 2^52 there is no part of a turn left, and 0 is as good as any.
@@ -128,4 +128,4 @@ double opacity(const TextureValue& value, double threshold, double range) {
     return std::clamp((above(threshold) - above(threshold + range)) / range, 0.0, 1.0);
 }
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

@@ -27,7 +27,7 @@
 #include "core/scene/ellipsoids.h"
 #include "core/scene/limits.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 
 // Ready to be evaluated.
 struct TextureFunction {
@@ -67,4 +67,4 @@ double blur_of_blob(const TextureFunction& texture, bool along_z, double sigma);
 // `variance`. Without variance it is 1 - TR of the source.
 double opacity(const TextureValue& value, double threshold, double range);
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

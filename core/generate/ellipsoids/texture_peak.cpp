@@ -3,7 +3,7 @@
 
 #include "core/generate/ellipsoids/sine_sums.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 namespace {
 
 using Coefficients = std::array<double, limits::kMaxTextureTerms>;
@@ -98,4 +98,4 @@ double scale_to_one(std::size_t terms, double floor, bool in_space,
            most;  // most > 0: at one place at least both first sines are above all others' doubt
 }
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

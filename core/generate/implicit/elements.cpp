@@ -8,7 +8,7 @@
 
 #include "core/base/exact_math.h"
 
-namespace awan {
+namespace awan::implicit {
 namespace {
 
 // Times where a value is given, and what it is there.
@@ -154,4 +154,4 @@ Box box_at_all_times(const ImplicitPrimitive& primitive) {
     return box;
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

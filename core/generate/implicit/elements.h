@@ -9,7 +9,7 @@
 #include "core/generate/implicit/lanes.h"
 #include "core/scene/implicit.h"
 
-namespace awan {
+namespace awan::implicit {
 
 // Axis-aligned; empty where min > max.
 struct Box {
@@ -103,4 +103,4 @@ AWAN_INLINE lanes::Floats macro_density(const Element* elements, const std::uint
     return lanes::max(sum, Floats{});
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

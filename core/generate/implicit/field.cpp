@@ -6,7 +6,7 @@
 
 #include "core/scene/limits.h"
 
-namespace awan {
+namespace awan::implicit {
 namespace {
 
 using lanes::all;
@@ -164,4 +164,4 @@ double density_at(const ImplicitField& field, const glm::dvec3& p) {
     return static_cast<double>(density);
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

@@ -9,7 +9,7 @@
 #include "core/generate/implicit/noise.h"
 #include "core/scene/implicit.h"
 
-namespace awan {
+namespace awan::implicit {
 
 // Lengths and places in the frame, where a mean radius is 1; angles as what they are needed for.
 struct PreparedAttractor {
@@ -96,4 +96,4 @@ struct SwirlPath {
 };
 SwirlPath swirl_path(double frame, bool printed);
 
-}  // namespace awan
+}  // namespace awan::implicit

@@ -7,7 +7,7 @@
 #include "core/generate/implicit/noise.h"
 #include "core/generate/keyed_random.h"
 
-namespace awan {
+namespace awan::implicit {
 namespace {
 
 double uniform(std::uint64_t key, std::uint64_t number) {  // -1 .. 1
@@ -160,4 +160,4 @@ Box growth_box(const ImplicitGrowth& growth, std::uint64_t key) {
     return box;
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

@@ -8,7 +8,7 @@
 #include "core/generate/implicit/elements.h"
 #include "core/scene/implicit.h"
 
-namespace awan {
+namespace awan::implicit {
 
 struct GrownParticle {
     glm::dvec3 position{0};  // radii, from the growth's centre
@@ -37,4 +37,4 @@ Element element_of(const GrownParticle& particle, const ImplicitGrowth& growth, 
 // Around all particles at all times, units.
 Box growth_box(const ImplicitGrowth& growth, std::uint64_t key);
 
-}  // namespace awan
+}  // namespace awan::implicit

@@ -3,7 +3,7 @@
 
 #include "core/base/float_lanes.h"
 
-namespace awan::lanes {
+namespace awan::implicit::lanes {
 
 inline constexpr int kCount = simd::kLanes;
 using simd::abs;
@@ -76,9 +76,9 @@ AWAN_INLINE Floats power(const Floats& x, float exponent) {
     return x < 1e-30f ? Floats{} : y;
 }
 
-}  // namespace awan::lanes
+}  // namespace awan::implicit::lanes
 
-namespace awan {
+namespace awan::implicit {
 
 // 0 at t <= 0, 1 at t >= 1, level at both: ease-in and ease-out.
 inline double smoothstep(double t) {
@@ -86,4 +86,4 @@ inline double smoothstep(double t) {
     return t * t * (3 - 2 * t);
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

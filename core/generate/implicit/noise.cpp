@@ -5,7 +5,7 @@
 
 #include "core/generate/keyed_random.h"
 
-namespace awan {
+namespace awan::implicit {
 namespace {
 
 void split(double at, std::uint32_t& shift, float& part) {
@@ -46,4 +46,4 @@ Octaves octaves_of(std::uint64_t key, int count, double gain, double cell, doubl
     return octaves;
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

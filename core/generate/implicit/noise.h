@@ -7,7 +7,7 @@
 
 #include "core/generate/implicit/lanes.h"
 
-namespace awan {
+namespace awan::implicit {
 
 // Coordinates farther out see what is here: a float has no digits for a place in a cell there.
 inline constexpr float kNoiseReach = 4194304.0f;  // 2^22
@@ -159,4 +159,4 @@ AWAN_INLINE lanes::Vec brownian3(const Octaves& octaves, const lanes::Vec& p) {
 Octaves octaves_of(std::uint64_t key, int count, double gain, double cell, double x, double y,
                    double z);
 
-}  // namespace awan
+}  // namespace awan::implicit

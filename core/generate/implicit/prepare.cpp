@@ -10,7 +10,7 @@
 #include "core/generate/implicit/growth.h"
 #include "core/generate/keyed_random.h"
 
-namespace awan {
+namespace awan::implicit {
 namespace {
 
 // What is random in a cloud, each by a key of its own.
@@ -245,4 +245,4 @@ std::vector<std::uint32_t> elements_near(const ImplicitField& field, const Box& 
     return list;
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

@@ -7,7 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/scene/limits.h"
 
-namespace awan {
+namespace awan::implicit {
 namespace {
 
 // A piece of work, of cells near enough to each other to share their elements.
@@ -146,4 +146,4 @@ double sampling_error(const LatticeField& lattice, const LatticeField& half,
     return std::hypot(kOfDifference * difference, kOfLeftOut * left_out);
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

@@ -5,7 +5,7 @@
 #include "core/generate/implicit/field.h"
 #include "core/generate/lattice_particles.h"
 
-namespace awan {
+namespace awan::implicit {
 
 // The lattice of `resolution` cells along the longest side of box_of(field): the same at all times, so that a moving cloud
 // moves through it and not with it. Values are not filled in; of an empty field it has no cells.
@@ -29,4 +29,4 @@ double picture_difference(const LatticeField& fine, const LatticeField& coarse, 
 double sampling_error(const LatticeField& lattice, const LatticeField& half,
                       const ImplicitField& field);
 
-}  // namespace awan
+}  // namespace awan::implicit

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace awan {
+namespace awan::spheres {
 namespace {
 
 constexpr double kSqrtTwoPiCubed = 15.749609945722419;  // (2 pi)^1.5
@@ -84,4 +84,4 @@ GaussianBlob cluster_blob(const std::array<SphereNode, kSphereChildren>& childre
             kLeafMass * mass / (variance * s * kSqrtTwoPiCubed)};
 }
 
-}  // namespace awan
+}  // namespace awan::spheres

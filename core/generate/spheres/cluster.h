@@ -7,7 +7,7 @@
 
 #include "core/generate/spheres/subdivision.h"
 
-namespace awan {
+namespace awan::spheres {
 
 // A leaf as a medium. The source lets a ray at the distance d from the middle of a sphere keep T f + 1 - f of its light,
 // f = 1 - d/r, T = t^l, l = 2 sqrt(r^2 - d^2) (equations 1-3). That is no medium: however dense, 1 - f comes through. Its
@@ -40,4 +40,4 @@ GaussianBlob leaf_blob(const Sphere& sphere);
 GaussianBlob cluster_blob(const std::array<SphereNode, kSphereChildren>& children,
                           const ClusterMoments& below);
 
-}  // namespace awan
+}  // namespace awan::spheres

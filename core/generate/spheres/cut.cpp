@@ -11,7 +11,7 @@
 #include "core/generate/spheres/walk.h"
 #include "core/scene/limits.h"
 
-namespace awan {
+namespace awan::spheres {
 namespace {
 
 // The diameter of a sphere that is cut, in pixels.
@@ -82,4 +82,4 @@ Result<SphereCut> choose_cut(const SphereTree& tree, const std::optional<glm::dv
     return cut;
 }
 
-}  // namespace awan
+}  // namespace awan::spheres

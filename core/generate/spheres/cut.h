@@ -7,7 +7,7 @@
 #include "core/base/deadline.h"
 #include "core/generate/spheres/subdivision.h"
 
-namespace awan {
+namespace awan::spheres {
 
 // A sphere looks `size_of` large: its radius over the distance from the eye to its nearest point, at most 2^20 (an eye inside it).
 // A child never looks larger than its parent. It is cut, and stands for all below it, where it looks smaller than `smallest`.
@@ -29,4 +29,4 @@ Result<SphereCut> choose_cut(const SphereTree& tree, const std::optional<glm::dv
                              double pixel_angle, std::uint64_t most, int threads,
                              const Deadline& deadline);
 
-}  // namespace awan
+}  // namespace awan::spheres

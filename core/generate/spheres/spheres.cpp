@@ -12,7 +12,7 @@
 #include "core/generate/spheres/walk.h"
 #include "core/scene/limits.h"
 
-namespace awan {
+namespace awan::spheres {
 namespace {
 
 constexpr std::uint64_t kCoarseSpheres = 625;
@@ -57,8 +57,8 @@ std::uint64_t variant_of(const SphereCut& cut) {
 
 }  // namespace
 
-Result<ModelParticles> spheres_particles(const SpheresCloud& cloud, const ModelRequest& request,
-                                         const Deadline& deadline) {
+Result<ModelParticles> make_particles(const SpheresCloud& cloud, const ModelRequest& request,
+                                      const Deadline& deadline) {
     const SphereTree tree(cloud, request.key, request.place, request.time);
     // Coarse: spheres of less than 4% of the first are not even counted.
     const auto chosen =
@@ -116,4 +116,4 @@ Result<ModelParticles> spheres_particles(const SpheresCloud& cloud, const ModelR
     return made;
 }
 
-}  // namespace awan
+}  // namespace awan::spheres

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace awan {
+namespace awan::spheres {
 
 glm::dvec3 child_offset(int child, const SphereDraw& draw, const glm::dvec3& axes,
                         const glm::dvec3& across, double up) {
@@ -97,4 +97,4 @@ std::array<SphereNode, kSphereChildren> SphereTree::children(const SphereNode& p
     return nodes;
 }
 
-}  // namespace awan
+}  // namespace awan::spheres

@@ -20,7 +20,7 @@
 #include "core/generate/keyed_random.h"
 #include "core/scene/spheres.h"
 
-namespace awan {
+namespace awan::spheres {
 
 inline constexpr int kSphereChildren = 5;
 
@@ -92,4 +92,4 @@ class SphereTree {
     SphereNode root_;
 };
 
-}  // namespace awan
+}  // namespace awan::spheres

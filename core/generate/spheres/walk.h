@@ -8,7 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/generate/spheres/subdivision.h"
 
-namespace awan {
+namespace awan::spheres {
 
 // Subtrees that are done apart: those of the spheres of level 3, and what is above or ends above them as the last one.
 inline constexpr std::size_t kWalkSubtrees = 125;
@@ -63,4 +63,4 @@ bool walk_spheres(const SphereTree& tree, int threads, const Deadline& deadline,
     return !late;
 }
 
-}  // namespace awan
+}  // namespace awan::spheres
