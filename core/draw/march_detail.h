@@ -1,15 +1,20 @@
 // Detail (core/generate/detail.h) in a tile's depth profile, sixteen pixels at a time. Bodies are inlined into one function
-// a target in march_block.cpp.
+// a target in march_targets.cpp.
 #pragma once
 
 #include <cstdint>
 #include <cstring>
 #include <glm/vec3.hpp>
 
-#include "core/draw/march_kernels.h"
+#include "core/draw/march_simd.h"
+#include "core/draw/march_tile.h"
 #include "core/generate/detail.h"
 
 namespace awan {
+
+using simd::Floats;
+using simd::Ints;
+using simd::kLanes;
 
 // A block's rays in the detail's tile, voxels: at distance t the ray of direction middle + x right + y up + z middle is at
 // start + (t - reference) middle + t (x right + y up + z middle).

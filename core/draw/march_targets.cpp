@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "core/draw/march_deposit.h"
+#include "core/draw/march_finish.h"
+#include "core/draw/march_spread.h"
+
 namespace awan {
 namespace {
 
@@ -47,22 +51,19 @@ AWAN_INLINE void phases_body(const MarchScene& scene, const SunInBlock& sun, Til
 AWAN_INLINE void rays_body(const BlockFrame& frame, const float* x, const float* y, Floats* to) {
     directions(frame, x, y, to);
 }
-// `up`: of the block's axes, along the scene's y.
+// `up`: components of the block's axes along the scene's y.
+AWAN_INLINE BehindTile behind_tile(const float* up, const Floats* backdrop, const Tile& tile) {
+    return {backdrop, up[0] * tile.x + up[1] * tile.y + up[2] * (1.0f + tile.z)};
+}
 AWAN_INLINE void finish_body(const MarchScene& scene, const float* up, const Floats* backdrop,
                              const Tile& tile, float (*to)[4]) {
-    const Floats high = up[0] * tile.x + up[1] * tile.y + up[2] * (1.0f + tile.z);
-    const Floats radiance[3] = {tile.red, tile.green, tile.blue};
-    finish(scene.sky, backdrop, scene.scaled, high, tile.depth, radiance, to);
+    finish(scene, behind_tile(up, backdrop, tile), tile, to);
 }
-
 AWAN_INLINE void finish_air_body(const MarchScene& scene, const AirTile& air, const SunInBlock& sun,
                                  const float* up, const Floats* backdrop, const Tile& tile,
                                  float (*to)[4]) {
-    const Floats high = up[0] * tile.x + up[1] * tile.y + up[2] * (1.0f + tile.z);
-    const Floats radiance[3] = {tile.red, tile.green, tile.blue};
     const Floats ray[3] = {tile.x, tile.y, tile.z};
-    finish_in_air(scene.sky, backdrop, scene.air->phase, air, {tile.seen_air, tile.seen_lost},
-                  chords(sun, ray), scene.scaled, high, tile.depth, radiance, to);
+    finish_in_air(scene, air, chords(sun, ray), behind_tile(up, backdrop, tile), tile, to);
 }
 
 #define AWAN_KERNELS(name, attribute)                                                              \

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "core/base/parallel.h"
-#include "core/light/transport.h"
 #include "core/survey/projection.h"
 
 namespace awan {

@@ -16,8 +16,8 @@ struct CloudAbove {
     glm::ivec3 cells{0};
     std::vector<float> depth;  // of each cell: extinction (all of it) x side
     double scaled = 1;         // share of it that dims light: what is not the forward peak's
-    // Source function, radiance per optical depth: toward direction o, sum_i source[cell][c * 16 + i] * Y_i(o).
-    std::vector<std::array<float, 48>> source;
+    // Source function, radiance per optical depth: toward direction o, sum_i source[cell][c * kHarmonics + i] * Y_i(o).
+    std::vector<std::array<float, 3 * kHarmonics>> source;
 };
 
 // The same with blocks of cells made one, so that none of its sides has more than `most`.

@@ -11,7 +11,7 @@
 
 namespace awan {
 
-struct SunDepth;  // core/light/transport.h
+struct SunDepth;  // core/light/sun_depth.h
 
 inline constexpr double kSunRadius = 0.2665 * 3.14159265358979324 / 180;  // angular, radians
 

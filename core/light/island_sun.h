@@ -1,6 +1,8 @@
 #pragma once
 
+#include "core/generate/particle_set.h"
 #include "core/light/sun_depth.h"
+#include "core/survey/lattice.h"
 
 namespace awan {
 

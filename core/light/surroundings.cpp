@@ -10,7 +10,6 @@
 #include "core/generate/gaussian.h"
 #include "core/light/harmonics.h"
 #include "core/light/legendre.h"
-#include "core/light/sun_depth.h"
 
 namespace awan {
 namespace {
