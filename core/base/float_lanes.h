@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <cstring>
 
+#include "core/base/instruction_sets.h"
+
 // Vectors are only ever passed between inlined functions: no ABI to worry about.
 #pragma GCC diagnostic ignored "-Wpsabi"
-
-#define AWAN_INLINE [[gnu::always_inline]] inline
 
 namespace awan::simd {
 

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cstring>
 
-namespace awan {
+#include "core/base/instruction_sets.h"
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) double dot_product(const float* a,
-                                                                                const float* b,
-                                                                                std::size_t count) {
+namespace awan {
+namespace {
+
+AWAN_INLINE double dot_product_body(const float* a, const float* b, std::size_t count) {
     using Lanes = float __attribute__((vector_size(64)));
     constexpr std::size_t kLanes = 16, kRun = 1024;
     double sum = 0;
@@ -29,9 +30,16 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) double dot_product(
     return sum;
 }
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void add_scaled(
-    float* __restrict to, const float* __restrict from, float scale, std::size_t count) {
+AWAN_INLINE void add_scaled_body(float* __restrict to, const float* __restrict from, float scale,
+                                 std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) to[i] += scale * from[i];
 }
+
+}  // namespace
+
+AWAN_KERNEL(double, dot_product, (const float* a, const float* b, std::size_t count), (a, b, count))
+AWAN_KERNEL(void, add_scaled,
+            (float* __restrict to, const float* __restrict from, float scale, std::size_t count),
+            (to, from, scale, count))
 
 }  // namespace awan

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 
 namespace awan {
 
@@ -33,23 +32,23 @@ struct Error {
 template <typename T>
 class [[nodiscard]] Result {
   public:
-    Result(T value) : state_(std::move(value)) {}      // NOLINT(google-explicit-constructor)
-    Result(Error error) : state_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
+    Result(T value) : value_(std::move(value)) {}      // NOLINT(google-explicit-constructor)
+    Result(Error error) : error_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
 
-    bool ok() const { return state_.index() == 0; }
+    bool ok() const { return value_.has_value(); }
     explicit operator bool() const { return ok(); }
 
     T& value() & {
         assert(ok());
-        return std::get<0>(state_);
+        return *value_;
     }
     const T& value() const& {
         assert(ok());
-        return std::get<0>(state_);
+        return *value_;
     }
     T&& value() && {
         assert(ok());
-        return std::get<0>(std::move(state_));
+        return *std::move(value_);
     }
     T& operator*() & { return value(); }
     const T& operator*() const& { return value(); }
@@ -59,11 +58,13 @@ class [[nodiscard]] Result {
 
     const Error& error() const {
         assert(!ok());
-        return std::get<1>(state_);
+        return error_;
     }
 
   private:
-    std::variant<T, Error> state_;
+    // Not a std::variant, which takes a compiler far longer, in every file.
+    std::optional<T> value_;
+    Error error_;  // that of a Result without a value
 };
 
 // The outcome of something that gives no value: nothing, or an Error.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/instruction_sets.h"
 #include "core/draw/march_deposit.h"
 #include "core/draw/march_finish.h"
 #include "core/draw/march_spread.h"
@@ -131,8 +132,14 @@ AWAN_KERNELS(avx512, [[gnu::target("avx512f")]])
 
 const MarchKernels& march_kernels() {
 #if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx512f")) return kKernels_avx512;
-    if (__builtin_cpu_supports("avx2")) return kKernels_avx2;
+    switch (instruction_set()) {
+        case InstructionSet::kAvx512:
+            return kKernels_avx512;
+        case InstructionSet::kAvx2:
+            return kKernels_avx2;
+        case InstructionSet::kPlain:
+            break;
+    }
 #endif
     return kKernels_plain;
 }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstring>
 
+#include "core/base/instruction_sets.h"
 #include "core/base/parallel.h"
 
 namespace awan {
@@ -13,11 +14,11 @@ namespace {
 using Lanes = float __attribute__((vector_size(64)));
 static_assert(kDirections == 16);
 
-// By reference: passed by value, a Lanes would change the ABI between the clones below.
-inline __attribute__((always_inline)) void load(Lanes& to, const float* from) {
+// By reference: passed by value, a Lanes would change the ABI between the instruction sets.
+AWAN_INLINE void load(Lanes& to, const float* from) {
     std::memcpy(&to, from, sizeof to);
 }
-inline __attribute__((always_inline)) void store(float* to, const Lanes& from) {
+AWAN_INLINE void store(float* to, const Lanes& from) {
     std::memcpy(to, &from, sizeof from);
 }
 
@@ -41,13 +42,13 @@ struct Task {
     const float *face_x = nullptr, *face_y = nullptr, *face_z = nullptr;
 };
 
-inline __attribute__((always_inline)) void fill(float* to, std::size_t count, const Lanes& value) {
+AWAN_INLINE void fill(float* to, std::size_t count, const Lanes& value) {
     for (std::size_t i = 0; i < count; ++i) store(to + i * kDirections, value);
 }
 
 // kHarmonics: 1 or 16.
 template <int kHarmonics>
-inline __attribute__((always_inline)) void walk_octant(const Task& task) {
+AWAN_INLINE void walk_octant(const Task& task) {
     const glm::ivec3 n = task.grid.cells;
     Lanes cx, cy, cz, in;
     load(cx, task.ordinates.cosine[0].data());
@@ -131,12 +132,14 @@ inline __attribute__((always_inline)) void walk_octant(const Task& task) {
     }
 }
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void walk_16(const Task& task) {
+AWAN_INLINE void walk_16_body(const Task& task) {
     walk_octant<16>(task);
 }
-__attribute__((target_clones("avx512f", "avx2", "default"))) void walk_1(const Task& task) {
+AWAN_INLINE void walk_1_body(const Task& task) {
     walk_octant<1>(task);
 }
+AWAN_KERNEL(void, walk_16, (const Task& task), (task))
+AWAN_KERNEL(void, walk_1, (const Task& task), (task))
 
 // What enters an octant's three faces: along x (y fastest, then z), y (x, then z) and z (x, then y).
 struct Faces {
@@ -166,12 +169,15 @@ Faces faces_of(const glm::ivec3& n, const Ordinates::Octant& octant, const float
 constexpr std::size_t kGroups = 4;
 static_assert(std::tuple_size_v<decltype(SweepSpace::sums)> == kGroups);
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void add_groups(
-    const SweepSpace& space, std::size_t at, std::size_t count, float* to) {
+AWAN_INLINE void add_groups_body(const SweepSpace& space, std::size_t at, std::size_t count,
+                                 float* to) {
     const float *a = space.sums[0].data() + at, *b = space.sums[1].data() + at,
                 *c = space.sums[2].data() + at, *d = space.sums[3].data() + at;
     for (std::size_t i = 0; i < count; ++i) to[i] = (a[i] + b[i]) + (c[i] + d[i]);
 }
+AWAN_KERNEL(void, add_groups,
+            (const SweepSpace& space, std::size_t at, std::size_t count, float* to),
+            (space, at, count, to))
 
 }  // namespace
 

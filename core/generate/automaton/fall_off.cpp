@@ -6,10 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/base/instruction_sets.h"
 #include "core/base/parallel.h"
-
-// The same bits by wider instructions where there are any: nothing here is contracted or reordered.
-#define AWAN_CLONES __attribute__((target_clones("avx2", "default")))
 
 namespace awan::automaton {
 namespace {
@@ -38,7 +36,7 @@ std::uint64_t eight_bytes(const std::uint8_t* bytes) {
 }
 
 // `square`: d^2 of 64 cells. The word of those inside, and their digits.
-AWAN_CLONES std::uint64_t pack(const float* square, std::uint64_t* planes) {
+AWAN_INLINE std::uint64_t pack_body(const float* square, std::uint64_t* planes) {
     alignas(64) std::array<std::int32_t, 64> digits;
     alignas(64) std::array<std::uint8_t, 64> outside, high, low;
     // In float: a last bit of d decides nothing that shows, and IEEE's root is the same everywhere. Loops of one thing each
@@ -65,6 +63,7 @@ AWAN_CLONES std::uint64_t pack(const float* square, std::uint64_t* planes) {
     std::memcpy(planes, bytes.data(), sizeof bytes);
     return inside;
 }
+AWAN_KERNEL(std::uint64_t, pack, (const float* square, std::uint64_t* planes), (square, planes))
 
 // Cells of a row that anything was written to.
 struct Reach {
@@ -72,23 +71,29 @@ struct Reach {
 };
 
 // Squares of distances along a row: from `start`, in steps of one cell of `inverse` radii, with `rest` across.
-AWAN_CLONES void keep_smallest(float start, float inverse, float rest, std::int32_t count,
-                               float* out) {
+AWAN_INLINE void keep_smallest_body(float start, float inverse, float rest, std::int32_t count,
+                                    float* out) {
     for (std::int32_t i = 0; i < count; ++i) {
         const float along = (start + static_cast<float>(i)) * inverse;
         const float d2 = along * along + rest;
         out[i] = d2 < out[i] ? d2 : out[i];
     }
 }
+AWAN_KERNEL(void, keep_smallest,
+            (float start, float inverse, float rest, std::int32_t count, float* out),
+            (start, inverse, rest, count, out))
 
-AWAN_CLONES void keep_first(float start, float inverse, float rest, std::int32_t count,
-                            float* out) {
+AWAN_INLINE void keep_first_body(float start, float inverse, float rest, std::int32_t count,
+                                 float* out) {
     for (std::int32_t i = 0; i < count; ++i) {
         const float along = (start + static_cast<float>(i)) * inverse;
         const float d2 = along * along + rest;
         out[i] = out[i] < 1.0F ? out[i] : d2;
     }
 }
+AWAN_KERNEL(void, keep_first,
+            (float start, float inverse, float rest, std::int32_t count, float* out),
+            (start, inverse, rest, count, out))
 
 // Of a row: the part of it within the ellipsoid, squares of distances.
 void add_row(const AutomatonEllipsoid& ellipsoid, double rest, AutomatonOverlap overlap,

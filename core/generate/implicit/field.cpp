@@ -130,9 +130,8 @@ AWAN_INLINE Floats density(const ImplicitField& f, const std::uint32_t* list, in
     return lanes::min(x, all(static_cast<float>(limits::kMaxImplicitDensity)));
 }
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void run_row(
-    const ImplicitField& f, const std::uint32_t* list, int count, const glm::dvec3& first,
-    double step, int cells, float* out) {
+AWAN_INLINE void run_row_body(const ImplicitField& f, const std::uint32_t* list, int count,
+                              const glm::dvec3& first, double step, int cells, float* out) {
     for (int begin = 0; begin < cells; begin += lanes::kCount) {
         Vec p{Floats{}, all(static_cast<float>(first.y)), all(static_cast<float>(first.z))};
         for (int lane = 0; lane < lanes::kCount; ++lane)
@@ -142,6 +141,10 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) void run_row(
             out[begin + lane] = d[lane];
     }
 }
+AWAN_KERNEL(void, run_row,
+            (const ImplicitField& f, const std::uint32_t* list, int count, const glm::dvec3& first,
+             double step, int cells, float* out),
+            (f, list, count, first, step, cells, out))
 
 }  // namespace
 

@@ -27,8 +27,8 @@ struct Air {
 };
 
 // Of up to sixteen particles. Bumps of the turbulence are twice a particle's radius.
-__attribute__((target_clones("avx512f", "avx2", "default"))) void air_around(
-    const Octaves& octaves, const GrownParticle* particles, int count, Air* air) {
+AWAN_INLINE void air_around_body(const Octaves& octaves, const GrownParticle* particles, int count,
+                                 Air* air) {
     lanes::Vec at{};
     for (int i = 0; i < count; ++i) {
         const glm::dvec3& p = particles[i].position;
@@ -45,6 +45,9 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) void air_around(
         air[i].force.z = static_cast<double>(push.z[i]);
     }
 }
+AWAN_KERNEL(void, air_around,
+            (const Octaves& octaves, const GrownParticle* particles, int count, Air* air),
+            (octaves, particles, count, air))
 
 class Colony {
   public:
