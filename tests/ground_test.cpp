@@ -153,6 +153,29 @@ TEST(Ground, InAWhiteFurnaceNothingIsSeen) {
     EXPECT_NEAR(mean, 1, .01);
 }
 
+// Under a wide layer much of the light has been up and down many times before it is spent: here the third way and those after
+// it bring an eighth of what the ground gets. Where nothing is absorbed and light comes from everywhere, the ground
+// gets all of it in the end. (The thicker the layer, the more what it reflects must be known to; optical depth 2.)
+TEST(Ground, UnderAWideLayerLightGoesUpAndDownUntilItIsSpent) {
+    std::vector<test::Ball> list;
+    for (int i = -8; i <= 8; ++i)
+        for (int j = -8; j <= 8; ++j) list.push_back({{2.0 * i, 0, 2.0 * j}, 3, .15});
+    SceneDraft draft = test::balls(list);
+    draft.clouds[0].ready.colors.clear();
+    draft.medium = {1, 0, PhaseFunction::kHenyeyGreenstein};
+    draft.sun.intensity = 0;
+    draft.sky.none = false;
+    draft.sky.zenith = draft.sky.horizon = {1, 1, 1};
+    draft.sky.intensity = 1;
+    draft.ground = Ground{-5, glm::dvec3(1)};
+    draft.image.width = draft.image.height = 4;
+    const auto made = ground_picture(draft, 24);
+    double mean = 0;
+    for (int i = -4; i <= 4; ++i)
+        for (int j = -4; j <= 4; ++j) mean += irradiance_at(made.light.ground, i, j).y / pi / 81;
+    EXPECT_NEAR(mean, 1, .06);
+}
+
 // A cumulus over a dark and a bright ground, the sun high. Errors of rung transport-32 without a ground are 2 to 5% here.
 TEST(Ground, CloudAndGroundAreThoseOfThePathTracer) {
     for (const double albedo : {.3, .8}) {

@@ -39,9 +39,9 @@ std::size_t LightCache::bytes_in_use() const {
     return used_;
 }
 
-std::string light_key(const Scene& scene, const TransportSettings& settings,
-                      std::uint64_t variant) {
-    char text[128];
+std::string light_key(const Scene& scene, const TransportSettings& settings, std::uint64_t variant,
+                      const DetailField* detail) {
+    char text[192];
     std::snprintf(text, sizeof text, ":%llx:%d:%d:%a:%d:%d:%d:%d",
                   static_cast<unsigned long long>(variant), settings.cells, settings.sun_cells,
                   settings.tolerance, settings.max_sweeps, settings.sky ? 1 : 0,
@@ -49,6 +49,14 @@ std::string light_key(const Scene& scene, const TransportSettings& settings,
     std::string key = light_fingerprint(scene) + text;
     for (const IslandCells& island : settings.islands) {
         std::snprintf(text, sizeof text, ":%d.%d", island.cells, island.sun_cells);
+        key += text;
+    }
+    if (detail != nullptr) {
+        // The seed of its tile is the scene's, even where each cloud has one of its own.
+        std::snprintf(text, sizeof text, ":detail:%llx:%a:%a:%a:%a:%a:%a",
+                      static_cast<unsigned long long>(scene->seed), detail->bump, detail->origin.x,
+                      detail->origin.y, detail->origin.z, static_cast<double>(detail->edge),
+                      static_cast<double>(detail->keep));
         key += text;
     }
     return key;

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 
+#include "core/generate/detail.h"
 #include "core/light/transport.h"
 
 namespace awan {
@@ -31,8 +32,9 @@ class LightCache {
 };
 
 // What a light depends on: everything of the scene but camera, image, effects and accuracy, and the settings.
-// variant: ParticleSet's.
+// variant, detail: ParticleSet's. Whether there is detail is the plan's choice, and a sequence makes it for figures of its
+// own: the scene alone does not say.
 std::string light_key(const Scene& scene, const TransportSettings& settings,
-                      std::uint64_t variant = 0);
+                      std::uint64_t variant = 0, const DetailField* detail = nullptr);
 
 }  // namespace awan
