@@ -124,6 +124,27 @@ TEST(Ground, AShadowLiesWhereTheSunThrowsIt) {
         }
 }
 
+// Light that the forward peak keeps on its way is on the ground too, less what is absorbed at each of its scatterings: under the
+// middle of a wide cloud whose depth is tau, exp(-(1 - albedo f) tau) in all.
+TEST(Ground, ThePeaksLightComesThroughAsFarAsItIsNotAbsorbed) {
+    SceneDraft draft = test::balls({{{0, 10, 0}, 16, 0.1}});
+    draft.sun.elevation = 90;
+    draft.ground = Ground{0, glm::dvec3(0)};
+    const Scene scene = test::valid(draft);
+    const auto planned = plan_scene(scene, 2, {});
+    ASSERT_TRUE(planned.ok());
+    const double tau = line_optical_depth(planned->particles, {0, 0, 0}, {0, 1, 0}, 0, 1e30);
+    const SunDepth sun = sun_depth(planned->particles, {0, 1, 0}, 96, 2);
+    for (const double albedo : {1.0, 0.6, 0.0})
+        for (const double share : {0.5, 0.2, 0.0}) {
+            GroundLight ground = bare_ground(*scene);
+            cast_shadow(sun, albedo, share, 0.85, 2, ground);
+            EXPECT_NEAR(irradiance_at(ground, 0, 0).y / ground.sun.y,
+                        std::exp(-(1 - albedo * share) * tau), .01)
+                << albedo << ' ' << share;
+        }
+}
+
 TEST(Ground, InAWhiteFurnaceNothingIsSeen) {
     SceneDraft draft = test::over_ground(1, 1.5);
     draft.medium.albedo = 1;

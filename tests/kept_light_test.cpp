@@ -3,6 +3,7 @@
 
 #include "core/light/light_cache.h"
 #include "core/pipeline.h"
+#include "core/scene/spheres.h"
 #include "tests/scenes.h"
 
 namespace awan {
@@ -97,6 +98,25 @@ TEST(KeptLight, IsThatOfTheDetailOfThePicture) {
     expect_own_light(draft, lights, "two clouds");
     draft.sequence = Sequence{-20, 20, 5};
     expect_own_light(draft, lights, "one of a sequence");
+}
+
+// Which spheres become particles depends on the eye: there the light is the picture's.
+TEST(KeptLight, IsThatOfTheParticlesOfThePicture) {
+    LightCache lights(64 << 20);
+    SceneDraft draft;
+    draft.top_level_cubes = false;
+    draft.clouds.emplace_back();
+    draft.clouds[0].model = CloudModel::kSpheres;
+    SpheresCloud spheres;
+    spheres.levels = 5;
+    draft.clouds[0].spheres = std::make_shared<const SpheresCloud>(spheres);
+    draft.image.width = 24;
+    draft.image.height = 18;
+    draft.accuracy.rung = "transport-16";
+    for (const double away : {40.0, 41.0, 400.0, 4000.0}) {
+        draft.camera = {false, {0, 0, away}, {0, 0, 0}, {0, 1, 0}, 40};
+        expect_own_light(draft, lights, std::to_string(away));
+    }
 }
 
 TEST(LightCache, WhatTakesAnothersPlaceTakesItsBytesToo) {

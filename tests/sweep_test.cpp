@@ -60,6 +60,55 @@ TEST(Sweep, LightOfEveryDirectionReachesEveryCell) {
     }
 }
 
+// The mirrored scene has the mirrored light, and the scene with x and z exchanged has it exchanged: azimuths are even.
+TEST(Sweep, MirroredScenesHaveMirroredLight) {
+    const Ordinates ordinates = make_ordinates();
+    const glm::ivec3 cells(6, 5, 4);
+    struct Seen {
+        glm::ivec3 cells;
+        std::vector<float> mean;
+        float at(const glm::ivec3& c) const {
+            return mean[static_cast<std::size_t>((c.z * cells.y + c.y) * cells.x + c.x)];
+        }
+    };
+    // Matter and its light at (x, y, z) are those of the plain scene at from(x, y, z).
+    const auto seen = [&](const glm::ivec3& size, const auto& from) {
+        SweepGrid grid;
+        grid.cells = size;
+        grid.harmonics = 1;
+        std::vector<float> source;
+        for (int k = 0; k < size.z; ++k)
+            for (int j = 0; j < size.y; ++j)
+                for (int i = 0; i < size.x; ++i) {
+                    const glm::ivec3 c = from(glm::ivec3(i, j, k));
+                    const auto kind = static_cast<float>((c.x * 7 + c.y * 5 + c.z * 3) % 11);
+                    grid.depth.push_back(0.3F * kind);
+                    source.push_back(0.2F * static_cast<float>((c.x + 2 * c.y * c.z) % 5));
+                }
+        std::vector<float> moments(grid.size());
+        SweepSpace space;
+        sweep(
+            grid, ordinates, source, [](const glm::dvec3&) { return 0.5; }, 1, space, moments);
+        return Seen{size, moments};
+    };
+    const Seen plain = seen(cells, [](const glm::ivec3& c) { return c; });
+    const auto expect_plain_at = [&](const Seen& other, const auto& from) {
+        for (int k = 0; k < other.cells.z; ++k)
+            for (int j = 0; j < other.cells.y; ++j)
+                for (int i = 0; i < other.cells.x; ++i)
+                    EXPECT_NEAR(other.at({i, j, k}), plain.at(from(glm::ivec3(i, j, k))), 1e-5F);
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto mirrored = [&](glm::ivec3 c) {
+            c[axis] = cells[axis] - 1 - c[axis];
+            return c;
+        };
+        expect_plain_at(seen(cells, mirrored), mirrored);
+    }
+    const auto exchanged = [](const glm::ivec3& c) { return glm::ivec3(c.z, c.y, c.x); };
+    expect_plain_at(seen(exchanged(cells), exchanged), exchanged);
+}
+
 // Along any direction a uniform medium takes exp(-tau). The corner between two faces, where the light of one way ends and that
 // of another begins, is a kink that cells blur: 2% of the light, within a cell's depth.
 TEST(Sweep, ThinMatterTakesItsShareOfTheLight) {

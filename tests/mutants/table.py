@@ -107,7 +107,7 @@ MUTANTS = [
       "lattice_mass(field) / (sum * mass_of_one)", "field.cell * field.cell * field.cell / mass_of_one",
       "the plain formula, without the cells left out", ["lattice_particles_test"]),
     M("detail's edge without the amount", "generate", "core/generate/detail.cpp",
-      "amount * kEdge * figures.extinction", "kEdge * figures.extinction",
+      "amount * kEdge * figures.extinction", "amount * figures.extinction",
       "a factor", ["detail_test:Detail.*-Detail.Transport*"]),
 
     # --- generate: spheres
@@ -275,7 +275,7 @@ MUTANTS = [
     # --- draw
     M("haze's light before the clouds", "draw", "core/draw/air.cpp",
       "air.sun * (p * (before.opacity - before.lost))", "air.sun * (p * (before.opacity + before.lost))",
-      "a sign", ["haze_test:Haze.MarchAgrees*Ball*"]),
+      "a sign", ["haze_test:Haze.PixelsAre*:Haze.MarchAgrees*"]),
     M("shadow of a slice, not of its middle", "draw", "core/draw/air_shadows.cpp",
       "half = (i + 0.5) / count;", "half = (i + 1.0) / count;", "half a slice",
       ["haze_test:Haze.MarchAgrees*", "haze_test:Haze.PixelsAre*"]),
@@ -286,9 +286,9 @@ MUTANTS = [
       "(start - light.origin) / light.cell - 0.5", "(start - light.origin) / light.cell", "half a cell",
       ["march_test", "truth_test:Nothing*", "daylight_light_test:Daylight.Transport*",
        "islands_test:Islands.AreCloser*"]),
-    M("an island's light past its edge", "draw", "core/draw/march_light.cpp",
-      "at(end) < here.until", "at(end) <= here.until + step", "off by one",
-      ["islands_test"]),
+    M("the first island's light for all", "draw", "core/draw/march_light.cpp",
+      "eye_light.islands[static_cast<std::size_t>(here.island)]", "eye_light.islands[0]", "left from a trial",
+      ["islands_test:Islands.TwoFar*:Islands.AreCloser*"]),
     M("an upside down picture", "draw", "core/draw/air.cpp", "view.up * (-2 * tan / height)",
       "view.up * (2 * tan / height)", "a sign", ["haze_test:Haze.PixelsAre*", "haze_test:Haze.MarchAgrees*"]),
 
@@ -336,7 +336,7 @@ MUTANTS = [
       "phase[k % kRing] = phase_value(s.phase, -glm::dot(d, s.to_sun));", "which way does d point?",
       ["truth_test:Light.OfOrderOne*:Light.OfThin*"]),
     M("roulette keeps its weight", "truth", "core/truth/walk.cpp", "weight /= kept;",
-      "weight /= std::sqrt(kept);", "the wrong divisor", ["truth_test:Furnace.*:Ground.OfAWhite*"]),
+      "weight /= std::sqrt(kept);", "the wrong divisor", ["truth_test:Walk.*"]),
     M("balance without its own share", "truth", "core/truth/walk.cpp",
       "sum += tried[(k - m) % kRing] / (s.from_sun * phase[(k - m) % kRing]);",
       "sum += tried[(k - m) % kRing] / phase[(k - m) % kRing];", "a factor",
