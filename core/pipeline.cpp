@@ -39,8 +39,9 @@ using SharedLight = std::shared_ptr<const TransportLight>;
 Result<SharedLight> kept_or_solved(const Scene& scene, const Planned& planned, const Tools& tools,
                                    const Deadline& deadline, bool& was_kept) {
     const TransportSettings& settings = planned.plan.transport;
-    const std::string key =
-        tools.lights ? light_key(scene, settings, planned.particles.variant) : std::string();
+    const std::string key = tools.lights ? light_key(scene, settings, planned.particles.variant,
+                                                     planned.particles.detail.get())
+                                         : std::string();
     if (tools.lights)
         if (SharedLight light = tools.lights->find(key)) {
             was_kept = true;

@@ -285,6 +285,31 @@ TEST(GardnerTexture, BlurIsTheMeanAndTheVarianceOverABlob) {
     }
 }
 
+// What blur takes from the mean is in the variance: the mean of the square over all places stays. And no axis is another's.
+TEST(GardnerTexture, BlurMovesWhatItTakesIntoTheVariance) {
+    SineTexture texture = texture_with(3, 2);  // an offset that no sum of sines falls below
+    texture.frequency_z = texture.frequency_x;
+    const TextureFunction function = texture_function(texture, false);
+    Dice dice(5);
+    double plain = 0, blurred = 0, taken = 0;
+    constexpr int kPlaces = 200'000;
+    for (int i = 0; i < kPlaces; ++i) {
+        const glm::dvec3 p(dice.between(-900, 900), 0, dice.between(-900, 900));
+        const double sharp = texture_at(function, p).mean;
+        const TextureValue value = texture_at(function, p, 0.4, 0.7);
+        plain += sharp * sharp / kPlaces;
+        blurred += (value.mean * value.mean + value.variance) / kPlaces;
+        taken += value.variance / kPlaces;
+        if (i < 1000) {
+            const TextureValue turned = texture_at(function, {p.z, 0, p.x}, 0.7, 0.4);
+            EXPECT_NEAR(turned.mean, value.mean, 1e-9);
+            EXPECT_NEAR(turned.variance, value.variance, 1e-9);
+        }
+    }
+    EXPECT_GT(taken, 0.02 * plain);
+    EXPECT_NEAR(blurred / plain, 1, 0.004);  // the places' chance
+}
+
 TEST(GardnerTexture, OpacityIsTheSourcesWithoutBlurAndAMeanWithIt) {
     for (const double t : {-0.1, 0.0, 0.3, 0.35, 0.4, 0.5, 0.7, 1.2}) {
         // 1 - TR, TR = clamp(1 - (It - T1)/D, 0, 1), T1 = .3, D = .4.

@@ -124,6 +124,27 @@ TEST(Ground, AShadowLiesWhereTheSunThrowsIt) {
         }
 }
 
+// Light that the forward peak keeps on its way is on the ground too, less what is absorbed at each of its scatterings: under the
+// middle of a wide cloud whose depth is tau, exp(-(1 - albedo f) tau) in all.
+TEST(Ground, ThePeaksLightComesThroughAsFarAsItIsNotAbsorbed) {
+    SceneDraft draft = test::balls({{{0, 10, 0}, 16, 0.1}});
+    draft.sun.elevation = 90;
+    draft.ground = Ground{0, glm::dvec3(0)};
+    const Scene scene = test::valid(draft);
+    const auto planned = plan_scene(scene, 2, {});
+    ASSERT_TRUE(planned.ok());
+    const double tau = line_optical_depth(planned->particles, {0, 0, 0}, {0, 1, 0}, 0, 1e30);
+    const SunDepth sun = sun_depth(planned->particles, {0, 1, 0}, 96, 2);
+    for (const double albedo : {1.0, 0.6, 0.0})
+        for (const double share : {0.5, 0.2, 0.0}) {
+            GroundLight ground = bare_ground(*scene);
+            cast_shadow(sun, albedo, share, 0.85, 2, ground);
+            EXPECT_NEAR(irradiance_at(ground, 0, 0).y / ground.sun.y,
+                        std::exp(-(1 - albedo * share) * tau), .01)
+                << albedo << ' ' << share;
+        }
+}
+
 TEST(Ground, InAWhiteFurnaceNothingIsSeen) {
     SceneDraft draft = test::over_ground(1, 1.5);
     draft.medium.albedo = 1;
@@ -151,6 +172,29 @@ TEST(Ground, InAWhiteFurnaceNothingIsSeen) {
     EXPECT_GT(least, .96);
     EXPECT_LT(most, 1.04);
     EXPECT_NEAR(mean, 1, .01);
+}
+
+// Under a wide layer much of the light has been up and down many times before it is spent: here the third way and those after
+// it bring an eighth of what the ground gets. Where nothing is absorbed and light comes from everywhere, the ground
+// gets all of it in the end. (The thicker the layer, the more what it reflects must be known to; optical depth 2.)
+TEST(Ground, UnderAWideLayerLightGoesUpAndDownUntilItIsSpent) {
+    std::vector<test::Ball> list;
+    for (int i = -8; i <= 8; ++i)
+        for (int j = -8; j <= 8; ++j) list.push_back({{2.0 * i, 0, 2.0 * j}, 3, .15});
+    SceneDraft draft = test::balls(list);
+    draft.clouds[0].ready.colors.clear();
+    draft.medium = {1, 0, PhaseFunction::kHenyeyGreenstein};
+    draft.sun.intensity = 0;
+    draft.sky.none = false;
+    draft.sky.zenith = draft.sky.horizon = {1, 1, 1};
+    draft.sky.intensity = 1;
+    draft.ground = Ground{-5, glm::dvec3(1)};
+    draft.image.width = draft.image.height = 4;
+    const auto made = ground_picture(draft, 24);
+    double mean = 0;
+    for (int i = -4; i <= 4; ++i)
+        for (int j = -4; j <= 4; ++j) mean += irradiance_at(made.light.ground, i, j).y / pi / 81;
+    EXPECT_NEAR(mean, 1, .06);
 }
 
 // A cumulus over a dark and a bright ground, the sun high. Errors of rung transport-32 without a ground are 2 to 5% here.

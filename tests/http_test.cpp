@@ -114,6 +114,20 @@ TEST(Refusing, MoreThanAHundredHeaders) {
     EXPECT_EQ(server.ask(get("/healthz", headers)).status, 431);
 }
 
+TEST(Refusing, AHundredHeadersAreNotTooMany) {
+    const Running server;
+    const auto status = [&](int count) {
+        // Lines between the request line and the empty one.
+        const std::string plain = get("/healthz");
+        auto lines = std::count(plain.begin(), plain.end(), '\n') - 2;
+        std::string headers;
+        for (; lines < count; ++lines) headers += "X-" + std::to_string(lines) + ": a\r\n";
+        return server.ask(get("/healthz", headers)).status;
+    };
+    EXPECT_EQ(status(100), 200);
+    EXPECT_EQ(status(101), 431);
+}
+
 // --- what is allowed
 
 TEST(Access, OwnHostsAndOriginsPass) {

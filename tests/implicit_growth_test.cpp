@@ -50,6 +50,23 @@ TEST(Growth, FiveSeedsCanBecomeAHundredAndFifty) {
     for (std::uint64_t key = 0; key < 5; ++key) EXPECT_EQ(grown(growth, key, 60).size(), 150u);
 }
 
+// Full-grown halfway through the life; seeds have lived a fifth of theirs when all begins.
+TEST(Growth, IsFullHalfwayThroughTheLife) {
+    ImplicitGrowth growth;
+    growth.rate = 0;
+    for (const double part : {0.0, 0.1, 0.2, 0.28, 0.31, 0.5}) {
+        const double lived = 0.2 + part;
+        for (const GrownParticle& seed : grown(growth, 3, part * growth.lifetime)) {
+            if (lived > 0.5) {
+                EXPECT_GT(seed.share, 0.99) << part;
+            } else {
+                // Half of it is there after a quarter of the life.
+                EXPECT_EQ(seed.share > 0.5, lived > 0.25) << part;
+            }
+        }
+    }
+}
+
 TEST(Growth, NobodyDiesAndWhoRestsStays) {
     const ImplicitGrowth growth;
     std::vector<GrownParticle> before = grown(growth, 7, 0);

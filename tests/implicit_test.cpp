@@ -74,6 +74,18 @@ TEST(Integral, OfAnEllipsoidIsTheSpheresTimesItsAxesHoweverTurned) {
     EXPECT_NEAR(integral(bare({egg})) / wanted, 1, 3e-4);
 }
 
+TEST(Macrostructure, IsTurnedAboutXThenYThenZ) {
+    // A rod along +z: about x by 90 degrees it comes to -y, where turning about y leaves it; about z it goes on to +x.
+    ImplicitPrimitive rod = skeleton(ImplicitShape::kSegment, {{0, 0, 0}, {0, 0, 8}}, 1);
+    rod.rotate = {90, 90, 0};
+    EXPECT_GT(density(bare({rod}), {0, -6, 0}), 0.5);
+    EXPECT_EQ(density(bare({rod}), {6, 0, 0}), 0);
+    EXPECT_EQ(density(bare({rod}), {0, 6, 0}), 0);
+    rod.rotate = {90, 0, 90};
+    EXPECT_GT(density(bare({rod}), {6, 0, 0}), 0.5);
+    EXPECT_EQ(density(bare({rod}), {0, -6, 0}), 0);
+}
+
 TEST(Integral, OfASegmentIsATubeAndABall) {
     const double r = 0.8, length = std::sqrt(9 + 1 + 4.0);
     const double wanted = 8.0 / 27 * kPi * r * r * length + 736.0 / 2835 * kPi * r * r * r;

@@ -151,6 +151,12 @@ TEST(Sequence, DetailGoesWithTheCloud) {
     const glm::dvec3 moved = later.detail->origin - first.detail->origin;
     EXPECT_LT(glm::length(moved - 4.0 * draft.clouds[0].velocity), 1e-12);  // rounding
     EXPECT_EQ(later.detail->radius, first.detail->radius);
+    // At the sequence's beginning, which is not time 0, it is where a picture of that time alone has it.
+    SceneDraft alone = draft;
+    alone.sequence.reset();
+    alone.time = 1;
+    const auto still = plan_scene(test::valid(alone), 1, {});
+    EXPECT_EQ(first.detail->origin, still->survey.detail.origin);
     EXPECT_EQ(later.detail->extinction, first.detail->extinction);
 }
 

@@ -137,6 +137,16 @@ TEST(SpheresCut, IsFinerWhereTheEyeIsNear) {
     EXPECT_EQ(last, 1u);  // a cloud that is less than a pixel is one particle
 }
 
+// From where an eye stands a sphere is as near as its nearest point.
+TEST(SpheresCut, SpheresLookAsLargeAsFromTheirNearestPoint) {
+    SphereCut cut;
+    cut.eye = glm::dvec3(0, 0, 13);
+    cut.least_distance = 1e-6;
+    EXPECT_DOUBLE_EQ(cut.size_of({{0, 0, 0}, 10}), 10.0 / 3);
+    EXPECT_DOUBLE_EQ(cut.size_of({{5, 0, 1}, 3}), 3.0 / 10);
+    EXPECT_DOUBLE_EQ(cut.size_of({{0, 0, 10}, 5}), 5e6);  // within it
+}
+
 TEST(SpheresCut, TheDeepestTreesStayWithinTheirBudget) {
     SpheresCloud cloud;
     cloud.levels = 10;

@@ -109,6 +109,18 @@ TEST(Lattice, KeepsTheMassWhateverItsAxes) {
     }
 }
 
+// Cells are cubes: what they are too long goes to both ends. Within the coarse cells that its box is found by, 32 along.
+TEST(Lattice, StandsAboutTheMiddleOfWhatItHolds) {
+    SceneDraft draft = test::balls({{{-6, 1, 2}, 2, 1}, {{6, 1, 2}, 2, 1}});
+    const auto planned = plan_scene(test::valid(draft), 1, {});
+    for (const int count : {8, 13, 24, 50}) {
+        const Lattice lattice = lattice_around_matter(planned->particles, {1, 0, 0}, {0, 1, 0},
+                                                      {0, 0, 1}, 1e-3, count, 1);
+        const glm::dvec3 middle = lattice.at(0.5 * glm::dvec3(lattice.cells));
+        EXPECT_LT(glm::length(middle - glm::dvec3(0, 1, 2)), 0.5 * 20 / 32) << count;
+    }
+}
+
 TEST(SunDepth, IsTheLineIntegral) {
     SceneDraft draft = test::table_4_4();
     const auto planned = plan_scene(test::valid(draft), 1, {});

@@ -44,8 +44,8 @@ std::size_t LightCache::bytes_in_use() const {
 }
 
 // The settings are taken apart by name, so that one that is added to them does not compile until it is in the key.
-std::string light_key(const Scene& scene, const TransportSettings& settings,
-                      std::uint64_t variant) {
+std::string light_key(const Scene& scene, const TransportSettings& settings, std::uint64_t variant,
+                      const DetailField* detail) {
     const auto& [cells, sun_cells, tolerance, max_sweeps, sky, ground, ground_shadow, islands] =
         settings;
     std::string key = light_fingerprint(scene);
@@ -61,6 +61,15 @@ std::string light_key(const Scene& scene, const TransportSettings& settings,
     for (const auto& [own_cells, own_sun_cells] : islands) {
         add(static_cast<std::uint64_t>(own_cells));
         add(static_cast<std::uint64_t>(own_sun_cells));
+    }
+    if (detail != nullptr) {
+        const auto add_number = [&](double value) { add(std::bit_cast<std::uint64_t>(value)); };
+        // The seed of its tile is the scene's, even where each cloud has one of its own.
+        add(scene->seed);
+        for (int axis = 0; axis < 3; ++axis) add_number(detail->origin[axis]);
+        add_number(detail->bump);
+        add_number(detail->edge);
+        add_number(detail->keep);
     }
     return key;
 }
