@@ -14,8 +14,10 @@ namespace awan {
 struct Deadline {
     using Clock = std::chrono::steady_clock;
 
-    Clock::time_point until = Clock::time_point::max();  // default: for ever
-    std::shared_ptr<const std::atomic<bool>> cancelled;  // may be null; true: nobody waits any more
+    // Default: for ever.
+    Clock::time_point until = Clock::time_point::max();
+    // May be null; true: nobody waits any more.
+    std::shared_ptr<const std::atomic<bool>> cancelled;
 
     // The error to return when there is no point in going on, else nothing.
     std::optional<Error> over() const {

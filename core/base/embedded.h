@@ -7,11 +7,14 @@
 namespace awan {
 
 struct EmbeddedFile {
-    std::string_view name;  // relative to the folder, e.g. "presets/cumulus.json"
+    // Relative to the folder, e.g. "presets/cumulus.json".
+    std::string_view name;
     std::string_view text;
 };
 
-std::span<const EmbeddedFile> shader_files();  // core/shaders, in awan_core
-std::span<const EmbeddedFile> web_files();     // web, in awan_server
+// core/shaders, in awan_core.
+std::span<const EmbeddedFile> shader_files();
+// Web, in awan_server.
+std::span<const EmbeddedFile> web_files();
 
 }  // namespace awan

@@ -13,7 +13,8 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) double dot_product(
     double sum = 0;
     for (std::size_t run = 0; run < count; run += kRun) {
         const std::size_t end = std::min(run + kRun, count);
-        Lanes parts[2] = {};  // two chains of additions
+        // Two chains of additions.
+        Lanes parts[2] = {};
         std::size_t i = run;
         for (; i + 2 * kLanes <= end; i += 2 * kLanes) {
             Lanes x[2], y[2];

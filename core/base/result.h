@@ -10,15 +10,24 @@
 namespace awan {
 
 enum class ErrorCode {
-    kMalformed,     // the text is not JSON / not a layout at all            (HTTP 400, exit 3)
-    kInvalidScene,  // it parses, but no scene can be made of it             (HTTP 422, exit 3)
-    kUnsupported,   // a valid part of the contract that this version lacks  (HTTP 422, exit 3)
-    kTooLarge,      // over a limit on size                                  (HTTP 413, exit 3)
-    kNoRenderer,    // no EGL / OpenGL 4.5 here                              (HTTP 503, exit 4)
-    kOverDeadline,  // the time allowed ran out                              (HTTP 504, exit 4)
-    kCancelled,     // nobody waits for the answer any more                  (no answer, exit 4)
-    kIo,            // a file could not be read or written                   (exit 5)
-    kInternal,      // a bug                                                 (HTTP 500, exit 4)
+    // The text is not JSON / not a layout at all            (HTTP 400, exit 3).
+    kMalformed,
+    // It parses, but no scene can be made of it             (HTTP 422, exit 3).
+    kInvalidScene,
+    // A valid part of the contract that this version lacks  (HTTP 422, exit 3).
+    kUnsupported,
+    // Over a limit on size                                  (HTTP 413, exit 3).
+    kTooLarge,
+    // No EGL / OpenGL 4.5 here                              (HTTP 503, exit 4).
+    kNoRenderer,
+    // The time allowed ran out                              (HTTP 504, exit 4).
+    kOverDeadline,
+    // Nobody waits for the answer any more                  (no answer, exit 4).
+    kCancelled,
+    // A file could not be read or written                   (exit 5).
+    kIo,
+    // A bug                                                 (HTTP 500, exit 4).
+    kInternal,
 };
 
 struct Error {
@@ -26,7 +35,8 @@ struct Error {
     // JSON pointer (RFC 6901) to the offending value, e.g. "/cubes/3/size/1"; "" is the whole
     // document. For a layout that is not JSON: "line 14".
     std::string pointer;
-    std::string message;  // what is wrong and what was allowed; one sentence, no newline
+    // What is wrong and what was allowed; one sentence, no newline.
+    std::string message;
 };
 
 // Either a value or an Error. Precondition of value()/operator*/operator->: ok().

@@ -14,7 +14,8 @@
 namespace awan {
 namespace {
 
-constexpr float kWebpQuality = 90;  // of 100: no blocks are seen in a smooth sky
+// Of 100: no blocks are seen in a smooth sky.
+constexpr float kWebpQuality = 90;
 
 Error failed(const std::string& what) {
     return {ErrorCode::kInternal, "", "the animation could not be encoded: " + what};

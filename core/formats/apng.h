@@ -1,5 +1,5 @@
-// PNG files -> one animated PNG (https://wiki.mozilla.org/APNG_Specification, PNG third edition 11.3.6): the chunks of pixels of every
-// frame are kept as they are, under other names.
+// PNG files -> one animated PNG (https://wiki.mozilla.org/APNG_Specification, PNG third edition 11.3.6): the chunks of
+// pixels of every frame are kept as they are, under other names.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,8 @@ class ApngWriter {
     std::uint16_t delay_ms_;
     std::uint32_t frames_;
     std::uint32_t sequence_ = 0;
-    std::string header_;  // IHDR of the first frame
+    // IHDR of the first frame.
+    std::string header_;
     std::string out_;
 };
 

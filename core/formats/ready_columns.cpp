@@ -72,12 +72,14 @@ void ReadyColumns::add(const std::array<double, kColumnCount>& values) {
 }
 
 SceneDraft ReadyColumns::take() {
-    if (all_white_) ready_.colors.clear();  // the default, as our own answers write it out
+    // The default, as our own answers write it out.
+    if (all_white_) ready_.colors.clear();
     SceneDraft draft;
     draft.top_level_cubes = false;
     Cloud& cloud = draft.clouds.emplace_back();
     cloud.model = CloudModel::kParticles;
-    if (has(Column::kDensity)) cloud.density = 1.0;  // the column holds extinction itself
+    // The column holds extinction itself.
+    if (has(Column::kDensity)) cloud.density = 1.0;
     cloud.ready = std::move(ready_);
     return draft;
 }

@@ -33,12 +33,15 @@ class DisplayTable {
   private:
     // Of the radiances with the same sign, exponent and first 7 bits of mantissa.
     struct Cell {
-        float next;          // from here on the code is one more
-        std::uint32_t code;  // of the smallest radiance in the cell
+        // From here on the code is one more.
+        float next;
+        // Of the smallest radiance in the cell.
+        std::uint32_t code;
     };
     static std::uint32_t cell_index(float x) { return std::bit_cast<std::uint32_t>(x) >> 16; }
 
-    float darkest_ = 0, brightest_ = 0;  // the ends of the cells; codes 0 and 255
+    // The ends of the cells; codes 0 and 255.
+    float darkest_ = 0, brightest_ = 0;
     std::uint32_t first_cell_ = 0;
     std::vector<Cell> cells_;
 };

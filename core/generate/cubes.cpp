@@ -71,20 +71,27 @@ FilledParticle printed_particle(const Cube& cube, std::uint64_t key) {
 }  // namespace
 
 glm::dvec3 printed_position(const Cube& cube, glm::dvec3 random3) {
-    glm::dvec3 x = random3 * cube.size;  // (4.2)-(4.4): a large random number modulo L
+    // (4.2)-(4.4): a large random number modulo L.
+    glm::dvec3 x = random3 * cube.size;
     const glm::dvec3 half(x / 2.0);
-    double px = pi / 2 * exact_sin(half.y);  // (4.5)
+    // (4.5).
+    double px = pi / 2 * exact_sin(half.y);
     double py = pi / 2 * exact_sin(half.x);
     const double pz = pi / 2 * exact_sin(half.z);
-    px += pi * exact_sin(px * half.z);  // (4.6), the second line with the first line's result
+    // (4.6), the second line with the first line's result.
+    px += pi * exact_sin(px * half.z);
     py += pi * exact_sin(px * half.z);
-    x += glm::dvec3(px, py, pz);   // (4.7)
-    return cube.center + x / 2.0;  // (4.8)
+    // (4.7).
+    x += glm::dvec3(px, py, pz);
+    // (4.8).
+    return cube.center + x / 2.0;
 }
 
 double printed_radius(double max_radius, double random1) {
-    const double r = random1 * max_radius;  // (4.9)-(4.11)
-    return r + pi / 2 * exact_sin(r);       // (4.12)
+    // (4.9)-(4.11).
+    const double r = random1 * max_radius;
+    // (4.12).
+    return r + pi / 2 * exact_sin(r);
 }
 
 void fill_cube(const Cube& cube, Fill fill, std::uint64_t key, std::uint64_t first,

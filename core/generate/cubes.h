@@ -37,11 +37,13 @@ struct FilledParticle {
 void fill_cube(const Cube& cube, Fill fill, std::uint64_t key, std::uint64_t first,
                std::uint64_t last, FilledParticle* out);
 
-inline constexpr int kMaxPrintedDraws =
-    512;  // 30 us a particle at worst; fails once in 6 million at 3% acceptance
+// 30 us a particle at worst; fails once in 6 million at 3% acceptance.
+inline constexpr int kMaxPrintedDraws = 512;
 
 // The printed equations for one draw, kept testable. random3 / random1: uniform in (0, 1).
-glm::dvec3 printed_position(const Cube& cube, glm::dvec3 random3);  // may lie outside the cube
-double printed_radius(double max_radius, double random1);           // may leave (0, max_radius]
+// May lie outside the cube.
+glm::dvec3 printed_position(const Cube& cube, glm::dvec3 random3);
+// May leave (0, max_radius].
+double printed_radius(double max_radius, double random1);
 
 }  // namespace awan

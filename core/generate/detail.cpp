@@ -13,7 +13,8 @@
 namespace awan {
 namespace {
 
-constexpr double kEdge = 1.4;  // `edge` of amount 1, in typical extinctions
+// `edge` of amount 1, in typical extinctions.
+constexpr double kEdge = 1.4;
 
 // Bumps along the tile and their share: each size sits on the one before.
 struct Octave {
@@ -23,12 +24,13 @@ struct Octave {
 constexpr std::array kOctaves = {Octave{kDetailBumps, 0.58F}, Octave{11, 0.28F}, Octave{23, 0.14F}};
 
 constexpr int kWaves = 10;
-constexpr double kWarp = 0.32;  // of a largest bump
+// Of a largest bump.
+constexpr double kWarp = 0.32;
 
 constexpr auto kSide = static_cast<std::size_t>(kDetailSide);
 
-// A divergence-free displacement with the tile's period: the curl of a sum of waves, at the voxels. Waves fit the tile, so a
-// voxel's phase is the sum of three out of kSide.
+// A divergence-free displacement with the tile's period: the curl of a sum of waves, at the voxels. Waves fit the tile,
+// so a voxel's phase is the sum of three out of kSide.
 class Warp {
   public:
     explicit Warp(std::uint64_t key) {
@@ -75,7 +77,8 @@ class Warp {
     struct Wave {
         glm::ivec3 k{0};
         glm::vec3 swing{0};
-        Turn start;  // its phase
+        // Its phase.
+        Turn start;
     };
     static Turn both(const Turn& a, const Turn& b) {
         return {a.cos * b.cos - a.sin * b.sin, a.sin * b.cos + a.cos * b.sin};
@@ -143,7 +146,8 @@ class Bumps {
         return values;
     }
     int cells_;
-    std::size_t row_;  // with one more cell on each side
+    // With one more cell on each side.
+    std::size_t row_;
     std::array<std::vector<float>, 3> points_;
 };
 
@@ -194,7 +198,8 @@ glm::dmat3 turned() {
 
 float gathered_share(float u) {
     constexpr float w = kSoftness;
-    const float a = 1 - u * (1 + w);  // where the ramp begins
+    // Where the ramp begins.
+    const float a = 1 - u * (1 + w);
     if (a >= 1 - w) return (1 - a) * (1 - a) / (2 * w);
     if (a >= 0) return 1 - a - 0.5F * w;
     return 1 - (a + w) * (a + w) / (2 * w);
@@ -257,7 +262,8 @@ float bumps_at(const DetailField& field, const glm::dvec3& point) {
     float part[3];
     for (int axis = 0; axis < 3; ++axis) {
         double p = at[axis] - kDetailSide * std::floor(at[axis] / kDetailSide);
-        if (!(p >= 0 && p < kDetailSide)) p = 0;  // rounding; or too far away to have digits
+        // Rounding; or too far away to have digits.
+        if (!(p >= 0 && p < kDetailSide)) p = 0;
         low[axis] = static_cast<std::size_t>(p);
         part[axis] = static_cast<float>(p - std::floor(p));
     }

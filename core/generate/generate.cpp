@@ -20,15 +20,20 @@ namespace {
 // A run of particles of one cube, or of one list of ready particles: a piece of work for one thread.
 struct Piece {
     const Cloud* cloud;
-    const Cube* cube;             // null: ready particles
-    const ReadyParticles* ready;  // null: a cube
+    // Null: ready particles.
+    const Cube* cube;
+    // Null: a cube.
+    const ReadyParticles* ready;
     std::uint64_t key;
-    std::uint64_t first, last;  // within the cube or the ready lists
-    std::size_t out;            // where the first goes
+    // Within the cube or the ready lists.
+    std::uint64_t first, last;
+    // Where the first goes.
+    std::size_t out;
     double density;
     Fill fill;
 };
-constexpr std::uint64_t kPieceSize = 8192;  // about half a millisecond of work
+// About half a millisecond of work.
+constexpr std::uint64_t kPieceSize = 8192;
 
 void add_pieces(std::vector<Piece>& pieces, Piece whole, std::uint64_t count, std::size_t& total) {
     for (std::uint64_t first = 0; first < count; first += kPieceSize) {
@@ -75,7 +80,8 @@ void fill_piece(const Piece& piece, double time, ParticleSet& set) {
     const Cloud& cloud = *piece.cloud;
     const Motion motion = motion_of(cloud, time);
     const auto density = static_cast<float>(piece.density * piece.cube->density);
-    std::array<FilledParticle, 256> filled;  // stays in the first cache
+    // Stays in the first cache.
+    std::array<FilledParticle, 256> filled;
     std::size_t out = piece.out;
     for (std::uint64_t first = piece.first; first < piece.last; first += filled.size()) {
         const std::uint64_t last = std::min(piece.last, first + filled.size());
@@ -105,8 +111,9 @@ void copy_piece(const Piece& piece, double time, ParticleSet& set) {
     }
 }
 
-// What no document of a procedural cloud can show by itself: that its particles are within the scene's limits once they are
-// scaled and moved. What is finer than the smallest radius becomes as wide as that, its mass kept: no picture tells.
+// What no document of a procedural cloud can show by itself: that its particles are within the scene's limits once they
+// are scaled and moved. What is finer than the smallest radius becomes as wide as that, its mass kept: no picture
+// tells.
 Status bring_within_limits(ReadyParticles& made, const Motion& motion, double density,
                            const std::string& at) {
     const auto outside = [&](const char* field, const std::string& what) {

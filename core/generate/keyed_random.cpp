@@ -27,7 +27,8 @@ Words laine_karras(Words x, Words seed) {
     return x;
 }
 
-using Directions = std::array<std::array<std::uint32_t, 4>, 32>;  // of 32 bits, four dimensions
+// Of 32 bits, four dimensions.
+using Directions = std::array<std::array<std::uint32_t, 4>, 32>;
 
 // Direction numbers, bit-reversed: v_k of dimension d has its leading bit at position k.
 constexpr Directions make_directions() {

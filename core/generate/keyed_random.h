@@ -42,7 +42,8 @@ class ScrambledSobol {
     using Lanes = std::uint32_t __attribute__((vector_size(16)));
 
     std::uint32_t index_;
-    Lanes state_;  // bit-reversed, as the scrambling wants it
+    // Bit-reversed, as the scrambling wants it.
+    Lanes state_;
     Lanes scramble_;
 };
 

@@ -12,7 +12,8 @@ namespace {
 // What a layer of cells comes to; layers are summed in their order, whoever made them.
 struct Layer {
     std::size_t kept = 0;
-    double sum = 0;  // of the kept cells' values, sharpened
+    // Of the kept cells' values, sharpened.
+    double sum = 0;
 };
 
 class Cells {

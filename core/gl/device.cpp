@@ -8,7 +8,8 @@
 namespace awan {
 
 struct Device::State {
-    gl::EglContext context;  // first in, last out
+    // First in, last out.
+    gl::EglContext context;
     DeviceInfo info;
     Device::Programs programs;
 };

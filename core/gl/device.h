@@ -10,13 +10,17 @@
 namespace awan {
 
 struct DeviceInfo {
-    std::string renderer;  // GL_RENDERER, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"
-    std::string version;   // GL_VERSION
-    std::string platform;  // "device" (a GPU) or "surfaceless" (Mesa, software)
+    // GL_RENDERER, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)".
+    std::string renderer;
+    // GL_VERSION.
+    std::string version;
+    // "device" (a GPU) or "surfaceless" (Mesa, software).
+    std::string platform;
     bool software = true;
 };
 
-enum class DeviceChoice { kAuto, kSoftware };  // kAuto: a GPU if there is one, else Mesa's llvmpipe
+// kAuto: a GPU if there is one, else Mesa's llvmpipe.
+enum class DeviceChoice { kAuto, kSoftware };
 
 class Device {
   public:
@@ -28,7 +32,8 @@ class Device {
 
     const DeviceInfo& info() const;
 
-    struct Programs;  // core/gl/programs.h
+    // core/gl/programs.h.
+    struct Programs;
     Programs& programs();
 
   private:

@@ -7,11 +7,16 @@
 namespace awan {
 
 struct Device::Programs {
-    gl::Program light_columns;  // light/: optical depth in each cell of a volume that faces a light
-    gl::Program light_sums;     // light/: summed up from the light on
-    gl::Program light_samples;  // light/: what each particle sees of that volume
-    gl::Program splat;          // draw/: particles blended per pixel, the eye outside all of them
-    gl::Program splat_interior;  // draw/: the eye may be inside
+    // light/: optical depth in each cell of a volume that faces a light.
+    gl::Program light_columns;
+    // light/: summed up from the light on.
+    gl::Program light_sums;
+    // light/: what each particle sees of that volume.
+    gl::Program light_samples;
+    // draw/: particles blended per pixel, the eye outside all of them.
+    gl::Program splat;
+    // draw/: the eye may be inside.
+    gl::Program splat_interior;
 };
 
 }  // namespace awan

@@ -29,7 +29,8 @@ struct TileRegion {
     std::vector<std::uint32_t> items;
 
     std::uint32_t longest_list() const;
-    std::vector<std::uint32_t> filled_tiles() const;  // those whose list is not empty
+    // Those whose list is not empty.
+    std::vector<std::uint32_t> filled_tiles() const;
 };
 
 // A shader may walk so many entries of a list in one dispatch; the rest wants another. llvmpipe

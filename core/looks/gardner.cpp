@@ -17,15 +17,19 @@ namespace {
 
 using namespace gardner;
 
-constexpr int kTile = 16;         // pixels
-constexpr double kUnseen = 1e-4;  // of what is left of the light from behind
-constexpr double kHalfPixel =
-    0.35;  // standard deviation of what a pixel sees, pixels; a square has .29
-constexpr double kFarthest = 1e15;  // scene units: the plane's horizon
+// Pixels.
+constexpr int kTile = 16;
+// Of what is left of the light from behind.
+constexpr double kUnseen = 1e-4;
+// Standard deviation of what a pixel sees, pixels; a square has .29.
+constexpr double kHalfPixel = 0.35;
+// Scene units: the plane's horizon.
+constexpr double kFarthest = 1e15;
 
 struct Surface {
     double distance;
-    std::size_t index;  // of an ellipsoid; a plane's is its cloud's, after all ellipsoids
+    // Of an ellipsoid; a plane's is its cloud's, after all ellipsoids.
+    std::size_t index;
     SphereHit hit;
 };
 
@@ -36,7 +40,8 @@ struct Picture {
     Whites whites;
     glm::dvec3 to_sun;
     double pixel_angle;
-    std::optional<double> ground;  // its height, where the eye is above it
+    // Its height, where the eye is above it.
+    std::optional<double> ground;
 };
 
 // What stands in front: premultiplied radiance, and the share that it lets through.

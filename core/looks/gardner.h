@@ -20,8 +20,8 @@ namespace awan::gardner {
 // I = (1-a){(1-t)[(1-s) Id + s Is] + t It} + a.
 double intensity(const SineShading& shading, double diffuse, double specular, double texture);
 
-// Id and Is: Lambert's, and Phong's with an exponent (the source names them, no more). Unit vectors; to_eye from the surface.
-// 0 where the light comes from behind.
+// Id and Is: Lambert's, and Phong's with an exponent (the source names them, no more). Unit vectors; to_eye from the
+// surface. 0 where the light comes from behind.
 double diffuse(const glm::dvec3& normal, const glm::dvec3& to_sun);
 double specular(const glm::dvec3& normal, const glm::dvec3& to_sun, const glm::dvec3& to_eye,
                 double shininess);
@@ -30,23 +30,28 @@ double specular(const glm::dvec3& normal, const glm::dvec3& to_sun, const glm::d
 
 // As the unit sphere about the origin, seen from an eye.
 struct UnitSphere {
-    glm::dmat3 to_unit{1};  // of directions, scene to unit sphere
-    glm::dvec3 eye{0};      // in the sphere's space
+    // Of directions, scene to unit sphere.
+    glm::dmat3 to_unit{1};
+    // In the sphere's space.
+    glm::dvec3 eye{0};
 };
 struct SphereHit {
-    double distance = 0;  // scene units along a unit direction, > 0
-    glm::dvec3 at{0};     // on the unit sphere
-    double limb = 0;      // g, 0..1
+    // Scene units along a unit direction, > 0.
+    double distance = 0;
+    // On the unit sphere.
+    glm::dvec3 at{0};
+    // g, 0..1.
+    double limb = 0;
 };
-// Where the wall that one sees is: the near one, or from inside the far one. limb is 1 - b^2, b the distance at which the ray's line
-// passes the centre: 1 through the centre, 0 on the silhouette, from any eye. The source's g is the silhouette's conic on
-// the picture, over its value at the conic's own centre; the two are the same where the rays are parallel. Under
-// perspective the conic's centre is not where the centre is seen, and where the ellipsoid reaches behind the eye the conic is a
-// hyperbola, that has no largest value: limb_on_picture().
+// Where the wall that one sees is: the near one, or from inside the far one. limb is 1 - b^2, b the distance at which
+// the ray's line passes the centre: 1 through the centre, 0 on the silhouette, from any eye. The source's g is the
+// silhouette's conic on the picture, over its value at the conic's own centre; the two are the same where the rays are
+// parallel. Under perspective the conic's centre is not where the centre is seen, and where the ellipsoid reaches
+// behind the eye the conic is a hyperbola, that has no largest value: limb_on_picture().
 std::optional<SphereHit> hit(const UnitSphere& sphere, const glm::dvec3& direction);
 
-// The source's f(x, z) = a1 x^2 + a2 z^2 + a3 xz + a4 x + a5 z + a6 for directions forward + x right + z up, scaled so that its value
-// at its centre is 1; none where the conic is no ellipse. Zero on the silhouette.
+// The source's f(x, z) = a1 x^2 + a2 z^2 + a3 xz + a4 x + a5 z + a6 for directions forward + x right + z up, scaled so
+// that its value at its centre is 1; none where the conic is no ellipse. Zero on the silhouette.
 struct LimbCurve {
     double a1 = 0, a2 = 0, a3 = 0, a4 = 0, a5 = 0, a6 = 0;
     double operator()(double x, double z) const {
@@ -66,26 +71,30 @@ struct SeenEllipsoid {
     UnitSphere sphere;
     PlacedEllipsoid placed;
     std::size_t cloud = 0;
-    PixelBox box;  // it shows nowhere else
+    // It shows nowhere else.
+    PixelBox box;
 };
 
 struct SeenCloud {
     const EllipsoidsCloud* model = nullptr;
     Motion motion{};
     TextureFunction in_space, on_plane;
-    std::optional<double> plane_height;  // scene units
+    // Scene units.
+    std::optional<double> plane_height;
 };
 
 struct Frame {
     std::vector<SeenCloud> clouds;
-    std::vector<SeenEllipsoid> ellipsoids;  // only those with a pixel
+    // Only those with a pixel.
+    std::vector<SeenEllipsoid> ellipsoids;
 };
 
 // textures: false leaves them out, for estimates.
 Frame frame_of(const Scene& scene, const View& view, bool textures);
 
-// Radiance of I: `ambient` of a surface's I is lit by the sky, the rest by the sun; a grey I has the same luminance in both. White is as
-// bright as sunlit cloud (a reflectance of 1/2) with the sky's light, where automatic exposure expects it.
+// Radiance of I: `ambient` of a surface's I is lit by the sky, the rest by the sun; a grey I has the same luminance in
+// both. White is as bright as sunlit cloud (a reflectance of 1/2) with the sky's light, where automatic exposure
+// expects it.
 struct Whites {
     glm::dvec3 sunlit{0}, ambient{0};
 };

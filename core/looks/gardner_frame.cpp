@@ -12,7 +12,8 @@ namespace {
 
 UnitSphere sphere_of(const PlacedEllipsoid& one, const Motion& motion, const glm::dvec3& eye) {
     UnitSphere sphere;
-    // Columns: where the scene's axes go. Motion::back without its translation, then the ellipsoid's own turn and radii.
+    // Columns: where the scene's axes go. Motion::back without its translation, then the ellipsoid's own turn and
+    // radii.
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 e(0);
         e[axis] = 1;
@@ -27,8 +28,8 @@ UnitSphere sphere_of(const PlacedEllipsoid& one, const Motion& motion, const glm
     return sphere;
 }
 
-// Where the ellipsoid may show, from its dual conic: tangent lines x = const are the roots of a quadratic. A pixel is added on every
-// side.
+// Where the ellipsoid may show, from its dual conic: tangent lines x = const are the roots of a quadratic. A pixel is
+// added on every side.
 PixelBox box_of(const PlacedEllipsoid& one, const Motion& motion, const View& view, int width,
                 int height) {
     const PixelBox all{0, 0, width - 1, height - 1};
@@ -49,7 +50,8 @@ PixelBox box_of(const PlacedEllipsoid& one, const Motion& motion, const View& vi
     const double deep = product(view.forward, view.forward);
     const double reach = std::sqrt(deep);
     if (ahead + reach <= 0) return {};
-    if (!(ahead - reach > 1e-6 * reach)) return all;  // around the eye or beside it
+    // Around the eye or beside it.
+    if (!(ahead - reach > 1e-6 * reach)) return all;
     const auto tangents = [&](const glm::dvec3& side, double& low, double& high) {
         const double a = ahead * ahead - deep;
         const double b = ahead * glm::dot(center, side) - product(view.forward, side);
@@ -61,7 +63,8 @@ PixelBox box_of(const PlacedEllipsoid& one, const Motion& motion, const View& vi
     double left = 0, right = 0, bottom = 0, top = 0;
     tangents(view.right, left, right);
     tangents(view.up, bottom, top);
-    const auto pixel = [](double share, int count) {  // of 0..1 across the picture
+    // Of 0..1 across the picture.
+    const auto pixel = [](double share, int count) {
         const double at = share * count;
         return static_cast<int>(std::floor(std::clamp(at, -2.0, count + 1.0)));
     };
@@ -84,7 +87,8 @@ struct MadeTexture {
 };
 TextureFunction ready(const SineTexture& texture, bool in_space, const glm::dvec3& shift,
                       std::vector<MadeTexture>& made) {
-    constexpr std::size_t kKept = 8;  // of the latest
+    // Of the latest.
+    constexpr std::size_t kKept = 8;
     auto known = std::find_if(made.begin(), made.end(), [&](const MadeTexture& one) {
         return one.in_space == in_space && one.texture == texture;
     });
@@ -129,7 +133,8 @@ Frame frame_of(const Scene& scene, const View& view, bool textures) {
 }
 
 Whites whites_of(const Scene& scene) {
-    constexpr double kCloudReflectance = 0.5;  // as core/formats' automatic exposure has it
+    // As core/formats' automatic exposure has it.
+    constexpr double kCloudReflectance = 0.5;
     constexpr double kPi = 3.14159265358979324;
     const Outside outside = outside_of(scene);
     const glm::dvec3 sky =

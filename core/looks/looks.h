@@ -1,6 +1,6 @@
-// Pictures by the rules of published systems instead of by light (scene field `look`): how a cloud was drawn there, for the looks
-// of it. They have no rungs and no error against the truth. The clouds are all of the model that the look belongs to
-// (validate), and stand where their transform and the scene's time put them.
+// Pictures by the rules of published systems instead of by light (scene field `look`): how a cloud was drawn there, for
+// the looks of it. They have no rungs and no error against the truth. The clouds are all of the model that the look
+// belongs to (validate), and stand where their transform and the scene's time put them.
 #pragma once
 
 #include "core/base/deadline.h"

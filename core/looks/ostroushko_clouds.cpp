@@ -13,8 +13,8 @@ namespace {
 // 781 spheres: their shadows are as soft as light that has been scattered on is.
 constexpr int kUpperLevels = 4;
 
-// A ray meets 5 E(I_j^2) times as many spheres at each level. Where that runs away (large ratios), levels that would give it
-// more than this are not told apart: all of them are cloud everywhere.
+// A ray meets 5 E(I_j^2) times as many spheres at each level. Where that runs away (large ratios), levels that would
+// give it more than this are not told apart: all of them are cloud everywhere.
 constexpr double kMostHits = 1000;
 
 int told_apart(const SphereTree& tree) {

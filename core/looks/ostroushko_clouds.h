@@ -1,5 +1,5 @@
-// The clouds of a scene as the look of Ostroushko et al. sees them (document 003; core/generate/spheres/subdivision.h): where they
-// stand, how finely they are seen, and how much light comes through their upper levels.
+// The clouds of a scene as the look of Ostroushko et al. sees them (document 003; core/generate/spheres/subdivision.h):
+// where they stand, how finely they are seen, and how much light comes through their upper levels.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,10 @@ namespace awan::looks {
 
 // A ray from the origin; direction unit. From `begin` on.
 struct SphereHit {
-    double enter = 0, leave = 0;  // distances along the ray; enter >= 0: an eye inside begins at 0
-    double middle = 0;            // d: from the sphere's centre to the line
+    // Distances along the ray; enter >= 0: an eye inside begins at 0.
+    double enter = 0, leave = 0;
+    // d: from the sphere's centre to the line.
+    double middle = 0;
 };
 // The source's equations 5, 6. c: centre, radius > 0. False: missed, or behind.
 inline bool meets(const glm::dvec3& c, double radius, const glm::dvec3& direction, SphereHit& hit) {
@@ -33,15 +35,19 @@ inline bool meets(const glm::dvec3& c, double radius, const glm::dvec3& directio
     return true;
 }
 
-// Equations 1-3: T f + 1 - f, T = exp(-sigma l), f = 1 - d/r; l is the path in the sphere, d its middle's distance. 0..1.
+// Equations 1-3: T f + 1 - f, T = exp(-sigma l), f = 1 - d/r; l is the path in the sphere, d its middle's distance.
+// 0..1.
 double through(const SphereHit& hit, double radius, double sigma);
 
 struct LookCloud {
     SphereTree tree;
     Motion motion;
-    glm::dvec3 eye;  // in the cloud's own coordinates
-    double sigma;    // extinction in it, 1/unit of the scene
-    int levels;      // that are told apart; at most the tree's
+    // In the cloud's own coordinates.
+    glm::dvec3 eye;
+    // Extinction in it, 1/unit of the scene.
+    double sigma;
+    // That are told apart; at most the tree's.
+    int levels;
     // Element n: share of the depth of a sphere that is left where the leaves n levels below stand for it.
     std::vector<double> thinning;
     // The upper levels down to `upper_levels`, children of sphere i at 5 i + 1 .. 5 i + 5.
@@ -55,8 +61,8 @@ std::vector<LookCloud> look_clouds(const Scene& scene, const glm::dvec3& eye);
 glm::dvec3 turned(const LookCloud& cloud, const glm::dvec3& v);
 glm::dvec3 turned_back(const LookCloud& cloud, const glm::dvec3& v);
 
-// What comes through all clouds to a point from a direction (unit), both in the scene's axes, the point relative to the eye;
-// `softened` multiplies all depths. By the upper levels only.
+// What comes through all clouds to a point from a direction (unit), both in the scene's axes, the point relative to the
+// eye; `softened` multiplies all depths. By the upper levels only.
 double light_through(const std::vector<LookCloud>& clouds, const glm::dvec3& point,
                      const glm::dvec3& towards, double softened);
 

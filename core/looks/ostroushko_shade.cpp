@@ -12,11 +12,15 @@
 namespace awan::looks {
 namespace {
 
-constexpr int kWaves = 3;        // of the relief
-constexpr double kSteepest = 4;  // of their frequencies, radians over the radius, along each axis
-constexpr double kBump = 0.06;   // height of a wave, radii
+// Of the relief.
+constexpr int kWaves = 3;
+// Of their frequencies, radians over the radius, along each axis.
+constexpr double kSteepest = 4;
+// Height of a wave, radii.
+constexpr double kBump = 0.06;
 
-double part(std::uint64_t bits, int from) {  // 16 of them, -1..1
+// 16 of them, -1..1.
+double part(std::uint64_t bits, int from) {
     return static_cast<double>(bits >> from & 0xffffu) / 0x8000 - 1;
 }
 

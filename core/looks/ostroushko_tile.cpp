@@ -11,13 +11,15 @@
 namespace awan::looks {
 namespace {
 
-constexpr double kOpaque = 1.0 / 1024;  // less light from behind is a quarter of a step of 8 bits
+// Less light from behind is a quarter of a step of 8 bits.
+constexpr double kOpaque = 1.0 / 1024;
 constexpr std::uint32_t kNowhere = UINT32_MAX;
 
 struct Gathering {
     const LookScene& scene;
     const LookCloud& cloud;
-    Cone cone;  // in the cloud's coordinates
+    // In the cloud's coordinates.
+    Cone cone;
     ConeSpheres& found;
 
     glm::dvec3 from_eye(const glm::dvec3& v) const { return cloud.motion.scale * turned(cloud, v); }
@@ -53,18 +55,20 @@ struct Meeting {
 
 struct Traced {
     glm::dvec3 radiance{0};
-    double left = 1;  // of the light from behind
+    // Of the light from behind.
+    double left = 1;
 };
 
 class Tracer {
   public:
     Tracer(const LookScene& scene, ConeSpheres& found) : scene_(scene), found_(found) {}
 
-    // Of the spheres `some`, nearest first, in front of `end`. A sphere's `near` is at most where the ray enters it, so that
-    // all meetings before the next sphere's are final.
+    // Of the spheres `some`, nearest first, in front of `end`. A sphere's `near` is at most where the ray enters it, so
+    // that all meetings before the next sphere's are final.
     Traced trace(const glm::dvec3& ray, double end, std::span<const std::uint32_t> some) {
         Traced traced;
-        waiting_.clear();  // the nearest last
+        // The nearest last.
+        waiting_.clear();
         for (const std::uint32_t i : some) {
             const glm::dvec4& ball = found_.balls[i];
             Meeting meeting{{}, i};
@@ -121,7 +125,8 @@ Cone cone_of(const LookScene& scene, const Block& block) {
     Cone cone{glm::normalize(corners[0] + corners[1] + corners[2] + corners[3]), 0, 1};
     for (const glm::dvec3& corner : corners)
         cone.cosine = std::min(cone.cosine, glm::dot(cone.axis, corner));
-    cone.cosine = std::max(cone.cosine - 1e-12, 0.0);  // rounding
+    // Rounding.
+    cone.cosine = std::max(cone.cosine - 1e-12, 0.0);
     cone.sine = std::sqrt(1 - cone.cosine * cone.cosine);
     return cone;
 }
@@ -152,7 +157,8 @@ void draw_block(const LookScene& scene, const Block& block, const ConeSpheres& f
                                  Block{middle_x, middle_y, block.right, block.bottom}}) {
         if (quarter.right <= quarter.x || quarter.bottom <= quarter.y) continue;
         const bool pixel = quarter.right - quarter.x == 1 && quarter.bottom - quarter.y == 1;
-        if (pixel) {  // its one ray is as quick as a cone
+        // Its one ray is as quick as a cone.
+        if (pixel) {
             draw_block(scene, quarter, found, some, tracer, pixels);
             continue;
         }

@@ -1,5 +1,5 @@
-// One tile of the look of Ostroushko et al. (document 003): the spheres that its rays may meet, from the front, and what the rays
-// bring home.
+// One tile of the look of Ostroushko et al. (document 003): the spheres that its rays may meet, from the front, and
+// what the rays bring home.
 #pragma once
 
 #include <glm/vec4.hpp>
@@ -9,51 +9,65 @@
 
 namespace awan::looks {
 
-inline constexpr int kTileSide = 8;  // pixels
+// Pixels.
+inline constexpr int kTileSide = 8;
 
 // What all tiles share.
 struct LookScene {
     std::vector<LookCloud> clouds;
     LookLight light;
     View view;
-    int width = 0, height = 0;  // pixels
-    double pixel_angle = 0;     // radians
-    bool ground = false;        // rays end at a plane
+    // Pixels.
+    int width = 0, height = 0;
+    // Radians.
+    double pixel_angle = 0;
+    // Rays end at a plane.
+    bool ground = false;
     double ground_height = 0;
-    double finest_pixels = 1;  // a sphere of less in diameter is a leaf
+    // A sphere of less in diameter is a leaf.
+    double finest_pixels = 1;
 };
 
 LookScene look_scene(const Scene& scene, const View& view);
 
 // A leaf, or a sphere that looks no larger than a pixel.
 struct LookSphere {
-    glm::dvec3 center;  // relative to the eye, the scene's axes
+    // Relative to the eye, the scene's axes.
+    glm::dvec3 center;
     double radius;
-    double near;   // least distance at which any ray can meet it
-    double sigma;  // extinction in it, that of its leaves spread over it
+    // Least distance at which any ray can meet it.
+    double near;
+    // Extinction in it, that of its leaves spread over it.
+    double sigma;
     std::uint64_t key;
-    std::uint32_t place;  // where light reaches it
+    // Where light reaches it.
+    std::uint32_t place;
 };
 
-// Light is followed to spheres of this level and above, those below have their ancestor's: shadows are no finer (kUpperLevels).
+// Light is followed to spheres of this level and above, those below have their ancestor's: shadows are no finer
+// (kUpperLevels).
 inline constexpr int kLitLevel = 6;
 struct LitPlace {
-    glm::dvec3 point;  // as LookSphere::center
+    // As LookSphere::center.
+    glm::dvec3 point;
     bool known = false;
     Reaching share;
 };
 
 struct Cone {
-    glm::dvec3 axis;      // unit, from the eye
-    double sine, cosine;  // of half its angle, at most a right one
+    // Unit, from the eye.
+    glm::dvec3 axis;
+    // Of half its angle, at most a right one.
+    double sine, cosine;
 };
 // Whether a ball may meet it; never false where it does.
 bool may_meet(const Cone& cone, const glm::dvec3& center, double radius);
 
 struct ConeSpheres {
-    std::vector<LookSphere> spheres;  // nearest first
-    std::vector<glm::dvec4>
-        balls;  // of the same: center, radius; what most of them are asked for only
+    // Nearest first.
+    std::vector<LookSphere> spheres;
+    // Of the same: center, radius; what most of them are asked for only.
+    std::vector<glm::dvec4> balls;
     std::vector<LitPlace> places;
 };
 

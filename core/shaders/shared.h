@@ -10,7 +10,8 @@
 #include <glm/vector_relational.hpp>
 
 namespace awan::shader {
-namespace {  // GLSL has no `inline`: each file that includes this gets copies of its own
+// GLSL has no `inline`: each file that includes this gets copies of its own.
+namespace {
 
 using glm::abs;
 using glm::dot;

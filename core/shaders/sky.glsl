@@ -1,7 +1,7 @@
 // The sky behind the clouds. Common subset of GLSL and C++ with GLM.
 
-// Radiance from a direction whose sine of elevation is `up`: from the horizon's colour to the zenith's, half way at about 17
-// degrees; level at the horizon, so that there is no edge, and the horizon's colour below it.
+// Radiance from a direction whose sine of elevation is `up`: from the horizon's colour to the zenith's, half way at
+// about 17 degrees; level at the horizon, so that there is no edge, and the horizon's colour below it.
 vec3 sky_radiance(float up, vec3 zenith, vec3 horizon) {
     float high = max(up, 0.0f) * max(up, 0.0f);
     return mix(horizon, zenith, 1.09f * high / (high + 0.09f));

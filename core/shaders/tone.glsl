@@ -7,8 +7,10 @@
 // arrives at 1 exactly at kToneWhite: sunlit cloud keeps its shading, and only what is five times
 // as bright as a sunlit white wall is plain white. To be applied to each channel by itself,
 // which takes the tint out of highlights instead of leaving coloured whites.
-const float kToneKnee = 0.5f;   // display-linear; below it the curve is the identity
-const float kToneWhite = 8.0f;  // exposed radiance that becomes display white
+// Display-linear; below it the curve is the identity.
+const float kToneKnee = 0.5f;
+// Exposed radiance that becomes display white.
+const float kToneWhite = 8.0f;
 
 // Where automatic exposure puts the sunlit side of a thick cloud, before the curve;
 // tone_curve(1.6) is 0.85, 237 of 255 in sRGB: white, with room for what is brighter.

@@ -22,7 +22,8 @@ class OutputFile {
     static Result<OutputFile> open(const std::string& path);
     OutputFile(OutputFile&& other) noexcept;
     OutputFile& operator=(OutputFile&& other) noexcept;
-    ~OutputFile();  // without commit(): leaves no trace
+    // Without commit(): leaves no trace.
+    ~OutputFile();
 
     Status write(std::string_view bytes);
     Status commit();
@@ -31,7 +32,8 @@ class OutputFile {
     OutputFile() = default;
     int fd_ = -1;
     std::string path_;
-    std::string temporary_;  // "" when written directly
+    // "" when written directly.
+    std::string temporary_;
 };
 
 // Whether write_output could begin: said before long work, not after it.

@@ -82,7 +82,8 @@ Run add_serve(CLI::App& app) {
     command->threads = processors();
     auto listen = std::make_shared<std::string>("127.0.0.1:8080");
     CLI::App* serve = app.add_subcommand("serve", "answer HTTP");
-    serve->fallthrough();  // --config is the program's, and may stand after `serve`
+    // --config is the program's, and may stand after `serve`
+    serve->fallthrough();
     add(*serve, "--listen", *listen, "host:port, [v6]:port, host or port; port 0 is any free one")
         ->check([](const std::string& text) {
             return parse_listen(text) ? std::string() : text + " is not host:port";
@@ -249,7 +250,8 @@ Run add_convert(CLI::App& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a write that fails, with a message
+    // A closed pipe is a write that fails, with a message.
+    std::signal(SIGPIPE, SIG_IGN);
     CLI::App app("Awan renders clouds.", "awan");
     app.footer(
         "Every flag has an environment variable; awan COMMAND --help names it.\n"
@@ -282,7 +284,8 @@ int main(int argc, char** argv) {
     try {
         for (const auto& [name, run] : commands)
             if (app.got_subcommand(name)) return run();
-    } catch (const std::exception& e) {  // std::bad_alloc, a thread that cannot be made
+        // Std::bad_alloc, a thread that cannot be made.
+    } catch (const std::exception& e) {
         return report_error("", Error{ErrorCode::kInternal, "", e.what()});
     }
     return kExitUsage;

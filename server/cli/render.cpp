@@ -23,7 +23,8 @@ struct Work {
     std::optional<Device> device;
     ProgressLine progress;
     DetailTiles tiles;
-    std::string prefix;  // of what is said, e.g. "frame 3 of 12, "
+    // Of what is said, e.g. "frame 3 of 12, ".
+    std::string prefix;
 };
 
 Result<Rendered> render_frame(const Scene& scene, Result<Planned> planned, Work& work) {

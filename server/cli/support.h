@@ -21,8 +21,10 @@ class ProgressLine {
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    void say(const std::string& what);  // what is done now; how far it has come is unknown
-    void done(double share);            // of the whole, 0..1
+    // What is done now; how far it has come is unknown.
+    void say(const std::string& what);
+    // Of the whole, 0..1.
+    void done(double share);
 
   private:
     void show();
@@ -30,7 +32,8 @@ class ProgressLine {
     const bool shown_;
     std::mutex mutex_;
     std::string what_;
-    int percent_ = -1;  // -1: unknown
+    // -1: unknown.
+    int percent_ = -1;
 };
 
 // Prints the message; the exit code of bad usage.

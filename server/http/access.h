@@ -11,8 +11,10 @@
 namespace awan {
 
 struct AccessRules {
-    std::vector<std::string> hosts;    // names without port, any case; IPv6 in brackets
-    std::vector<std::string> origins;  // scheme://host[:port]
+    // Names without port, any case; IPv6 in brackets.
+    std::vector<std::string> hosts;
+    // Scheme://host[:port].
+    std::vector<std::string> origins;
 };
 
 // 421 for a foreign Host: a page on evil.example whose name has been rebound to 127.0.0.1 must not

@@ -112,7 +112,8 @@ class HttpCodec::Impl : public httplib::Server {
             }
         };
         if (http10_) {
-            out.set_content_provider(type, provider);  // ends with the connection
+            // Ends with the connection.
+            out.set_content_provider(type, provider);
         } else {
             out.set_chunked_content_provider(type, provider);
         }

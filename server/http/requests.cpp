@@ -40,7 +40,8 @@ void HttpServer::State::begin_request(Connection& c) {
     c.admitted = !draining;
     if (c.head.expects_continue || c.head.content_length > kLongBody) {
         std::optional<Response> refused;
-        c.close_after = true;  // the body may or may not follow: nobody could tell what comes next
+        // The body may or may not follow: nobody could tell what comes next.
+        c.close_after = true;
         answer_here(c, [&](const Request& request) {
             refused = service.refuse(request);
             if (refused) return *refused;

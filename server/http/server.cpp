@@ -258,8 +258,8 @@ void HttpServer::run() {
                                              const std::lock_guard lock(s.done_mutex);
                                              s.done.push_back({connection, alive});
                                              const std::uint64_t one = 1;
-                                             if (write(s.wake.get(), &one, sizeof one) < 0)
-                                                 return;  // it is awake already
+                                             // It is awake already.
+                                             if (write(s.wake.get(), &one, sizeof one) < 0) return;
                                          };
                                      });
         s.workers = &workers;
@@ -279,7 +279,8 @@ void HttpServer::run() {
 void HttpServer::stop() {
     state_->stopping = true;
     const std::uint64_t one = 1;
-    if (write(state_->wake.get(), &one, sizeof one) < 0) return;  // it is awake already
+    // It is awake already.
+    if (write(state_->wake.get(), &one, sizeof one) < 0) return;
 }
 
 }  // namespace awan

@@ -20,7 +20,8 @@ namespace awan {
 
 struct HttpOptions {
     std::string host = "127.0.0.1";
-    int port = 8080;  // 0: any free port
+    // 0: any free port.
+    int port = 8080;
     // Threads that answer POSTs, one request each. Most of them wait for the render queue, so there
     // should be more than it has places: else it never fills and everybody waits for a worker.
     std::size_t workers = limits::kRenderQueue + 8;
@@ -55,7 +56,8 @@ class HttpServer {
 
     // Binds and listens. Fails with kIo when the port is taken (no second server on one port).
     Status bind();
-    int port() const;  // after bind()
+    // After bind().
+    int port() const;
 
     // Serves until stop(); then finishes what is in flight (at most drain_deadline). Call from one
     // thread.

@@ -17,11 +17,13 @@ using Clock = Deadline::Clock;
 
 // Of the time that a request has: the rest is for a prediction that was too low, and for the plot.
 constexpr double kShareOfDeadline = 0.75;
-constexpr int kRetrySeconds = 15;  // about half of a sweep
+// About half of a sweep.
+constexpr int kRetrySeconds = 15;
 constexpr int kLargestSide = 512;
 constexpr std::uint32_t kMostSamples = 1u << 20;
 constexpr int kMostRuns = 100;
-constexpr std::chrono::milliseconds kLook{20};  // how often a full queue is asked again
+// How often a full queue is asked again.
+constexpr std::chrono::milliseconds kLook{20};
 
 struct Query {
     AccuracyOptions options;
@@ -166,7 +168,8 @@ Response answer_accuracy(Service::State& state, const Request& request, const Sc
     const auto encode_start = Clock::now();
     Response response;
     response.headers = {{"Content-Type", std::string(type)},
-                        {"Cache-Control", "no-store"},  // times are never the same again
+                        // Times are never the same again.
+                        {"Cache-Control", "no-store"},
                         {"Vary", "Accept"}};
     if (type == "image/png") {
         const AccuracyPlot plot{"", &named.report};

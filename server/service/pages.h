@@ -11,7 +11,8 @@
 namespace awan {
 
 struct Page {
-    std::string path;  // "/", "/main.js", "/openapi.json"
+    // "/", "/main.js", "/openapi.json".
+    std::string path;
     std::string_view content_type;
     std::string_view text;
     std::string etag;

@@ -15,7 +15,8 @@ namespace {
 
 using Clock = Deadline::Clock;
 
-constexpr int kDrainRetrySeconds = 5;  // by then another instance, or this one anew, is up
+// By then another instance, or this one anew, is up.
+constexpr int kDrainRetrySeconds = 5;
 
 bool same(std::string_view a, std::string_view b) {
     return a.size() == b.size() && strncasecmp(a.data(), b.data(), a.size()) == 0;

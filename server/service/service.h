@@ -18,21 +18,29 @@
 namespace awan {
 
 struct Request {
-    std::string method;                                      // upper case
-    std::string path;                                        // decoded, without the query
-    std::vector<std::pair<std::string, std::string>> query;  // decoded names and values
+    // Upper case.
+    std::string method;
+    // Decoded, without the query.
+    std::string path;
+    // Decoded names and values.
+    std::vector<std::pair<std::string, std::string>> query;
     std::vector<std::pair<std::string, std::string>> headers;
     std::string body;
-    std::string id;     // X-Request-Id: the client's if it is 1..128 of [A-Za-z0-9._-], else made
-    Deadline deadline;  // its `cancelled` becomes true when the client goes away
-    bool admitted = false;  // it came before the server began to drain, and is finished
+    // X-Request-Id: the client's if it is 1..128 of [A-Za-z0-9._-], else made.
+    std::string id;
+    // Its `cancelled` becomes true when the client goes away.
+    Deadline deadline;
+    // It came before the server began to drain, and is finished.
+    bool admitted = false;
 
-    std::string_view header(std::string_view name) const;  // "" when absent; names ignore case
+    // "" when absent; names ignore case.
+    std::string_view header(std::string_view name) const;
 };
 
 struct Response {
     int status = 200;
-    std::vector<std::pair<std::string, std::string>> headers;  // without Content-Length
+    // Without Content-Length.
+    std::vector<std::pair<std::string, std::string>> headers;
     std::string body;
     // Instead of `body`: appends the next piece to its argument; false when that was the last. Must
     // not throw.
@@ -40,14 +48,19 @@ struct Response {
     // Nobody waits for it any more: it need not be written.
     bool abandoned = false;
 
-    std::string_view header(std::string_view name) const;  // "" when absent; names ignore case
+    // "" when absent; names ignore case.
+    std::string_view header(std::string_view name) const;
 };
 
 struct ServiceOptions {
-    int threads = 1;          // for one request: generate, survey, and the rungs without a device
-    MachineSpeed speed;       // for what is predicted
-    std::size_t working = 2;  // requests that generate, survey or encode at once; more wait
-    std::size_t work_bytes = limits::kWorkBytes;  // server/service/work_budget.h
+    // For one request: generate, survey, and the rungs without a device.
+    int threads = 1;
+    // For what is predicted.
+    MachineSpeed speed;
+    // Requests that generate, survey or encode at once; more wait.
+    std::size_t working = 2;
+    // server/service/work_budget.h.
+    std::size_t work_bytes = limits::kWorkBytes;
 };
 
 class Service {

@@ -72,7 +72,8 @@ struct Service::State {
     std::atomic<bool> draining{false};
     WorkBudget budget;
     WorkGate gate;
-    WorkGate sweeps{1};  // measurements of accuracy: two at once would measure each other
+    // Measurements of accuracy: two at once would measure each other.
+    WorkGate sweeps{1};
     DetailTiles tiles;
     const std::vector<Page> pages = make_pages();
     const std::vector<Preset> presets = make_presets();

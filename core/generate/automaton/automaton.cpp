@@ -48,7 +48,8 @@ Result<ModelParticles> automaton_particles(const AutomatonCloud& cloud, const Mo
                                            const Deadline& deadline) {
     const double steps = automaton_steps_at(cloud, request.time);
     const double whole = std::floor(steps);
-    constexpr double kQuick = 0x1p26;  // cells times steps: 50 ms of one core
+    // Cells times steps: 50 ms of one core.
+    constexpr double kQuick = 0x1p26;
     if (request.coarse && cloud.cells.x * cloud.cells.y * cloud.cells.z * (whole + 2) > kQuick)
         return coarse_automaton(cloud, request.key, static_cast<std::uint64_t>(whole), deadline);
     AutomatonScratch scratch;

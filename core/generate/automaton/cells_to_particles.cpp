@@ -16,7 +16,8 @@
 namespace awan {
 namespace {
 
-struct Moments {  // of the matter of one block, in cells, from the corner of the grid
+// Of the matter of one block, in cells, from the corner of the grid.
+struct Moments {
     double mass = 0, square = 0;
     glm::dvec3 first{0};
 };
@@ -63,10 +64,11 @@ class Densities {
 struct Making {
     const AutomatonCloud& cloud;
     const AutomatonGrid grid;
-    double variance;  // of a cell's Gaussian, in cells^2
+    // Of a cell's Gaussian, in cells^2.
+    double variance;
 
-    // A block's Gaussian. Wider ones, of s = .5 or .6 of a side, as a smooth lattice would ask for, make a picture's error two
-    // to four times as large.
+    // A block's Gaussian. Wider ones, of s = .5 or .6 of a side, as a smooth lattice would ask for, make a picture's
+    // error two to four times as large.
     void add(const Moments& block, Piece& piece) const {
         const glm::dvec3 middle = block.first / block.mass;
         const double within = std::max(block.square / block.mass - glm::dot(middle, middle), 0.0);
@@ -108,10 +110,11 @@ void make_piece(const Making& making, const CellDensity& density, std::size_t bl
     }
 }
 
-// Pictures of a block's Gaussians beside those of its cells, rms over rms: the largest that automaton_bench (Blocks) finds of
-// clouds some 20 cells across, which is as fine as they get; from 16 on little of such a cloud is left.
+// Pictures of a block's Gaussians beside those of its cells, rms over rms: the largest that automaton_bench (Blocks)
+// finds of clouds some 20 cells across, which is as fine as they get; from 16 on little of such a cloud is left.
 double error_of_blocks(std::size_t block) {
-    constexpr std::array<double, 5> kErrors = {0, 0.04, 0.14, 0.32, 0.6};  // of 1, 2, 4, 8, 16
+    // Of 1, 2, 4, 8, 16.
+    constexpr std::array<double, 5> kErrors = {0, 0.04, 0.14, 0.32, 0.6};
     const auto doublings = static_cast<std::size_t>(std::countr_zero(block));
     return doublings < kErrors.size() ? kErrors[doublings] : 1;
 }

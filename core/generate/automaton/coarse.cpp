@@ -12,7 +12,8 @@ Result<ModelParticles> coarse_automaton(const AutomatonCloud& cloud, std::uint64
                                         std::uint64_t steps, const Deadline& deadline) {
     const std::vector<AutomatonEllipsoid> first = first_ellipsoids(cloud, key);
     std::vector<AutomatonEllipsoid> ellipsoids = first;
-    constexpr double kMostMoves = 1e7;  // some 50 ms
+    // Some 50 ms.
+    constexpr double kMostMoves = 1e7;
     const double moves = static_cast<double>(steps) * static_cast<double>(first.size()) *
                          static_cast<double>(cloud.wind.ellipsoids.size());
     if (moves > 0 && moves <= kMostMoves)

@@ -14,7 +14,8 @@
 namespace awan {
 namespace {
 
-constexpr float kOutside = 2;  // a square of a distance that no cell within an ellipsoid has
+// A square of a distance that no cell within an ellipsoid has.
+constexpr float kOutside = 2;
 
 // A bit matrix of 8 rows, a byte each, turned about its diagonal (Warren, Hacker's Delight 2, 7-3).
 std::uint64_t transposed(std::uint64_t x) {
@@ -41,8 +42,8 @@ std::uint64_t eight_bytes(const std::uint8_t* bytes) {
 AWAN_CLONES std::uint64_t pack(const float* square, std::uint64_t* planes) {
     alignas(64) std::array<std::int32_t, 64> digits;
     alignas(64) std::array<std::uint8_t, 64> outside, high, low;
-    // In float: a last bit of d decides nothing that shows, and IEEE's root is the same everywhere. Loops of one thing each
-    // become vector instructions.
+    // In float: a last bit of d decides nothing that shows, and IEEE's root is the same everywhere. Loops of one thing
+    // each become vector instructions.
     alignas(64) std::array<float, 64> d;
     for (std::size_t i = 0; i < 64; ++i) d[i] = square[i] < 1.0F ? square[i] : 1.0F;
     for (std::size_t i = 0; i < 64; ++i) d[i] = std::sqrt(d[i]);
@@ -68,7 +69,8 @@ AWAN_CLONES std::uint64_t pack(const float* square, std::uint64_t* planes) {
 
 // Cells of a row that anything was written to.
 struct Reach {
-    std::size_t first = SIZE_MAX, last = 0;  // `last` is not one of them
+    // `last` is not one of them.
+    std::size_t first = SIZE_MAX, last = 0;
 };
 
 // Squares of distances along a row: from `start`, in steps of one cell of `inverse` radii, with `rest` across.

@@ -1,5 +1,5 @@
-// The lattice of an automaton as rows of 64-bit words: cell i of a row is bit i % 64 of word i / 64; bits beyond the row's
-// length are 0. Rows along x, then y, then z.
+// The lattice of an automaton as rows of 64-bit words: cell i of a row is bit i % 64 of word i / 64; bits beyond the
+// row's length are 0. Rows along x, then y, then z.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,8 @@ struct AutomatonGrid {
     std::uint64_t last_mask() const { return nx % 64 == 0 ? ~0ull : (1ull << nx % 64) - 1; }
 
     std::size_t nx, ny, nz;
-    std::size_t words;  // a row
+    // A row.
+    std::size_t words;
 };
 
 // Threads that are worth their start for work of so many nanoseconds.

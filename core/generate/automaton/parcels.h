@@ -8,7 +8,8 @@
 
 namespace awan {
 
-// The listed ones, then the random ones: in the grid as far as their radii allow, those that are too wide are narrowed to it.
+// The listed ones, then the random ones: in the grid as far as their radii allow, those that are too wide are narrowed
+// to it.
 std::vector<AutomatonEllipsoid> first_ellipsoids(const AutomatonCloud& cloud, std::uint64_t key);
 
 // Moves them as in step `step` (0, 1, ...) by the cloud's wind bands; one that has left the grid in x comes back at the

@@ -11,18 +11,20 @@ namespace awan {
 
 using CloudBits = const std::vector<std::uint64_t>*;
 
-// How many of the cells around each are clouds, plane after plane: sums along x, then y, then z, of whole numbers, so that
-// no order shows. Cells beyond the grid are none.
+// How many of the cells around each are clouds, plane after plane: sums along x, then y, then z, of whole numbers, so
+// that no order shows. Cells beyond the grid are none.
 class PlaneSmoother {
   public:
-    // fields: cld after each of the last steps, 1 to kMaxAutomatonHistory of them, each grid.all_words() long, not owned;
-    // reach: i0, j0, k0, at most kMaxAutomatonSmooth each.
+    // fields: cld after each of the last steps, 1 to kMaxAutomatonHistory of them, each grid.all_words() long, not
+    // owned; reach: i0, j0, k0, at most kMaxAutomatonSmooth each.
     PlaneSmoother(const AutomatonGrid& grid, std::vector<CloudBits> fields,
                   std::array<std::size_t, 3> reach);
 
     struct Plane {
-        const std::uint16_t* counts;  // [j * stride + i], i < nx; valid until the next call
-        const std::uint8_t* rows;  // 0: all counts of row j are 0 (and may not have been written)
+        // [j * stride + i], i < nx; valid until the next call.
+        const std::uint16_t* counts;
+        // 0: all counts of row j are 0 (and may not have been written).
+        const std::uint8_t* rows;
         std::size_t stride;
     };
     // Cheap when called for k, k + 1, k + 2, ...
@@ -32,7 +34,8 @@ class PlaneSmoother {
     double most() const;
 
   private:
-    struct Sums {  // over x and y
+    // Over x and y.
+    struct Sums {
         std::size_t k = SIZE_MAX;
         std::vector<std::uint16_t> counts;
         std::vector<std::uint8_t> rows;
@@ -43,10 +46,13 @@ class PlaneSmoother {
     AutomatonGrid grid_;
     std::vector<CloudBits> fields_;
     std::size_t i0_, j0_, k0_, stride_;
-    std::vector<Sums> ring_;            // plane k is in ring_[k % size]
-    std::vector<std::uint8_t> x_sums_;  // of one plane
+    // Plane k is in ring_[k % size].
+    std::vector<Sums> ring_;
+    // Of one plane.
+    std::vector<std::uint8_t> x_sums_;
     std::vector<std::uint8_t> x_rows_;
-    std::vector<std::uint16_t> counts_;  // of the answer
+    // Of the answer.
+    std::vector<std::uint16_t> counts_;
     std::vector<std::uint8_t> rows_;
 };
 

@@ -178,8 +178,9 @@ void find_lives(const AutomatonGrid& grid, const AutomatonState& state, Automato
 
 std::uint64_t rules_key(const AutomatonCloud& cloud) {
     std::uint64_t key = 0;
+    // -0 is 0.
     for (const double figure : automaton_rules_of(cloud))
-        key = keyed(key, std::bit_cast<std::uint64_t>(figure + 0.0));  // -0 is 0
+        key = keyed(key, std::bit_cast<std::uint64_t>(figure + 0.0));
     return key;
 }
 

@@ -12,9 +12,11 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::uint64_t kMagic = 0x314154534e415741u;  // "AWANSTA1"
+// "AWANSTA1".
+constexpr std::uint64_t kMagic = 0x314154534e415741u;
 constexpr std::uint64_t kVersion = 1;
-constexpr std::size_t kHead = 10;  // words before the ellipsoids
+// Words before the ellipsoids.
+constexpr std::size_t kHead = 10;
 
 class Writer {
   public:
@@ -82,7 +84,8 @@ bool is_side(std::uint64_t cells) {
 }
 
 bool possible(const AutomatonEllipsoid& ellipsoid) {
-    constexpr double kFar = 1e15;  // a wind's reach in one step
+    // A wind's reach in one step.
+    constexpr double kFar = 1e15;
     for (int axis = 0; axis < 3; ++axis) {
         if (!(std::abs(ellipsoid.center[axis]) <= kFar)) return false;
         if (!(ellipsoid.radii[axis] > 0 &&

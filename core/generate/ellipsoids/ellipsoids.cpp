@@ -1,4 +1,5 @@
-// Ellipsoids and a sky plane as matter: where the source makes a surface more or less translucent, extinction is more or less.
+// Ellipsoids and a sky plane as matter: where the source makes a surface more or less translucent, extinction is more
+// or less.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -17,8 +18,8 @@ void add_one(const glm::dvec3& p, double radius, double density, ReadyParticles&
     particles.densities.push_back(static_cast<float>(density));
 }
 
-// Touching the ellipsoid from inside, at the ends of its axes and between them: its bounds, however the cloud is turned, within a
-// tenth.
+// Touching the ellipsoid from inside, at the ends of its axes and between them: its bounds, however the cloud is
+// turned, within a tenth.
 void add_outline(const PlacedEllipsoid& one, double density, ReadyParticles& particles) {
     constexpr double kInset = 0.1;
     const double radius = kInset * std::min({one.radii.x, one.radii.y, one.radii.z});

@@ -1,5 +1,5 @@
-// The ellipsoids of a cloud: those given, and those of its formations (document 002: linked ellipsoids, horizontal, vertical and
-// combined).
+// The ellipsoids of a cloud: those given, and those of its formations (document 002: linked ellipsoids, horizontal,
+// vertical and combined).
 #pragma once
 
 #include <cmath>
@@ -16,9 +16,12 @@ namespace awan {
 // Of the cloud, in its own coordinates.
 struct PlacedEllipsoid {
     glm::dvec3 center{0}, radii{1};
-    SinCos turn{0, 1};          // about y, as Motion has it
-    Translucence translucence;  // its own where it has one
-    int linked_to = -1;         // an earlier one that it overlaps; -1: to none
+    // About y, as Motion has it.
+    SinCos turn{0, 1};
+    // Its own where it has one.
+    Translucence translucence;
+    // An earlier one that it overlaps; -1: to none.
+    int linked_to = -1;
 
     // Where it is the unit sphere about the origin.
     glm::dvec3 to_unit(const glm::dvec3& p) const {
@@ -42,10 +45,10 @@ struct PlacedEllipsoid {
 // Formations first, then the ellipsoids given; in the document's order. key: ModelRequest's.
 std::vector<PlacedEllipsoid> placed_ellipsoids(const EllipsoidsCloud& cloud, std::uint64_t key);
 
-// The normalised limb curve in space: 1 at the centre, 0 on the surface. Document 002 has it in the picture, g(x, z), from the
-// conic that is the silhouette's; of the line of sight that passes the centre at a distance b (where the ellipsoid is the
-// unit sphere) it is 1 - b^2. The largest value of 1 - |p|^2 on that line is the same number: what a picture of the volume
-// shows along it at the most is what the source draws. |p|^2 may be above 1.
+// The normalised limb curve in space: 1 at the centre, 0 on the surface. Document 002 has it in the picture, g(x, z),
+// from the conic that is the silhouette's; of the line of sight that passes the centre at a distance b (where the
+// ellipsoid is the unit sphere) it is 1 - b^2. The largest value of 1 - |p|^2 on that line is the same number: what a
+// picture of the volume shows along it at the most is what the source draws. |p|^2 may be above 1.
 inline double limb_in_space(double unit_distance_squared) {
     return 1 - unit_distance_squared;
 }

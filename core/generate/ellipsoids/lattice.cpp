@@ -9,8 +9,8 @@
 namespace awan {
 namespace {
 
-// A cell sees the texture over a blob of this standard deviation: what is finer than two cells is gone, instead of turning up
-// as something coarser.
+// A cell sees the texture over a blob of this standard deviation: what is finer than two cells is gone, instead of
+// turning up as something coarser.
 constexpr double kCellBlur = 0.5;
 constexpr float kLeastOpacity = 1e-3f;
 
@@ -27,7 +27,8 @@ glm::dvec3 sample(const LatticeField& lattice, int i, int j, int k) {
 }
 
 struct Range {
-    int first, last;  // last is one past
+    // Last is one past.
+    int first, last;
 };
 // Samples that may lie within `half` of `center`, along one axis.
 Range samples_within(double center, double half, double origin, double cell, int count) {

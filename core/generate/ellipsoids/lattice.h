@@ -10,14 +10,15 @@
 
 namespace awan {
 
-// Opacity, 0..1, at the middles of cells: `resolution` of them along the longest side of the ellipsoids' box. Where ellipsoids
-// overlap the most opaque one counts: they are joined, not stacked. No cells for no ellipsoids.
+// Opacity, 0..1, at the middles of cells: `resolution` of them along the longest side of the ellipsoids' box. Where
+// ellipsoids overlap the most opaque one counts: they are joined, not stacked. No cells for no ellipsoids.
 LatticeField opacity_of(const std::vector<PlacedEllipsoid>& ellipsoids, std::uint64_t resolution,
                         const TextureFunction& texture, int threads, const Deadline& deadline);
 
-// A slab around the plane. At its middle height it is as opaque as the source's plane, so that on a vertical line the largest opacity
-// is the source's; towards its faces the threshold rises by `range`, which makes the sheet thin where its texture is. A cell
-// has the mean over its height, less where the slab is thinner. Fades out over the outer tenth of the square.
+// A slab around the plane. At its middle height it is as opaque as the source's plane, so that on a vertical line the
+// largest opacity is the source's; towards its faces the threshold rises by `range`, which makes the sheet thin where
+// its texture is. A cell has the mean over its height, less where the slab is thinner. Fades out over the outer tenth
+// of the square.
 LatticeField opacity_of(const SkyPlane& plane, const TextureFunction& texture, int threads,
                         const Deadline& deadline);
 
@@ -29,8 +30,8 @@ double column_opacity(const SkyPlane& plane, const TextureValue& value, const gl
 ReadyParticles particles_of(LatticeField opacity, double density, int threads);
 
 // What cells and Gaussians lose: rms error of the optical depths of vertical lines (8 x 8 of them, through middles of
-// cells) against the ellipsoids or the plane themselves, over the rms depth. 0 where there is nothing. `particles`: of the lattice, of
-// `density`.
+// cells) against the ellipsoids or the plane themselves, over the rms depth. 0 where there is nothing. `particles`: of
+// the lattice, of `density`.
 double sampling_error(const LatticeField& lattice, const ReadyParticles& particles, double density,
                       const std::vector<PlacedEllipsoid>& ellipsoids,
                       const TextureFunction& texture, int threads, const Deadline& deadline);

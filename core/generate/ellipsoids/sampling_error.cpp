@@ -10,16 +10,22 @@
 namespace awan {
 namespace {
 
-constexpr int kLines = 8;  // along either axis
+// Along either axis.
+constexpr int kLines = 8;
 constexpr int kStepsPerCell = 4;
-constexpr int kReach = 3;  // cells; a Gaussian has 3e-5 of itself left there
+// Cells; a Gaussian has 3e-5 of itself left there.
+constexpr int kReach = 3;
 
 // Upright lines of the lattice, at middles of columns.
 struct Line {
-    int x = 0, z = 0;      // column
-    glm::dvec3 bottom{0};  // of the lattice there
-    double height = 0;     // of the lattice
-    int steps = 0;         // kStepsPerCell a cell
+    // Column.
+    int x = 0, z = 0;
+    // Of the lattice there.
+    glm::dvec3 bottom{0};
+    // Of the lattice.
+    double height = 0;
+    // kStepsPerCell a cell.
+    int steps = 0;
 };
 
 // The texture and the ellipsoids as they are.

@@ -9,7 +9,8 @@
 namespace awan {
 namespace {
 
-// Turns of a place, -1/2 .. 1/2. Any finite product; beyond 2^52 there is no part of a turn left, and 0 is as good as any.
+// Turns of a place, -1/2 .. 1/2. Any finite product; beyond 2^52 there is no part of a turn left, and 0 is as good as
+// any.
 double turns_of(double place, double turns_a_unit) {
     const double turns = place * turns_a_unit;
     const double part = turns - std::floor(turns);

@@ -5,19 +5,20 @@
 //   PXi = pi/2 sin(FY(i-1) Y),  PYi = pi/2 sin(FX(i-1) X)            (a plane)
 //   P'  = P + pi sin(FXi Z/2), both                                    (in space)
 //
-// F0 is F1 / 2, as the rows before would have it. Every argument is kept in turns, where doubling is exact: T is periodic,
-// 4 pi / F1 along each axis, to the last bit of the first term's argument.
+// F0 is F1 / 2, as the rows before would have it. Every argument is kept in turns, where doubling is exact: T is
+// periodic, 4 pi / F1 along each axis, to the last bit of the first term's argument.
 //
 // Where the print falls short:
-// * T0 is free, and below what the sines reach (about .8) a factor goes below zero. Two of them make a positive T: clouds
-//   stand where the sky is clearest, and at T0 = 0 there are as many of these as of the others. Clean: a factor below 0 is 0.
+// * T0 is free, and below what the sines reach (about .8) a factor goes below zero. Two of them make a positive T:
+//   clouds stand where the sky is clearest, and at T0 = 0 there are as many of these as of the others. Clean: a factor
+//   below 0 is 0.
 // * Document 000 (4.6), which quotes the phases in space, has pi sin(P Z/2) with the phase P itself, in place of pi
-//   sin(F Z/2) with the frequency. Where P is 0 there is then no change with height at all, and fine terms change no faster
-//   than coarse ones. TextureForm::kPrinted is T with these phases (one after the other, as printed there) and with negative
-//   factors; its k is the safe one, from the sum of the coefficients.
-// * k from that sum, 1 / ((1 + T0) sum Ci)^2, is no maximum of 1: in a plane not all sines are 1 anywhere, and max T would be
-//   .64 to .84 for T0 = .5 (2 to 8 terms), .48 for T0 = 0 and 7. In space the height turns them all nearly together, .93 and up
-//   (ellipsoids_texture_test). Ours is searched for.
+//   sin(F Z/2) with the frequency. Where P is 0 there is then no change with height at all, and fine terms change no
+//   faster than coarse ones. TextureForm::kPrinted is T with these phases (one after the other, as printed there) and
+//   with negative factors; its k is the safe one, from the sum of the coefficients.
+// * k from that sum, 1 / ((1 + T0) sum Ci)^2, is no maximum of 1: in a plane not all sines are 1 anywhere, and max T
+//   would be .64 to .84 for T0 = .5 (2 to 8 terms), .48 for T0 = 0 and 7. In space the height turns them all nearly
+//   together, .93 and up (ellipsoids_texture_test). Ours is searched for.
 #pragma once
 
 #include <array>
@@ -32,13 +33,19 @@ namespace awan {
 // Ready to be evaluated.
 struct TextureFunction {
     std::size_t terms = 1;
-    bool in_space = true;  // else a plane: the height is unused
+    // Else a plane: the height is unused.
+    bool in_space = true;
     bool printed = false;
-    double turns_x = 0, turns_z = 0;  // F0 / 2 pi: turns of half the first frequency, a unit
-    double floor = 0;                 // T0 * sum Ci
-    double scale = 1;                 // k
-    glm::dvec3 shift{0};              // subtracted from the place: drift * time, units
-    std::array<double, limits::kMaxTextureTerms> coefficient{};  // Ci
+    // F0 / 2 pi: turns of half the first frequency, a unit.
+    double turns_x = 0, turns_z = 0;
+    // T0 * sum Ci.
+    double floor = 0;
+    // k.
+    double scale = 1;
+    // Subtracted from the place: drift * time, units.
+    glm::dvec3 shift{0};
+    // Ci.
+    std::array<double, limits::kMaxTextureTerms> coefficient{};
 };
 
 TextureFunction texture_function(const SineTexture& texture, bool in_space,
@@ -50,21 +57,22 @@ struct TextureValue {
     double variance = 0;
 };
 
-// At a place (our axes, the cloud's units). blur_x, blur_z: variance, radians^2, of the argument of the first sine of either
-// sum over what is seen; that of term i is 4^(i-1) times as large. A Gaussian of places leaves exp(-variance/2) of a sine; we
-// take (1 + variance/16)^-8 (within .03 of it), in plain arithmetic, the same on every machine. 0: a point.
+// At a place (our axes, the cloud's units). blur_x, blur_z: variance, radians^2, of the argument of the first sine of
+// either sum over what is seen; that of term i is 4^(i-1) times as large. A Gaussian of places leaves exp(-variance/2)
+// of a sine; we take (1 + variance/16)^-8 (within .03 of it), in plain arithmetic, the same on every machine. 0: a
+// point.
 TextureValue texture_at(const TextureFunction& texture, const glm::dvec3& place, double blur_x = 0,
                         double blur_z = 0);
 
-// What one `step` (units) as standard deviation adds to blur_x or blur_z. The phases' own slopes are in it, by their mean
-// squares. Steps at right angles to each other add up.
+// What one `step` (units) as standard deviation adds to blur_x or blur_z. The phases' own slopes are in it, by their
+// mean squares. Steps at right angles to each other add up.
 double blur_along(const TextureFunction& texture, bool along_z, const glm::dvec3& step);
 
 // The same for all three axes.
 double blur_of_blob(const TextureFunction& texture, bool along_z, double sigma);
 
-// Share of a texel that is opaque: the mean of clamp((T - threshold)/range, 0, 1) over T spread evenly about `mean` with
-// `variance`. Without variance it is 1 - TR of the source.
+// Share of a texel that is opaque: the mean of clamp((T - threshold)/range, 0, 1) over T spread evenly about `mean`
+// with `variance`. Without variance it is 1 - TR of the source.
 double opacity(const TextureValue& value, double threshold, double range);
 
 }  // namespace awan

@@ -10,7 +10,8 @@ using Coefficients = std::array<double, limits::kMaxTextureTerms>;
 
 // Turns of half the first frequency.
 struct Place {
-    std::array<double, 3> turns{};  // x, z, y
+    // x, z, y.
+    std::array<double, 3> turns{};
     double rank = 0;
 };
 
@@ -29,7 +30,8 @@ double product(const Place& place, std::size_t terms, double lift,
 }
 
 bool better(const Place& a, const Place& b) {
-    return a.rank != b.rank ? a.rank > b.rank : a.turns < b.turns;  // no two are equal
+    // No two are equal.
+    return a.rank != b.rank ? a.rank > b.rank : a.turns < b.turns;
 }
 
 void keep_best(std::vector<Place>& places, std::size_t count) {
@@ -94,8 +96,8 @@ double scale_to_one(std::size_t terms, double floor, bool in_space,
         climb(place, axes, terms, floor, step, coefficient);
         most = std::max(most, place.rank);
     }
-    return 1 /
-           most;  // most > 0: at one place at least both first sines are above all others' doubt
+    // Most > 0: at one place at least both first sines are above all others' doubt.
+    return 1 / most;
 }
 
 }  // namespace awan

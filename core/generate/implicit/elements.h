@@ -32,15 +32,21 @@ struct Frame {
 struct Element {
     enum class Kind : std::uint8_t { kBall, kSegment, kCylinder };
     Kind kind = Kind::kBall;
-    bool last = true;  // of its skeleton
-    glm::vec3 at{0};   // centre, or one end; in the frame, like all lengths here
-    glm::vec3 row
-        [3]{};  // of a ball: the inverse of its axes; of the others row[0] is the unit vector to the other end
-    float length = 0;   // of the piece
-    float core = 0;     // solid as far as that
-    float inverse = 1;  // 1 / radius of influence
+    // Of its skeleton.
+    bool last = true;
+    // Centre, or one end; in the frame, like all lengths here.
+    glm::vec3 at{0};
+    // Of a ball: the inverse of its axes; of the others row[0] is the unit vector to the other end.
+    glm::vec3 row[3]{};
+    // Of the piece.
+    float length = 0;
+    // Solid as far as that.
+    float core = 0;
+    // 1 / radius of influence.
+    float inverse = 1;
     float weight = 1;
-    Box box;  // outside it is nothing; in the frame
+    // Outside it is nothing; in the frame.
+    Box box;
 };
 
 // At a time, seconds. Elements of one skeleton stand together, the last marked.
@@ -53,8 +59,8 @@ Element sphere_element(const glm::dvec3& center, double radius, double weight, c
 // Around the primitive at every time there is, units.
 Box box_at_all_times(const ImplicitPrimitive& primitive);
 
-// Wyvill's cubic of a^2 >= 0: h(a) = (1 - a^2)^2 (1 - 4/9 a^2), which is the printed -4/9 a^6 + 17/9 a^4 - 22/9 a^2 + 1 and
-// exactly 0 from a = 1 on.
+// Wyvill's cubic of a^2 >= 0: h(a) = (1 - a^2)^2 (1 - 4/9 a^2), which is the printed -4/9 a^6 + 17/9 a^4 - 22/9 a^2 + 1
+// and exactly 0 from a = 1 on.
 AWAN_INLINE lanes::Floats wyvill(const lanes::Floats& a2) {
     const lanes::Floats s = lanes::min(a2, lanes::all(1.0f)), t = 1.0f - s;
     return t * t * (1.0f - s * (4.0f / 9));

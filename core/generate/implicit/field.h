@@ -14,48 +14,60 @@ namespace awan {
 // Lengths and places in the frame, where a mean radius is 1; angles as what they are needed for.
 struct PreparedAttractor {
     glm::vec3 at;
-    float strength, inverse;  // inverse: 1 / reach
-    Box ball;                 // it moves nothing outside
-    double most;              // nor anything inside farther than that
+    // Inverse: 1 / reach.
+    float strength, inverse;
+    // It moves nothing outside.
+    Box ball;
+    // Nor anything inside farther than that.
+    double most;
 };
 struct PreparedVortex {
-    glm::vec3 at, axis;    // axis of length 1
-    float turns, inverse;  // of the angle
+    // Axis of length 1.
+    glm::vec3 at, axis;
+    // Of the angle.
+    float turns, inverse;
     Box ball;
     double most;
 };
 struct PreparedFlow {
     bool any = false;
-    glm::vec3 min{0}, steps{0};  // the table's index is (p - min) * steps
+    // The table's index is (p - min) * steps.
+    glm::vec3 min{0}, steps{0};
     int size[3] = {0, 0, 0};
     std::vector<glm::vec3> vectors;
-    glm::dvec3 low{0}, high{0};  // of all vectors and 0
+    // Of all vectors and 0.
+    glm::dvec3 low{0}, high{0};
 };
 
 struct ImplicitField {
     Frame frame;
     std::vector<Element> elements;
-    Box box;  // where there can be density, at any time; in the frame
+    // Where there can be density, at any time; in the frame.
+    Box box;
 
     float amount, exponent, blend, displacement;
     bool diagonal;
     // The noise: places times 1 / size, along the jet stream fewer.
     float noise_scale;
     glm::vec3 stretch_axis;
-    float stretch_less;  // 1 / stretch - 1
+    // 1 / stretch - 1.
+    float stretch_less;
     NoiseLattice path_noise;
-    glm::vec3 path_scale;  // how far it moves the noise, along each axis
+    // How far it moves the noise, along each axis.
+    glm::vec3 path_scale;
     Octaves octaves, moving;
 
     bool warped;
     glm::vec3 jet;
-    float jet_turbulence;  // both with the warp's share at this time
+    // Both with the warp's share at this time.
+    float jet_turbulence;
     float jet_floor, jet_slope;
     PreparedFlow flow;
     std::vector<PreparedAttractor> attractors;
     std::vector<PreparedVortex> vortices;
 
-    glm::vec3 ripple;  // 1 / wavelength, 0: none
+    // 1 / wavelength, 0: none.
+    glm::vec3 ripple;
     float ripple_depth, ripple_turns;
     bool has_base;
     float base, base_inverse;
@@ -88,8 +100,8 @@ std::vector<std::uint32_t> elements_near(const ImplicitField& field, const Box& 
 // At one place, units.
 double density_at(const ImplicitField& field, const glm::dvec3& p);
 
-// Where the path of the noise is (document 004, cumulus()), in sizes of the largest octave, and how far the noise of the path
-// moves it.
+// Where the path of the noise is (document 004, cumulus()), in sizes of the largest octave, and how far the noise of
+// the path moves it.
 struct SwirlPath {
     glm::dvec3 offset{0};
     glm::dvec3 scale{0};

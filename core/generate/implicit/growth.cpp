@@ -10,7 +10,8 @@
 namespace awan {
 namespace {
 
-double uniform(std::uint64_t key, std::uint64_t number) {  // -1 .. 1
+// -1 .. 1.
+double uniform(std::uint64_t key, std::uint64_t number) {
     return 2 * unit_open(static_cast<std::uint32_t>(keyed(key, number) >> 32)) - 1;
 }
 
@@ -65,7 +66,8 @@ class Colony {
 
     // From `time` over dt seconds.
     void step(double time, double dt) {
-        const std::size_t count = particles.size();  // children move from the next step on
+        // Children move from the next step on.
+        const std::size_t count = particles.size();
         Air air[lanes::kCount];
         for (std::size_t first = 0; first < count; first += lanes::kCount) {
             const std::size_t last = std::min(count, first + lanes::kCount);
@@ -87,7 +89,8 @@ class Colony {
         p.position = glm::clamp(p.position + dt * p.velocity, -kGrowthReach, kGrowthReach);
         p.fertility += dt * growth_.rate * air.strength;
         if (p.fertility < 1) return;
-        p.fertility = std::min(p.fertility - 1, 1.0);  // one child a step
+        // One child a step.
+        p.fertility = std::min(p.fertility - 1, 1.0);
         if (particles.size() < growth_.most) bear(i, time + dt);
     }
 

@@ -1,5 +1,5 @@
-// Gradient noise on a keyed lattice (Perlin, "Improving noise", 2002: his twelve gradients, each as often as the others, and
-// his fade; the lattice's hash is our own and has no period but 2^32), and its octaves.
+// Gradient noise on a keyed lattice (Perlin, "Improving noise", 2002: his twelve gradients, each as often as the
+// others, and his fade; the lattice's hash is our own and has no period but 2^32), and its octaves.
 #pragma once
 
 #include <array>
@@ -10,7 +10,8 @@
 namespace awan {
 
 // Coordinates farther out see what is here: a float has no digits for a place in a cell there.
-inline constexpr float kNoiseReach = 4194304.0f;  // 2^22
+// 2^22.
+inline constexpr float kNoiseReach = 4194304.0f;
 // Mean of |noise| and its rms, over all places and keys (measured, implicit_noise_test).
 inline constexpr float kMeanAbsNoise = 0.2195f, kRmsNoise = 0.2694f;
 
@@ -31,11 +32,12 @@ AWAN_INLINE Floats fade(const Floats& t) {
     return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
 }
 
-// The dot product of (x, y, z) with one of the twelve edges of a cube, by the low ten bits. Perlin takes four bits and four of
-// the edges twice: gradients then have 1.2 times the variance along y that they have along x and z.
+// The dot product of (x, y, z) with one of the twelve edges of a cube, by the low ten bits. Perlin takes four bits and
+// four of the edges twice: gradients then have 1.2 times the variance along y that they have along x and z.
 AWAN_INLINE Floats edge(const Bits& hash, const Floats& x, const Floats& y, const Floats& z) {
     const Bits ten = hash & 1023u;
-    const Bits h = ((ten << 3) + (ten << 2)) >> 10;  // 0 .. 11
+    // 0 .. 11.
+    const Bits h = ((ten << 3) + (ten << 2)) >> 10;
     const Floats u = h < 4u ? y : x;
     const Floats v = h < 8u ? z : y;
     return lanes::floats(lanes::bits(u) ^ (h << 31)) +
@@ -43,9 +45,12 @@ AWAN_INLINE Floats edge(const Bits& hash, const Floats& x, const Floats& y, cons
 }
 
 struct Cell {
-    Floats x, y, z;     // within it, 0 .. 1
-    Bits hx, hy, hz;    // of its low corner
-    Floats fx, fy, fz;  // faded
+    // Within it, 0 .. 1.
+    Floats x, y, z;
+    // Of its low corner.
+    Bits hx, hy, hz;
+    // Faded.
+    Floats fx, fy, fz;
 };
 
 inline constexpr std::uint32_t kX = 0x8da6b343u, kY = 0xd8163841u, kZ = 0xcb1ab31fu;
@@ -154,8 +159,8 @@ AWAN_INLINE lanes::Vec brownian3(const Octaves& octaves, const lanes::Vec& p) {
     return sum;
 }
 
-// The octaves of `key` that a lattice of cells of `cell` can show, seen from a place moved by (x, y, z), all in sizes of the
-// largest octave. An octave fades out where its size comes down from 3 cells to 1.5.
+// The octaves of `key` that a lattice of cells of `cell` can show, seen from a place moved by (x, y, z), all in sizes
+// of the largest octave. An octave fades out where its size comes down from 3 cells to 1.5.
 Octaves octaves_of(std::uint64_t key, int count, double gain, double cell, double x, double y,
                    double z);
 

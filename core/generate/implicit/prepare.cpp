@@ -38,8 +38,8 @@ Box widened(const Box& box, const glm::dvec3& low, const glm::dvec3& high) {
     return {box.min + low, box.max + high};
 }
 
-// The box and what lies within `ball` and at most `most` from it: where matter of the box is seen after a warp that moves
-// nothing outside the ball, and where points of it come to by a vortex, which leaves all within that is within.
+// The box and what lies within `ball` and at most `most` from it: where matter of the box is seen after a warp that
+// moves nothing outside the ball, and where points of it come to by a vortex, which leaves all within that is within.
 Box warped_within(const Box& box, const Box& ball, double most) {
     Box result = box;
     const Box wide = widened(box, glm::dvec3(-most), glm::dvec3(most));
@@ -136,10 +136,10 @@ Box seen_box(const ImplicitSettings& s, const Box& macro, const ImplicitField& f
 }  // namespace
 
 // As printed: theta = 2 pi frame / 600, path = (.005 sin theta frame, .01215 frame, .0035 sin theta frame), scale =
-// (.5 + .01 frame, .5, .0073 frame); the noise's place is n - (path.x, path.y, -path.z) + peach (scale.x, .5, -scale.z).
-// Both x and z swing with the sine (the cosine is computed and never used), so that the "swirl" is a line that grows for
-// ever, and the scales tear the noise to pieces after some hundred frames. The steady path is an ellipse that rises, and the
-// scales stay those of frame 0.
+// (.5 + .01 frame, .5, .0073 frame); the noise's place is n - (path.x, path.y, -path.z) + peach (scale.x, .5,
+// -scale.z). Both x and z swing with the sine (the cosine is computed and never used), so that the "swirl" is a line
+// that grows for ever, and the scales tear the noise to pieces after some hundred frames. The steady path is an ellipse
+// that rises, and the scales stay those of frame 0.
 SwirlPath swirl_path(double frame, bool printed) {
     const double degrees = 0.6 * frame;
     const double sine = exact_sincos_degrees(degrees).sin,
@@ -235,7 +235,8 @@ std::vector<std::uint32_t> elements_near(const ImplicitField& field, const Box& 
     // Boxes are double, points float.
     at = widened(at, glm::dvec3(-1e-4), glm::dvec3(1e-4));
     std::vector<std::uint32_t> list;
-    bool open = false;  // a skeleton has pieces in the list and its last is yet to come
+    // A skeleton has pieces in the list and its last is yet to come.
+    bool open = false;
     for (std::uint32_t i = 0; i < field.elements.size(); ++i) {
         const Element& e = field.elements[i];
         const bool near = e.weight != 0 && touch(e.box, at);

@@ -126,8 +126,8 @@ double picture_difference(const LatticeField& fine, const LatticeField& coarse, 
     return std::sqrt(std::max(thin / all_thin, deep / all_deep));
 }
 
-// What a lattice is wrong by is about its difference from one twice as coarse times kOfDifference, and, where both lack the
-// octaves that make the shape, kOfLeftOut of what these would change: so chosen that no preset is wrong by more, in
+// What a lattice is wrong by is about its difference from one twice as coarse times kOfDifference, and, where both lack
+// the octaves that make the shape, kOfLeftOut of what these would change: so chosen that no preset is wrong by more, in
 // fields against lattices four times as fine nor in lit pictures (64 cells against 160).
 double sampling_error(const LatticeField& lattice, const LatticeField& half,
                       const ImplicitField& field) {

@@ -7,7 +7,8 @@
 namespace awan {
 namespace {
 
-constexpr double kSqrtTwoPiCubed = 15.749609945722419;  // (2 pi)^1.5
+// (2 pi)^1.5.
+constexpr double kSqrtTwoPiCubed = 15.749609945722419;
 
 // Gauss & Legendre on 0..1: exact for polynomials of degree 9.
 struct GaussPoint {

@@ -24,7 +24,8 @@ using Histogram = std::array<std::uint64_t, kClasses>;
 
 std::size_t class_of(double size) {
     int exponent = 0;
-    const double mantissa = 2 * std::frexp(size, &exponent) - 1;  // 0..1
+    // 0..1.
+    const double mantissa = 2 * std::frexp(size, &exponent) - 1;
     if (!(size > 0) || exponent <= kFirstOctave) return 0;
     const int octave = std::min(exponent - kFirstOctave, kOctaves - 1);
     return static_cast<std::size_t>(octave * kParts + static_cast<int>(mantissa * kParts));
@@ -56,7 +57,8 @@ Result<SphereCut> choose_cut(const SphereTree& tree, const std::optional<glm::dv
     SphereCut cut;
     cut.eye = eye;
     cut.least_distance = radius * 0x1p-20;
-    // The automatic camera stands three radii from the middle of a cloud that fills its picture: two from its near side.
+    // The automatic camera stands three radii from the middle of a cloud that fills its picture: two from its near
+    // side.
     cut.distance = 2 * radius;
     cut.smallest = kCutPixels / 2 * pixel_angle;
 

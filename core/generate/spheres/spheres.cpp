@@ -16,20 +16,23 @@ namespace awan {
 namespace {
 
 constexpr std::uint64_t kCoarseSpheres = 625;
-constexpr double kCoarsePixel = 0.0267;  // radians
+// Radians.
+constexpr double kCoarsePixel = 0.0267;
 
 struct Part {
     std::vector<GaussianBlob> blobs;
-    double mass = 0, cut_mass = 0;  // of all, and of those that stand for more than a leaf
+    // Of all, and of those that stand for more than a leaf.
+    double mass = 0, cut_mass = 0;
 };
 
-// What cutting does to a picture, rms over rms. A cut cluster becomes a round blob as wide as it is, so what matters is how many
-// pixels wide spheres are cut, how much of the cloud is in such (the third root of its mass, as they stand where the cloud ends),
-// and how porous they are: a ray through a sphere meets 5 E(I_j^2) of its children, less than one where ratios are small.
-// Above all that was measured of clouds of 6 to 8 levels against all their leaves, lit by transport-32 in pictures 300 and 450
-// pixels high: ratios .26...76 and extinctions .2 and 2, cut at 1.5 pixels .0017, 3: .010, 6: .023, 12: .071, 24: .18; ratios
-// .2...7, cut at 1.5: .0014, 3: .006, 6: .04; ratios .1...6, cut at 1.5: .009, 3: .036, 6: .17, 12: .34, 24: .48
-// (spheres_cut_test does it smaller). Where little is cut it is up to ten times too high.
+// What cutting does to a picture, rms over rms. A cut cluster becomes a round blob as wide as it is, so what matters is
+// how many pixels wide spheres are cut, how much of the cloud is in such (the third root of its mass, as they stand
+// where the cloud ends), and how porous they are: a ray through a sphere meets 5 E(I_j^2) of its children, less than
+// one where ratios are small. Above all that was measured of clouds of 6 to 8 levels against all their leaves, lit by
+// transport-32 in pictures 300 and 450 pixels high: ratios .26...76 and extinctions .2 and 2, cut at 1.5 pixels .0017,
+// 3: .010, 6: .023, 12: .071, 24: .18; ratios .2...7, cut at 1.5: .0014, 3: .006, 6: .04; ratios .1...6, cut at 1.5:
+// .009, 3: .036, 6: .17, 12: .34, 24: .48 (spheres_cut_test does it smaller). Where little is cut it is up to ten times
+// too high.
 double error_of_cut(const Span& ratios, double pixels, double mass_share) {
     const double met =
         5 * (ratios.low * ratios.low + ratios.low * ratios.high + ratios.high * ratios.high) / 3;
@@ -52,7 +55,8 @@ std::uint64_t variant_of(const SphereCut& cut) {
     std::uint64_t hash = keyed(bits(cut.smallest), cut.eye.has_value());
     if (cut.eye)
         for (int axis = 0; axis < 3; ++axis) hash = keyed(hash, bits((*cut.eye)[axis]));
-    return hash | 1;  // 0 says that the eye does not matter
+    // 0 says that the eye does not matter.
+    return hash | 1;
 }
 
 }  // namespace

@@ -1,14 +1,15 @@
-// The hierarchy of spheres of Ostroushko et al. (document 003, "Mathematical model of the cloud"): every sphere from its place
-// in the tree alone, by keyed randomness, so that nothing need be stored. Only +, -, *, / and square roots: the same bits on
-// every machine.
+// The hierarchy of spheres of Ostroushko et al. (document 003, "Mathematical model of the cloud"): every sphere from
+// its place in the tree alone, by keyed randomness, so that nothing need be stored. Only +, -, *, / and square roots:
+// the same bits on every machine.
 //
 // As printed, with D = r - r_j, the farthest at which child j lies inside its parent:
 //   r_j = I_j r;   along its axis (+x, -x, +z, -z, -y for j = 1..5) child j goes s_j D d, across it xi_j f(s_j D, D),
 //   f(C, R) = R^2 - C^2 (fifth child: f(s_5, D); to -x where xi_5 = -1, to +z where xi_5 = 1).
-// Two misprints. f is a length and must have a root, f(C, R) = sqrt(R^2 - C^2): without it a cloud of radius 100 throws its
-// children up to 0.19 * 100^2 / 100 = 19 parents' radii away (s = .9) and one of radius .01 does not move them. And the fifth's f
-// must be f(s_5 D, D) as all others' are: s_5 is a number, D a length. So corrected, a child is at most D from its parent's
-// centre, touches it from within where the axes are not scaled, and every sphere holds all that is below it.
+// Two misprints. f is a length and must have a root, f(C, R) = sqrt(R^2 - C^2): without it a cloud of radius 100 throws
+// its children up to 0.19 * 100^2 / 100 = 19 parents' radii away (s = .9) and one of radius .01 does not move them. And
+// the fifth's f must be f(s_5 D, D) as all others' are: s_5 is a number, D a length. So corrected, a child is at most D
+// from its parent's centre, touches it from within where the axes are not scaled, and every sphere holds all that is
+// below it.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +26,8 @@ namespace awan {
 inline constexpr int kSphereChildren = 5;
 
 struct Sphere {
-    glm::dvec3 center{0};  // the cloud's own coordinates
+    // The cloud's own coordinates.
+    glm::dvec3 center{0};
     double radius = 0;
 };
 
@@ -40,22 +42,30 @@ inline double other_coordinate_printed(double c, double r) {
 
 // What is random in a child.
 struct SphereDraw {
-    double ratio;  // I_j
-    double shift;  // s_j
-    double side;   // xi_j: -1 or 1
+    // I_j.
+    double ratio;
+    // s_j.
+    double shift;
+    // xi_j: -1 or 1.
+    double side;
 };
 
-// The centre of child 0..4 (the source's 1..5) of the unit sphere at the origin, less the parent's centre. axes: d_x, d_y, d_z;
-// across: what the coordinate across is multiplied with, along x and z (1 as printed); up: where y's sphere goes, 1 or -1.
+// The centre of child 0..4 (the source's 1..5) of the unit sphere at the origin, less the parent's centre. axes: d_x,
+// d_y, d_z; across: what the coordinate across is multiplied with, along x and z (1 as printed); up: where y's sphere
+// goes, 1 or -1.
 glm::dvec3 child_offset(int child, const SphereDraw& draw, const glm::dvec3& axes,
                         const glm::dvec3& across, double up);
 
 // One sphere of the tree, and what its children come from.
 struct SphereNode {
-    Sphere sphere;            // as it is now
-    Sphere from, to;          // of a morph: in the two realisations
-    std::uint64_t key = 0;    // of its place in the realisation `from`
-    std::uint64_t other = 0;  // in the realisation `to`
+    // As it is now.
+    Sphere sphere;
+    // Of a morph: in the two realisations.
+    Sphere from, to;
+    // Of its place in the realisation `from`
+    std::uint64_t key = 0;
+    // In the realisation `to`
+    std::uint64_t other = 0;
 };
 
 // A cloud's tree at one time. A sphere of level k < levels has five children of level k + 1.

@@ -44,8 +44,9 @@ void above(const SphereTree& tree, const SphereNode& node, int level, std::size_
 
 }  // namespace walk_detail
 
-// Calls divide(node, level, task) -> bool for the root and for the children of every sphere for which it said true (leaves are
-// not divided whatever it says). Of one task: parents first, in order, on one thread. False when the deadline was over.
+// Calls divide(node, level, task) -> bool for the root and for the children of every sphere for which it said true
+// (leaves are not divided whatever it says). Of one task: parents first, in order, on one thread. False when the
+// deadline was over.
 template <typename Divide>
 bool walk_spheres(const SphereTree& tree, int threads, const Deadline& deadline,
                   const Divide& divide) {
