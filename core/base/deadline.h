@@ -14,9 +14,9 @@ namespace awan {
 struct Deadline {
     using Clock = std::chrono::steady_clock;
 
-    // Default: for ever.
+    // By default there is none.
     Clock::time_point until = Clock::time_point::max();
-    // May be null; true: nobody waits any more.
+    // True as soon as nobody waits for the answer any more. May be null.
     std::shared_ptr<const std::atomic<bool>> cancelled;
 
     // The error to return when there is no point in going on, else nothing.

@@ -1,6 +1,5 @@
-// Sines whose last bit is ours. A library's sin may round differently from one machine to the next;
-// these are polynomials in plain IEEE double arithmetic (no contraction, see CMakeLists.txt), the
-// same everywhere.
+// Sines that are the same to the last bit everywhere. A library's sin may round differently from one machine to the
+// next; these are polynomials in plain IEEE double arithmetic (the compiler may not contract it, see CMakeLists.txt).
 #pragma once
 
 namespace awan {

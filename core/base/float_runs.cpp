@@ -13,7 +13,7 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) double dot_product(
     double sum = 0;
     for (std::size_t run = 0; run < count; run += kRun) {
         const std::size_t end = std::min(run + kRun, count);
-        // Two chains of additions.
+        // Two sums that do not wait for each other.
         Lanes parts[2] = {};
         std::size_t i = run;
         for (; i + 2 * kLanes <= end; i += 2 * kLanes) {

@@ -10,23 +10,23 @@
 namespace awan {
 
 enum class ErrorCode {
-    // The text is not JSON / not a layout at all            (HTTP 400, exit 3).
+    // HTTP 400, exit code 3: the text is no JSON, or no layout at all.
     kMalformed,
-    // It parses, but no scene can be made of it             (HTTP 422, exit 3).
+    // HTTP 422, exit code 3: it parses, but no scene can be made of it.
     kInvalidScene,
-    // A valid part of the contract that this version lacks  (HTTP 422, exit 3).
+    // HTTP 422, exit code 3: a valid part of the contract that this version lacks.
     kUnsupported,
-    // Over a limit on size                                  (HTTP 413, exit 3).
+    // HTTP 413, exit code 3: over a limit on size.
     kTooLarge,
-    // No EGL / OpenGL 4.5 here                              (HTTP 503, exit 4).
+    // HTTP 503, exit code 4: no EGL or no OpenGL 4.5 here.
     kNoRenderer,
-    // The time allowed ran out                              (HTTP 504, exit 4).
+    // HTTP 504, exit code 4: the time allowed ran out.
     kOverDeadline,
-    // Nobody waits for the answer any more                  (no answer, exit 4).
+    // No answer, exit code 4: nobody waits for it any more.
     kCancelled,
-    // A file could not be read or written                   (exit 5).
+    // Exit code 5: a file could not be read or written.
     kIo,
-    // A bug                                                 (HTTP 500, exit 4).
+    // HTTP 500, exit code 4: a bug.
     kInternal,
 };
 

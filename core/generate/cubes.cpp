@@ -35,7 +35,7 @@ FilledParticle gardner_particle(const Cube& cube, const std::array<double, 4>& u
     return {cube.center + moved, cube.radius * u[3]};
 }
 
-// By offsets: `center +- size / 2` may round to `center` far from the origin.
+// By offsets from the centre: far from the origin, `center +- size / 2` may round to `center`.
 bool inside(const Cube& cube, glm::dvec3 p) {
     const glm::dvec3 d = p - cube.center;
     return std::abs(d.x) <= cube.size.x / 2 && std::abs(d.y) <= cube.size.y / 2 &&
@@ -71,7 +71,7 @@ FilledParticle printed_particle(const Cube& cube, std::uint64_t key) {
 }  // namespace
 
 glm::dvec3 printed_position(const Cube& cube, glm::dvec3 random3) {
-    // (4.2)-(4.4): a large random number modulo L.
+    // (4.2)-(4.4): for each axis, a large random number modulo the side.
     glm::dvec3 x = random3 * cube.size;
     const glm::dvec3 half(x / 2.0);
     // (4.5).

@@ -14,33 +14,33 @@
 namespace awan {
 
 struct ModelRequest {
-    // Of all that is random in it: keyed(seed, place in the scene).
+    // The key of all that is random in the cloud: keyed(seed, place in the scene).
     std::uint64_t key = 1;
     // Seconds, any finite number.
     double time = 0;
     int threads = 1;
     // Only where the cloud lies matters, not how it looks: some hundred particles of the right bounds will do.
     bool coarse = false;
-    // How finely it will be seen: the angle of a pixel, radians (0: as finely as can be), from the eye, in the cloud's
-    // own coordinates; none: from where the automatic camera will stand (core/survey/survey.h), the whole cloud in the
-    // picture.
+    // How finely the cloud will be seen: the angle of a pixel, radians (0: as finely as can be), and the eye, in the
+    // cloud's own coordinates. Without an eye: from where the automatic camera will stand (core/survey/survey.h), the
+    // whole cloud in the picture.
     double pixel_angle = 0;
     std::optional<glm::dvec3> eye;
     // The cloud's number in the scene.
     std::uint64_t place = 0;
-    // The cloud's or else the scene's: extinction, 1/unit.
+    // The cloud's density or else the scene's: extinction, 1/unit.
     double density = 1;
 };
 
 struct ModelParticles {
-    // Densities multiply the cloud's density; colours are empty.
+    // Their densities multiply the cloud's density; their colours are empty.
     ReadyParticles particles;
-    // Densities are extinctions, 1/unit, whatever the cloud's density is.
+    // Whether their densities are extinctions instead, 1/unit, whatever the cloud's density is.
     bool extinctions = false;
-    // Relative error, rms over rms of a picture, of what was left out or made coarser than the description says; 0:
-    // none.
+    // The error of what was left out or made coarser than the description says, as root mean square of a picture over
+    // that of the picture; 0: nothing was.
     double error = 0;
-    // Not 0 where the particles depend on the eye: tells such sets apart.
+    // Not 0 where the particles depend on the eye. It tells such sets apart from those of other eyes.
     std::uint64_t variant = 0;
 };
 
@@ -53,7 +53,7 @@ Result<ModelParticles> implicit_particles(const ImplicitCloud& cloud, const Mode
 Result<ModelParticles> ellipsoids_particles(const EllipsoidsCloud& cloud,
                                             const ModelRequest& request, const Deadline& deadline);
 
-// Of a cloud that is_procedural().
+// cloud: one that is_procedural().
 Result<ModelParticles> model_particles(const Cloud& cloud, const ModelRequest& request,
                                        const Deadline& deadline);
 

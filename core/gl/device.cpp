@@ -8,7 +8,7 @@
 namespace awan {
 
 struct Device::State {
-    // First in, last out.
+    // Declared first, so destroyed last: the programs need it.
     gl::EglContext context;
     DeviceInfo info;
     Device::Programs programs;

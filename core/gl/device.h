@@ -32,7 +32,7 @@ class Device {
 
     const DeviceInfo& info() const;
 
-    // core/gl/programs.h.
+    // The compiled shaders, see core/gl/programs.h.
     struct Programs;
     Programs& programs();
 

@@ -27,9 +27,9 @@ class Buffer {
     Buffer& operator=(const Buffer&) = delete;
     ~Buffer();
 
-    // To layout(binding = ...) buffer.
+    // Makes it the buffer of `layout(binding = ...) buffer` in the shader.
     void bind(GLuint binding) const;
-    // To zeros.
+    // Sets every byte to zero.
     void clear();
     GLuint name() const { return name_; }
     // Copies bytes from the start; waits for the shaders that write them.
@@ -53,7 +53,7 @@ class TexelBuffer {
     TexelBuffer& operator=(const TexelBuffer&) = delete;
     ~TexelBuffer();
 
-    // To layout(binding = ...) uniform samplerBuffer.
+    // Makes it the sampler of `layout(binding = ...) uniform samplerBuffer` in the shader.
     void bind(GLuint binding) const;
 
   private:

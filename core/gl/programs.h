@@ -7,15 +7,15 @@
 namespace awan {
 
 struct Device::Programs {
-    // light/: optical depth in each cell of a volume that faces a light.
+    // Pass 1: the optical depth in each cell of a volume that faces a light.
     gl::Program light_columns;
-    // light/: summed up from the light on.
+    // Pass 1: running sums of it, from the light on.
     gl::Program light_sums;
-    // light/: what each particle sees of that volume.
+    // Pass 1: the light that each particle gets, read from those sums.
     gl::Program light_samples;
-    // draw/: particles blended per pixel, the eye outside all of them.
+    // Pass 2: particles blended per pixel, with the eye outside all of them.
     gl::Program splat;
-    // draw/: the eye may be inside.
+    // Pass 2: the same where the eye may be inside a particle.
     gl::Program splat_interior;
 };
 

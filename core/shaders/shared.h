@@ -1,5 +1,5 @@
-// The shaders' shared maths as C++ functions: the very text that the GPU compiles, in the common subset of GLSL and
-// GLM. In namespace awan::shader; float32 throughout, as there.
+// The shaders' shared formulas as C++ functions: the very text that the GPU compiles, written in what GLSL and GLM
+// have in common. In namespace awan::shader; float32 throughout, as there.
 #pragma once
 
 #include <glm/common.hpp>

@@ -18,15 +18,15 @@ struct AutomatonGrid {
     std::size_t rows() const { return ny * nz; }
     std::size_t all_words() const { return rows() * words; }
     std::size_t row(std::size_t j, std::size_t k) const { return k * ny + j; }
-    // Bits of a row's last word that are cells.
+    // The bits of a row's last word that are cells.
     std::uint64_t last_mask() const { return nx % 64 == 0 ? ~0ull : (1ull << nx % 64) - 1; }
 
     std::size_t nx, ny, nz;
-    // A row.
+    // Words of one row.
     std::size_t words;
 };
 
-// Threads that are worth their start for work of so many nanoseconds.
+// How many threads are worth their start for work of so many nanoseconds.
 inline int useful_threads(int threads, double nanoseconds) {
     constexpr double kWorthAThread = 2e5;
     const double most = nanoseconds / kWorthAThread;

@@ -14,7 +14,8 @@ namespace awan {
 
 std::string write_state(const AutomatonState& state);
 
-// Any bytes. kMalformed: not such a file, or a damaged one. Whether it belongs to a cloud: check_start() (run.h).
+// bytes: any. kMalformed: not such a file, or a damaged one. Whether it belongs to a cloud is for check_start()
+// (run.h) to say.
 Result<AutomatonState> read_state(std::string_view bytes);
 
 }  // namespace awan
