@@ -47,7 +47,7 @@ AWAN_INLINE void warp_by_attractor(const PreparedAttractor& a, Vec& p) {
     p.x += h * x, p.y += h * y, p.z += h * z;
 }
 
-// Rodrigues' rotation, by minus the angle: what is seen here was there.
+// Rodrigues' rotation, by minus the angle: what is seen here was there before the vortex turned it.
 AWAN_INLINE void warp_by_vortex(const PreparedVortex& v, Vec& p) {
     const Floats x = p.x - v.at.x, y = p.y - v.at.y, z = p.z - v.at.z;
     const Floats turns = -v.turns * wyvill((x * x + y * y + z * z) * (v.inverse * v.inverse));
@@ -64,7 +64,7 @@ AWAN_INLINE Vec in_noise_space(const ImplicitField& f, const Vec& p) {
     const Floats less = (p.x * axis.x + p.y * axis.y + p.z * axis.z) * f.stretch_less;
     Vec n{(p.x + less * axis.x) * f.noise_scale, (p.y + less * axis.y) * f.noise_scale,
           (p.z + less * axis.z) * f.noise_scale};
-    // The path's offset is in the octaves' lattices.
+    // The path's offset is in the octaves' lattices already; this is the rest of what the path does to the place.
     const Floats peach = noise(f.path_noise, n);
     n.x += peach * f.path_scale.x, n.y += peach * f.path_scale.y, n.z += peach * f.path_scale.z;
     return n;
@@ -106,7 +106,7 @@ AWAN_INLINE Floats ripples(const ImplicitField& f, const Vec& p, const Floats& t
     return 1.0f - f.ripple_depth * (1.0f - product);
 }
 
-// Of sixteen points in the frame.
+// The density at sixteen points, in the frame.
 AWAN_INLINE Floats density(const ImplicitField& f, const std::uint32_t* list, int count,
                            const Vec& p) {
     const Vec n = in_noise_space(f, p);
@@ -118,7 +118,7 @@ AWAN_INLINE Floats density(const ImplicitField& f, const std::uint32_t* list, in
     Floats x = f.amount * (m * f.blend + (1.0f - f.blend) * t * m);
     if (f.ripple_depth > 0) x *= ripples(f, p, t);
     if (f.has_base) {
-        // Wavy by a quarter of what the displacement does there.
+        // The base is wavy, by a quarter of what the displacement does there.
         const Floats s =
             lanes::clamp((0.75f * p.y + 0.25f * moved.y - f.base) * f.base_inverse, 0, 1);
         x *= s * s * (3.0f - 2.0f * s);
