@@ -12,7 +12,7 @@ double exact_sin(double x);
 struct SinCos {
     double sin, cos;
 };
-// Of an angle in degrees; multiples of 90 give exactly 0 and +-1. Absolute error < 1e-15.
+// Sine and cosine of an angle in degrees; multiples of 90 give exactly 0 and +-1. Absolute error < 1e-15.
 SinCos exact_sincos_degrees(double degrees);
 
 }  // namespace awan

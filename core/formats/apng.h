@@ -14,7 +14,7 @@ class ApngWriter {
   public:
     // delay_ms: how long a frame is shown, 1..65535; frames: how many will come, >= 1.
     ApngWriter(std::uint16_t delay_ms, std::uint32_t frames);
-    // A whole PNG file. All are of one size and kind.
+    // png: a whole PNG file. All are of one size and kind.
     Status add(std::string_view png);
     std::string end();
 
@@ -23,7 +23,7 @@ class ApngWriter {
     std::uint16_t delay_ms_;
     std::uint32_t frames_;
     std::uint32_t sequence_ = 0;
-    // IHDR of the first frame.
+    // The chunk IHDR of the first frame.
     std::string header_;
     std::string out_;
 };

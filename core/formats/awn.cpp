@@ -29,7 +29,7 @@ class Tokens {
         rest_ = trim(rest_.substr(length));
         if (!rest_.empty() && rest_.front() == ',') {
             rest_ = trim(rest_.substr(1));
-            // Nothing follows: the next token is empty.
+            // A comma with nothing behind it: the next token is empty.
             if (rest_.empty()) rest_ = ",";
         }
         return token;

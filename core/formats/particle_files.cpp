@@ -10,7 +10,7 @@ namespace {
 
 template <typename T>
 void append_shortest(T value, std::string& out) {
-    // The longest double takes 24.
+    // The longest double takes 24 characters.
     std::array<char, 32> buffer;
     const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
     out.append(buffer.data(), end);

@@ -32,7 +32,7 @@ struct ScalarType {
     std::string_view name, other_name;
     std::size_t size;
     double (*read)(const char*);
-    // The value that means 1 when it is a colour.
+    // As a colour, this value means 1.
     double white;
 };
 
@@ -56,7 +56,7 @@ struct Header {
     bool binary = false;
     std::uint64_t count = 0;
     std::vector<Property> properties;
-    // After the vertices.
+    // Whether other elements follow the vertices.
     bool other_elements = false;
     std::size_t lines = 0;
 };
@@ -72,7 +72,7 @@ std::string_view take_word(std::string_view& line) {
 }
 
 Status read_property(std::string_view line, Header& header, ReadyColumns& columns) {
-    // A table, not an attack.
+    // More properties than any real file has.
     constexpr std::size_t kMaxProperties = 256;
     const std::string_view type_name = take_word(line), name = take_word(line);
     if (header.properties.size() == kMaxProperties)
@@ -103,7 +103,7 @@ Status read_format(std::string_view line, Header& header) {
 }
 
 Result<Header> read_header(std::string_view& bytes, ReadyColumns& columns) {
-    // Before the end of the header.
+    // The most lines before the end of the header.
     constexpr std::size_t kMaxLines = 1000;
     Header header;
     bool has_format = false, has_vertex = false;

@@ -74,23 +74,23 @@ glm::dvec3 printed_position(const Cube& cube, glm::dvec3 random3) {
     // (4.2)-(4.4): for each axis, a large random number modulo the side.
     glm::dvec3 x = random3 * cube.size;
     const glm::dvec3 half(x / 2.0);
-    // (4.5).
+    // (4.5): the phases from across.
     double px = pi / 2 * exact_sin(half.y);
     double py = pi / 2 * exact_sin(half.x);
     const double pz = pi / 2 * exact_sin(half.z);
     // (4.6), the second line with the first line's result.
     px += pi * exact_sin(px * half.z);
     py += pi * exact_sin(px * half.z);
-    // (4.7).
+    // (4.7): the phases move the point.
     x += glm::dvec3(px, py, pz);
-    // (4.8).
+    // (4.8): half of it, from the centre.
     return cube.center + x / 2.0;
 }
 
 double printed_radius(double max_radius, double random1) {
-    // (4.9)-(4.11).
+    // (4.9)-(4.11): a large random number modulo the largest radius.
     const double r = random1 * max_radius;
-    // (4.12).
+    // (4.12): its phase.
     return r + pi / 2 * exact_sin(r);
 }
 

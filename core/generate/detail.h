@@ -36,8 +36,8 @@ using DetailTile = std::shared_ptr<const std::vector<std::uint32_t>>;
 
 struct DetailField {
     DetailTile tile;
-    glm::dmat3 to_tile{// Voxels per scene unit, turned: no axis of the tile is one of the scene.
-                       1};
+    // From scene units to voxels, turned so that no axis of the tile is one of the scene.
+    glm::dmat3 to_tile{1};
     // Where voxel (0, 0, 0) lies, scene units.
     glm::dvec3 origin{0};
     // Size of the largest bumps, scene units.

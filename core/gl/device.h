@@ -12,7 +12,7 @@ namespace awan {
 struct DeviceInfo {
     // GL_RENDERER, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)".
     std::string renderer;
-    // GL_VERSION.
+    // GL_VERSION, e.g. "4.5 (Core Profile) Mesa 22.3.6".
     std::string version;
     // "device" (a GPU) or "surfaceless" (Mesa, software).
     std::string platform;

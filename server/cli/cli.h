@@ -19,11 +19,11 @@ inline constexpr int kExitUsage = 2;
 struct RenderCommand {
     std::string scene;
     std::string output;
-    // Instead of what the document says.
+    // These and the next are in place of what the document says.
     std::optional<int> width, height;
     // "", "png", "exr"; of an animation "webp", "apng".
     std::string format;
-    // Seconds.
+    // Seconds, in place of the document's.
     std::optional<double> time;
     // Of the scene's sequence: "", "all", "3", "0-11,20".
     std::string frames;
@@ -31,10 +31,10 @@ struct RenderCommand {
     double frames_per_second = 12;
     // "", "sky", "transparent".
     std::string background;
-    // At most one of these three.
+    // Of rung, error and time_ms at most one is set.
     std::optional<std::string> rung;
     std::optional<double> error, time_ms;
-    // Of an automaton, to begin with: a file, or "".
+    // A file with the state of an automaton to begin with, or "".
     std::string state;
     int threads = 1;
     DeviceChoice device = DeviceChoice::kAuto;
@@ -46,9 +46,9 @@ struct AccuracyCommand {
     std::vector<std::string> outputs;
     // "", "json", "csv", "png".
     std::string format;
-    // Or "dark".
+    // "light" or "dark".
     std::string theme = "light";
-    // Of the plot.
+    // The size of the plot, a factor.
     double scale = 1;
     // Pixels of the reference's longer side.
     int side = 128;
@@ -56,7 +56,7 @@ struct AccuracyCommand {
     // Empty: all but truth.
     std::vector<std::string> rungs;
     int runs = 4;
-    // Of each scene; 0: as long as it takes.
+    // Seconds that each scene may take; 0: as long as it takes.
     double within_seconds = 0;
     int threads = 1;
     DeviceChoice device = DeviceChoice::kAuto;
@@ -85,7 +85,7 @@ int run_plan(const PlanCommand& command);
 struct StateCommand {
     std::string scene;
     std::string output;
-    // By its place in the scene; none: the only automaton.
+    // The cloud's place in the scene; none: the only automaton.
     std::optional<std::uint64_t> cloud;
     int threads = 1;
 };

@@ -1,5 +1,4 @@
-// awan: the command line. Flags become plain values here; commands.cpp and serve.cpp do the
-// work.
+// awan: the command line. Flags become plain values here; commands.cpp and serve.cpp do the work.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
@@ -250,7 +249,7 @@ Run add_convert(CLI::App& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // A closed pipe is a write that fails, with a message.
+    // Writing to a pipe that was closed then fails, with a message, instead of ending the process.
     std::signal(SIGPIPE, SIG_IGN);
     CLI::App app("Awan renders clouds.", "awan");
     app.footer(
@@ -284,7 +283,7 @@ int main(int argc, char** argv) {
     try {
         for (const auto& [name, run] : commands)
             if (app.got_subcommand(name)) return run();
-        // Std::bad_alloc, a thread that cannot be made.
+        // E.g. std::bad_alloc, or a thread that cannot be made.
     } catch (const std::exception& e) {
         return report_error("", Error{ErrorCode::kInternal, "", e.what()});
     }

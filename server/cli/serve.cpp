@@ -97,7 +97,7 @@ std::optional<ListenAddress> parse_listen(const std::string& text) {
     const bool has_port =
         colon != std::string::npos && (bracket == std::string::npos || colon > bracket);
     std::string host = has_port ? text.substr(0, colon) : text;
-    // Which colon is the port's?
+    // Finds the colon that belongs to the port, if any.
     const bool bare_v6 = !host.starts_with('[') && host.find(':') != std::string::npos;
     if (host.empty() || bare_v6 || host.starts_with('[') != host.ends_with(']'))
         return std::nullopt;

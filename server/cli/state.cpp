@@ -12,7 +12,7 @@
 namespace awan {
 namespace {
 
-// As generate() gives it to the model.
+// The key that generate() gives to the model.
 std::uint64_t key_of(const SceneDraft& draft, std::size_t k) {
     return keyed(draft.clouds[k].seed.value_or(draft.seed), k);
 }
@@ -57,7 +57,8 @@ Status begin_with_state(const std::string& path, SceneDraft& draft) {
         if (!cloud.automaton || key_of(draft, k) != state->key) continue;
         AutomatonCloud resumed = *cloud.automaton;
         resumed.start = std::make_shared<const AutomatonState>(*std::move(state));
-        // Whether it fits is asked here, where the pointer can name the cloud; a draft that cannot be says so later.
+        // Whether the state fits is asked here, where the pointer can name the cloud. A draft that cannot be a scene
+        // says so later.
         const std::string at = "/clouds/" + std::to_string(k) + "/automaton";
         if (!check_automaton(resumed, at))
             if (Status wrong = check_start(resumed, resumed.start->key)) {

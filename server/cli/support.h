@@ -23,7 +23,7 @@ class ProgressLine {
 
     // What is done now; how far it has come is unknown.
     void say(const std::string& what);
-    // Of the whole, 0..1.
+    // How much of the whole is done, 0..1.
     void done(double share);
 
   private:
@@ -32,7 +32,7 @@ class ProgressLine {
     const bool shown_;
     std::mutex mutex_;
     std::string what_;
-    // -1: unknown.
+    // -1 where it is unknown.
     int percent_ = -1;
 };
 
@@ -50,7 +50,7 @@ bool binary_to_terminal(const std::string& output);
 // Opens a device if there is none yet and the plan's rung needs one.
 Status open_for(const Plan& plan, DeviceChoice choice, std::optional<Device>& device);
 
-// `state`: a file to begin an automaton of the scene with, or "".
+// state: a file to begin an automaton of the scene with, or "".
 Result<Scene> read_valid_scene(const std::string& path, const std::string& state = "");
 
 // Gives the state in a file ("": none) to the automaton of the scene that it belongs to (state.cpp).

@@ -11,9 +11,9 @@
 namespace awan {
 
 struct AccessRules {
-    // Names without port, any case; IPv6 in brackets.
+    // Names without port, in any case; IPv6 in brackets.
     std::vector<std::string> hosts;
-    // Scheme://host[:port].
+    // scheme://host[:port].
     std::vector<std::string> origins;
 };
 

@@ -32,9 +32,9 @@ class Descriptor {
 
 // Reading -> Working -> Writing -> Reading again, or Lingering and the end.
 enum class Stand {
-    // A head is awaited or half here.
+    // A head is awaited, or half of it is here.
     kHead,
-    // A body is half here.
+    // Half of a body is here.
     kBody,
     // Its request is being answered, here or by a worker.
     kWorking,
@@ -50,29 +50,29 @@ struct Connection {
     using Clock = std::chrono::steady_clock;
 
     Descriptor socket;
-    // Of this end, as a Host would write it.
+    // The address of this end, as a Host header would have it.
     std::string local_address;
     Stand stand = Stand::kHead;
-    // It is cut then (not while kWorking).
+    // When it is cut (not while kWorking).
     Clock::time_point until;
     // When it began to wait for a head.
     Clock::time_point since;
 
-    // Received, not yet understood.
+    // Bytes received and not yet understood.
     std::string in;
     std::size_t scanned = 0;
     RequestHead head;
     std::string body;
     // Bytes counted for it in the budget of all bodies.
     std::size_t body_charged = 0;
-    // The client has closed its side.
+    // Becomes true when the client has closed its side.
     std::shared_ptr<std::atomic<bool>> gone;
-    // When its request was whole.
+    // When its request was complete.
     Clock::time_point read_at;
     bool admitted = false;
     std::size_t served = 0;
 
-    // Of the answer, not yet taken by the client.
+    // Bytes of the answer that the client has not yet taken.
     std::string out;
     std::size_t sent = 0;
     // Bytes counted for it among all parked bytes.

@@ -25,7 +25,7 @@ struct RequestHead {
     bool http10 = false;
     // Host, or the authority of an absolute target; "" only in HTTP/1.0.
     std::string host;
-    // Values trimmed.
+    // Names as they came, values trimmed.
     std::vector<std::pair<std::string, std::string>> headers;
     std::size_t content_length = 0;
     bool keep_alive = true;

@@ -56,13 +56,13 @@ class HttpServer {
 
     // Binds and listens. Fails with kIo when the port is taken (no second server on one port).
     Status bind();
-    // After bind().
+    // The port it listens on; after bind().
     int port() const;
 
     // Serves until stop(); then finishes what is in flight (at most drain_deadline). Call from one
     // thread.
     void run();
-    // Async-signal-unsafe but thread-safe: call from another thread.
+    // Thread-safe, but not for signal handlers: call it from another thread.
     void stop();
 
   private:

@@ -17,7 +17,7 @@
 
 namespace awan {
 
-// A body this long is worth a look at its head before it is sent.
+// A body as long as this is worth a look at its head before it is sent.
 inline constexpr std::size_t kLongBody = 1u << 20;
 
 struct HttpServer::State {
@@ -30,7 +30,7 @@ struct HttpServer::State {
     HttpOptions options;
     AccessRules rules;
     Descriptor listener;
-    // Written to when a worker has finished, and by stop().
+    // Written to when a worker has finished, and by stop(); it wakes the thread that polls.
     Descriptor wake;
     int port = 0;
     std::atomic<bool> stopping{false};
@@ -38,9 +38,9 @@ struct HttpServer::State {
     // All of the following belongs to the thread in run(), except what is said otherwise.
     HttpCodec codec;
     std::list<Connection> connections;
-    // Of all connections.
+    // Bytes of the bodies of all connections.
     std::size_t body_bytes = 0;
-    // Workers count too.
+    // Bytes of all answers that wait for their clients. Workers count too, hence atomic.
     std::atomic<std::size_t> parked{0};
     bool draining = false;
     Clock::time_point drain_until;

@@ -18,7 +18,7 @@ class Metrics {
     // `route` is a route's pattern ("/v1/presets/{name}"), or "other"; never the client's text.
     void request_done(std::string_view route, int status, double seconds);
     void stage_done(std::string_view stage,
-                    // Generate, survey, light, draw, encode, queue.
+                    // stage: "generate", "survey", "light", "draw", "encode" or "queue".
                     double milliseconds);
     // A connection or request that never reached a route: "framing", "access", "timeout",
     // "connections", "requests", "memory".

@@ -11,7 +11,7 @@
 namespace awan {
 
 struct Page {
-    // "/", "/main.js", "/openapi.json".
+    // E.g. "/", "/main.js", "/openapi.json".
     std::string path;
     std::string_view content_type;
     std::string_view text;

@@ -23,7 +23,7 @@ Response problem(int status, std::string_view detail, std::string_view pointer,
                  std::string_view request_id);
 Response problem(const Error& error, std::string_view request_id);
 
-// With `Retry-After`, for 429 and 503.
+// A problem with the header Retry-After, for 429 and 503.
 Response problem_retry(int status, std::string_view detail, int retry_after_seconds,
                        std::string_view request_id);
 

@@ -44,16 +44,16 @@ class RenderThread {
 
     struct Info {
         enum class State { kStarting, kReady, kNoRenderer } state = State::kStarting;
-        // When kReady.
+        // Set when kReady.
         DeviceInfo device;
-        // When kNoRenderer.
+        // Set when kNoRenderer.
         std::string reason;
     };
-    // Never waits for a render.
+    // How the renderer stands. Never waits for a render.
     Info info() const;
-    // Places taken: renders planned, queued or running.
+    // How many places are taken: by renders that are planned, queued or running.
     std::size_t waiting() const;
-    // For the command line and tests.
+    // Waits until the renderer is open or could not be opened; for the command line and tests.
     void wait_until_started() const;
     // The same for a request: the error when `deadline` is over before.
     Status wait_until_started(const Deadline& deadline) const;

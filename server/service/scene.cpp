@@ -181,7 +181,7 @@ Result<std::string> encode(const Image& image, const Scene& scene, std::string_v
     return encode_png(image, scene->image.exposure.value_or(auto_exposure(scene)));
 }
 
-// A number of a header.
+// A number as text for a header.
 std::string number_text(const char* format, double value) {
     std::array<char, 64> text{};
     const int length = std::snprintf(text.data(), text.size(), format, value);
@@ -192,8 +192,7 @@ std::string seconds_text(double ms) {
     return number_text("%.2g s", ms / 1000);
 }
 
-// Predictions may be wrong by this much; what is still too slow then is refused before it costs
-// anything.
+// A prediction may be this many times too long. What would be too slow even then is refused before it costs anything.
 constexpr double kHopeless = 3;
 
 // Why a plan cannot be carried out before the deadline, and what could be; nothing when it may.

@@ -1,5 +1,4 @@
-// Request -> response: routing, content types, statuses, headers. No sockets (server/http/server.h) and no
-// GL.
+// Request -> response: routing, content types, statuses, headers. No sockets (server/http/server.h) and no GL.
 #pragma once
 
 #include <atomic>
@@ -18,7 +17,7 @@
 namespace awan {
 
 struct Request {
-    // Upper case.
+    // In upper case.
     std::string method;
     // Decoded, without the query.
     std::string path;
@@ -26,7 +25,7 @@ struct Request {
     std::vector<std::pair<std::string, std::string>> query;
     std::vector<std::pair<std::string, std::string>> headers;
     std::string body;
-    // X-Request-Id: the client's if it is 1..128 of [A-Za-z0-9._-], else made.
+    // The id that is echoed in X-Request-Id: the client's if it is 1..128 of [A-Za-z0-9._-], else a new one.
     std::string id;
     // Its `cancelled` becomes true when the client goes away.
     Deadline deadline;
@@ -39,7 +38,7 @@ struct Request {
 
 struct Response {
     int status = 200;
-    // Without Content-Length.
+    // Content-Length is not among them; the transport adds it.
     std::vector<std::pair<std::string, std::string>> headers;
     std::string body;
     // Instead of `body`: appends the next piece to its argument; false when that was the last. Must
@@ -53,13 +52,13 @@ struct Response {
 };
 
 struct ServiceOptions {
-    // For one request: generate, survey, and the rungs without a device.
+    // Threads of one request, for generate, survey, and the rungs without a device.
     int threads = 1;
-    // For what is predicted.
+    // Scales the times that are predicted.
     MachineSpeed speed;
     // Requests that generate, survey or encode at once; more wait.
     std::size_t working = 2;
-    // server/service/work_budget.h.
+    // See server/service/work_budget.h.
     std::size_t work_bytes = limits::kWorkBytes;
 };
 

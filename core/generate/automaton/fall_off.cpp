@@ -70,7 +70,7 @@ AWAN_CLONES std::uint64_t pack(const float* square, std::uint64_t* planes) {
 
 // The cells of a row that anything was written to: first .. last - 1.
 struct Reach {
-    // Starts empty.
+    // It starts empty.
     std::size_t first = SIZE_MAX, last = 0;
 };
 

@@ -38,13 +38,13 @@ struct TextureFunction {
     bool printed = false;
     // F0 / (2 pi): how many turns half the first frequency makes in a unit.
     double turns_x = 0, turns_z = 0;
-    // T0 * sum Ci.
+    // T0 * sum Ci: what T0 adds to either sum.
     double floor = 0;
-    // k.
+    // k, by which the largest T is 1.
     double scale = 1;
     // Subtracted from the place: drift * time, units.
     glm::dvec3 shift{0};
-    // Ci.
+    // Ci, the weights of the terms.
     std::array<double, limits::kMaxTextureTerms> coefficient{};
 };
 

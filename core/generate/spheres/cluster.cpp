@@ -7,7 +7,7 @@
 namespace awan {
 namespace {
 
-// (2 pi)^1.5.
+// (2 pi)^1.5: the mass of a Gaussian of peak 1 and s = 1.
 constexpr double kSqrtTwoPiCubed = 15.749609945722419;
 
 // A point of the Gauss-Legendre rule on 0..1; five of them are exact for polynomials of degree 9.

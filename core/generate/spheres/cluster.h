@@ -26,7 +26,7 @@ inline constexpr double kLeafVariance = 0.1283311049837019;
 // radius.
 struct ClusterMoments {
     double mass = 1;
-    // Centre of mass.
+    // The centre of mass, from the sphere's centre.
     glm::dvec3 mean{0};
     // Mean of |x|^2, about the sphere's centre.
     double square = 3 * kLeafVariance;
