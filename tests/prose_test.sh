@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # Prose that is checked by machine. Names every offender as file:line.
 #   bash tests/prose_test.sh
-# * Lines: comments at most 120 columns, code at most 100 (C++ and shaders; generated tables and data aside).
-# * Comments stand above what they explain: none begins behind code and goes on in the next line.
+# * Lines of comments and code are at most 120 columns long (C++ and shaders; raw strings and the fitted tables aside).
+# * Comments stand above what they explain, not behind it.
 # * Sources are cited as "Author year", by the bibliography of core/README.md, and by nothing that a reader cannot find.
 # * Files and folders named in core/README.md and README.md exist.
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root" || exit 1
 python3 - <<'PYTHON'
+import fnmatch
 import os
 import re
 import sys
@@ -31,6 +32,7 @@ def files(folders, endings):
 
 CODE = (".h", ".cpp", ".glsl")
 SELF = "tests/prose_test.sh"
+LONGEST = 120
 
 # --- Lines.
 for path in files(["core", "server", "tests"], CODE):
@@ -45,10 +47,22 @@ for path in files(["core", "server", "tests"], CODE):
             raw = False
         if was_raw or raw or path.endswith("forecast_tables.h"):
             continue
-        comment = line.lstrip().startswith("//")
-        limit = 120
-        if len(line) > limit and not re.fullmatch(r'\s*(//)?\s*\S+', line):
-            offend(path, number, f"{len(line)} columns, over {limit}")
+        if len(line) > LONGEST and not re.fullmatch(r"\s*(//)?\s*\S+", line):
+            offend(path, number, f"{len(line)} columns, over {LONGEST}")
+
+# --- Comments stand above what they explain. Rooms that do not keep to it yet are not in the list.
+ABOVE = ["core/base", "core/formats", "core/generate", "core/gl", "core/looks", "core/shaders", "server/cli", "server/http",
+         "server/service"]
+BEHIND = re.compile(r'''^(?:[^"'/]|"(?:[^"\\]|\\.)*"|(?<=\w)'|'(?:[^'\\]|\\.)*'|/(?!/))*''')
+for path in files(ABOVE, CODE):
+    with open(path, encoding="utf-8") as file:
+        for number, line in enumerate(file, 1):
+            code = BEHIND.match(line.rstrip("\n")).group(0)
+            behind = line.rstrip("\n")[len(code):]
+            if behind.startswith("// NOLINT"):
+                continue  # for clang-tidy, which wants it there
+            if behind.startswith("//") and code.strip() and not re.fullmatch(r"\s*}+\s*|#.*", code):
+                offend(path, number, "a comment behind code; it belongs above")
 
 # --- Words for what a reader cannot find. A scene is a document too; that word alone is no offence.
 HIDDEN = re.compile(r"\b[Dd]ocuments? 00\d\b|\b(?:PHYSICS|MODELS|DESIGN|PLATFORM|API)(?:\.md)?\b(?! *[=_(])")
@@ -85,7 +99,7 @@ for path in files(["core"], CODE + (".md",)):
         text += piece.strip(" ") + " "
         at += [number] * (len(piece.strip(" ")) + 1)
     for found in CITED.finditer(text):
-        author, year = found.group(1), found.group(2)
+        author, year = re.sub(r"'s?$", "", found.group(1)), found.group(2)
         if author in MONTHS or (author, year) in entries:
             continue
         # Two or three authors: any of their surnames before the year may be the first.
@@ -94,28 +108,27 @@ for path in files(["core"], CODE + (".md",)):
             continue
         offend(path, at[found.start()], f'"{found.group(0)}" is not in the bibliography of core/README.md')
 
-# --- Files named in the two pages.
+# --- Files named in the two pages. A worked example invents its own: `plume`, `.vtp`.
+known = []
+for at, inside, names in os.walk("."):
+    inside[:] = [name for name in inside if name not in (".git", "build", "node_modules")]
+    known += ["/" + os.path.normpath(os.path.join(at, name)) for name in names]
+    known += ["/" + os.path.normpath(os.path.join(at, name)) + end for name in inside for end in ("", "/")]
 for path in ("core/README.md", "README.md"):
     with open(path, encoding="utf-8") as file:
         for number, line in enumerate(file, 1):
-            # A worked example invents its own: `plume`, `rainbow`, `transport-40`, `.vtp`.
-            for name in re.findall(r"`([\w./*-]+)`|\]\(([\w./-]+)[)#]", line):
-                name = name[0] or name[1]
-                if re.search(r"plume|vtp", name) or not re.search(r"/|\.(?:h|cpp|md|sh|py|js|json|glsl|mjs|png)$", name):
+            for code, link in re.findall(r"`([\w./*-]+)`|\]\(([\w./-]+)[)#]", line):
+                name = link or code
+                if re.search(r"plume|vtp|^\.", name) and not link:
                     continue
-                if name.startswith(("/", "build/", ".")) and not name.startswith("../"):
-                    continue
-                base = os.path.dirname(path) if name.startswith("..") else ""
-                places = [os.path.normpath(os.path.join(base, name)), os.path.join(os.path.dirname(path), name)]
-                if any(os.path.exists(place.replace("*", "")) for place in places):
-                    continue
-                if "/" in name and "*" in name:
-                    import glob
-                    if any(glob.glob(place) for place in places):
-                        continue
-                if "/" not in name and any(name in names for _, _, names in os.walk(".")):
-                    continue
-                offend(path, number, f"{name} does not exist")
+                if not link and not re.search(r"/|\.(?:h|cpp|md|sh|py|js|json|glsl|mjs|png)$", name):
+                    continue  # a word of the document or of the code
+                if name.startswith(("/", "build/")):
+                    continue  # a route of the service, a path of the build
+                if link:
+                    name = os.path.normpath(os.path.join(os.path.dirname(path), link))
+                if not any(fnmatch.fnmatch(one, "*/" + name) for one in known):
+                    offend(path, number, f"{name} does not exist")
 
 for path, line, what in offenders:
     print(f"{path}:{line}: {what}")
