@@ -22,10 +22,10 @@ struct FilledParticle {
 //
 // kGardner: the same points, displaced by the phase shifts of Gardner 1985. With x, y, z from the centre and F = 2 pi
 // / side,
-//   PX = pi/2 sin(FY y) + pi sin(FX z / 2),    PY = pi/2 sin(FX x) + pi sin(FX z / 2). A phase P of a wave of
-//   frequency F is a displacement P / F; what leaves the cube is reflected at its face. The map is odd about the
-//   centre, so the cloud stays centred, in clumps and gaps. (Sunar et al. 2005 (4.6) has the phase Px in the place of
-//   the frequency FX in the third sine.)
+//   PX = pi/2 sin(FY y) + pi sin(FX z / 2),    PY = pi/2 sin(FX x) + pi sin(FX z / 2).
+// A phase P of a wave of frequency F is a displacement P / F; what leaves the cube is reflected at its face. The map
+// is odd about the centre, so the cloud stays centred, in clumps and gaps. (Sunar et al. 2005 (4.6) has the phase Px
+// in the place of the frequency FX in the third sine.)
 //
 // kPrinted: equations (4.2)-(4.12) of Sunar et al. 2005 as they stand, one statement after the other, with their
 // bias: only the positive octant is filled, the mean is off by +0.2..+0.3 of a side. The radius of (4.12) can leave

@@ -6,8 +6,8 @@
 // extinction is about `edge`, and between the lumps it is nothing. So silhouettes follow the bumps, the inside stays
 // as it was, and the mean over realisations is sigma itself:
 //   sigma' = keep * edge * min(u / E(u), kMostGathered) * ramp(n; u),    E(u) = mean of ramp(n; u) over n,
-//   ramp(n; u) = clamp((n - 1 + u (1 + w)) / w, 0, 1),    w = kSoftness;    sigma' = keep * sigma where u >= 1. Only
-//   where u < .2 or so does the bound kMostGathered lose mass; `keep` puts it back everywhere.
+//   ramp(n; u) = clamp((n - 1 + u (1 + w)) / w, 0, 1),    w = kSoftness;    sigma' = keep * sigma where u >= 1.
+// Only where u < .2 or so does the bound kMostGathered lose mass; `keep` puts it back everywhere.
 #pragma once
 
 #include <cstdint>

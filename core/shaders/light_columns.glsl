@@ -4,8 +4,9 @@
 // A column is one line from the light through one texel. Each particle adds its whole optical depth on that line (and
 // its gain depth, see light/light.cpp), spread over the slabs as its mass is. Summed up along the column
 // (light_sums.glsl), that is exactly the recurrence of Harris & Lastra 2001,
-//   I_k = g_(k-1) + T_(k-1) I_(k-1),    T = exp(-tau), between particles, and within one the light falls off as its
-//   Gaussian does. Columns do not need each other, and the sums have no order to keep.
+//   I_k = g_(k-1) + T_(k-1) I_(k-1),    T = exp(-tau),
+// between particles, and within one the light falls off as its Gaussian does. Columns do not need each other, and the
+// sums have no order to keep.
 //
 // A work group makes a brick of 8 x 8 texels and 8 slabs; a work item makes a row of 8 texels along v with all slabs.
 // What is the same for a whole particle is then worked out once for 64 cells.
@@ -38,8 +39,9 @@ vec4 share_before(vec4 x) {
 
 // The gain depth (gain_curve in light/light.cpp) of a line through a particle whose optical depth on that line is
 // tau:
-//   start tau / (1 + bend tau). It is exact for thin lines and for the line through the centre, and bounded as the
-//   exact one is. Between these it is within 2% for particles up to optical depth 1, and within 25% for any.
+//   start tau / (1 + bend tau).
+// It is exact for thin lines and for the line through the centre, and bounded as the exact one is. Between these it
+// is within 2% for particles up to optical depth 1, and within 25% for any.
 vec4 gained(vec4 tau, float start, float bend) { return start * tau / (1.0 + bend * tau); }
 
 // What one slab of a row of 8 texels holds, as 4 + 4 texels along v: optical depth and gain depth.

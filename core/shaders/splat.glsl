@@ -1,11 +1,11 @@
 // Pass 2: Gaussian particles blended front to back, per pixel (Harris & Lastra 2001):
-//   E_k = S_k + T_k E_(k-1),    S = a (1 - e^-tau) p I / 4 pi,    T = e^-tau. Print has S = a tau p I / 4 pi (Sunar
-//   et al. 2005, below (3.13)), which is not bounded by the light that arrives.
+//   E_k = S_k + T_k E_(k-1),    S = a (1 - e^-tau) p I / 4 pi,    T = e^-tau.
+// Print has S = a tau p I / 4 pi (Sunar et al. 2005, below (3.13)), which is not bounded by the light that arrives.
 //
 // A work group draws a tile of 8 x 16 pixels; a work item draws a column of 16 of them, four by four in vectors. A
 // particle's optical depth along a pixel's ray d is exact in perspective,
-//   tau exp(-|q x d|^2 / (2 s^2 |d|^2)),    q: from the eye to the centre, and in a column |q x d|^2 = C (Y - Y0)^2 +
-//   m, without cancellation.
+//   tau exp(-|q x d|^2 / (2 s^2 |d|^2)),    q: from the eye to the centre,
+// and in a column |q x d|^2 = C (Y - Y0)^2 + m, without cancellation.
 //
 // The program is compiled twice, since llvmpipe runs both sides of every branch: INTERIOR (effect `interior`) takes
 // only the half line before the eye, for all particles, the other the whole line. Light and phase function are

@@ -49,9 +49,9 @@ Result<AutomatonState> first_state(const AutomatonCloud& cloud, std::uint64_t ke
 // moves the ellipsoids;
 //   growth (3.1)-(3.4):    hum' = hum & !act,    cld' = cld | act,    act' = !act & hum & f_act,
 //   f_act = any act at (+-1,0,0), (0,+-1,0), (0,0,+-1), (+-2,0,0), (0,0,+-2), (0,-2,0);
-//   chance (3.5)-(3.7):    cld &= random > p_ext,    hum |= random < p_hum,    act |= random < p_act; the wind shifts
-//   layers (3.8)-(3.10). All bits of one step are read before any of the next is written. Upchurch 2009 prints the
-//   inequalities of (3.6) and (3.7) the wrong way round, as (6) and (7).
+//   chance (3.5)-(3.7):    cld &= random > p_ext,    hum |= random < p_hum,    act |= random < p_act;
+// the wind shifts layers (3.8)-(3.10). All bits of one step are read before any of the next is written. Upchurch 2009
+// prints the inequalities of (3.6) and (3.7) the wrong way round, as (6) and (7).
 Status step_automaton(const AutomatonCloud& cloud, int threads, const Deadline& deadline,
                       AutomatonScratch& scratch, AutomatonState& state);
 

@@ -11,13 +11,13 @@
 namespace awan {
 
 // A leaf as a medium. Ostroushko et al. 2010 (1)-(3) let a ray at the distance d from the middle of a sphere keep
-//   T f + 1 - f    of its light,    f = 1 - d/r,    T = t^l,    l = 2 sqrt(r^2 - d^2). That is no medium: however
-//   dense, 1 - f comes through. Its limit for thin spheres is one: the optical depth there is f sigma l, sigma = -ln
-//   t. Over the disc this makes
+//   T f + 1 - f    of its light,    f = 1 - d/r,    T = t^l,    l = 2 sqrt(r^2 - d^2).
+// That is no medium: however dense, 1 - f comes through. Its limit for thin spheres is one: the optical depth there
+// is f sigma l, sigma = -ln t. Over the disc this makes
 //   mass (integral of the depth)    4 pi sigma r^3 (1/3 - pi/16),
-//   variance of a coordinate        r^2 / 2 * (2/15 - pi/32) / (1/3 - pi/16),    of a Gaussian s^2, and the leaf is
-//   the Gaussian that has both. Its depth through the middle is 2.13 sigma r; by the printed rule it is 2 sigma r.
-//   kLeafMass is the mass over sigma r^3.
+//   variance of a coordinate        r^2 / 2 * (2/15 - pi/32) / (1/3 - pi/16),    of a Gaussian s^2,
+// and the leaf is the Gaussian that has both. Its depth through the middle is 2.13 sigma r; by the printed rule it is
+// 2 sigma r. kLeafMass is the mass over sigma r^3.
 inline constexpr double kLeafMass = 1.721389104514051;
 // The variance over r^2.
 inline constexpr double kLeafVariance = 0.1283311049837019;

@@ -34,8 +34,8 @@ struct Part {
 // pictures 300 and 450 pixels high:
 //   ratios .26...76, extinctions .2 and 2: cut at 1.5 pixels .0017, 3: .010, 6: .023, 12: .071, 24: .18;
 //   ratios .2...7: cut at 1.5 pixels .0014, 3: .006, 6: .04;
-//   ratios .1...6: cut at 1.5 pixels .009, 3: .036, 6: .17, 12: .34, 24: .48. spheres_cut_test does it smaller. Where
-//   little is cut it is up to ten times too high.
+//   ratios .1...6: cut at 1.5 pixels .009, 3: .036, 6: .17, 12: .34, 24: .48.
+// spheres_cut_test does it smaller. Where little is cut it is up to ten times too high.
 double error_of_cut(const Span& ratios, double pixels, double mass_share) {
     const double met =
         5 * (ratios.low * ratios.low + ratios.low * ratios.high + ratios.high * ratios.high) / 3;
