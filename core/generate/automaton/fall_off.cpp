@@ -74,8 +74,8 @@ struct Reach {
     std::size_t first = SIZE_MAX, last = 0;
 };
 
-// Keeps in `out` the smaller of what is there and d^2, along a row: d^2 = (start + i * inverse)^2 + rest, i counted
-// in cells, `inverse` a cell in radii, `rest` the part across the row.
+// Keeps in `out` the smaller of what is there and d^2, along a row of cells i:
+//   d^2 = ((start + i) inverse)^2 + rest,    inverse: a cell in radii, rest: the part across the row.
 AWAN_CLONES void keep_smallest(float start, float inverse, float rest, std::int32_t count,
                                float* out) {
     for (std::int32_t i = 0; i < count; ++i) {
@@ -85,6 +85,7 @@ AWAN_CLONES void keep_smallest(float start, float inverse, float rest, std::int3
     }
 }
 
+// Writes d^2 where no ellipsoid has been yet: the first one that holds a cell counts.
 AWAN_CLONES void keep_first(float start, float inverse, float rest, std::int32_t count,
                             float* out) {
     for (std::int32_t i = 0; i < count; ++i) {

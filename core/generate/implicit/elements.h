@@ -67,8 +67,8 @@ AWAN_INLINE lanes::Floats wyvill(const lanes::Floats& a2) {
     return t * t * (1.0f - s * (4.0f / 9));
 }
 
-// The density of elements list[0 .. count) at p, in the frame: sum of weight_i h(|p - q_i| / radius_i), q_i the
-// closest point of element i; at least 0.
+// The density of elements list[0 .. count) at p, in the frame: the sum of weight h(d / radius), at least 0. d is the
+// distance from the element's solid part; of an ellipsoid, whose radii differ, it is measured where it is a sphere.
 AWAN_INLINE lanes::Floats macro_density(const Element* elements, const std::uint32_t* list,
                                         int count, const lanes::Vec& p) {
     using lanes::Floats;
