@@ -11,6 +11,7 @@
 
 namespace awan {
 
+// A moment after which the answer is of no use, and whether anybody still waits for it.
 struct Deadline {
     using Clock = std::chrono::steady_clock;
 

@@ -9,6 +9,7 @@
 
 namespace awan {
 
+// What kind of thing went wrong; it decides the HTTP status and the exit code.
 enum class ErrorCode {
     // HTTP 400, exit code 3: the text is no JSON, or no layout at all.
     kMalformed,
@@ -30,6 +31,7 @@ enum class ErrorCode {
     kInternal,
 };
 
+// What went wrong, and where.
 struct Error {
     ErrorCode code = ErrorCode::kInternal;
     // JSON pointer (RFC 6901) to the offending value, e.g. "/cubes/3/size/1"; "" is the whole

@@ -10,6 +10,7 @@
 
 namespace awan {
 
+// Makes an animated PNG of PNG files, frame by frame.
 class ApngWriter {
   public:
     // delay_ms: how long a frame is shown, 1..65535; frames: how many will come, >= 1.

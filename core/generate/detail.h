@@ -34,6 +34,7 @@ inline constexpr float kMostGathered = 1.5f;
 // 256. Never changed once made, and shared: 3.6 MB.
 using DetailTile = std::shared_ptr<const std::vector<std::uint32_t>>;
 
+// The field n, fitted to a cloud: what detailed() needs to turn a smooth extinction into a detailed one.
 struct DetailField {
     DetailTile tile;
     // From scene units to voxels, turned so that no axis of the tile is one of the scene.

@@ -32,6 +32,7 @@ struct LatticeField {
 // over a constant field is constant within 2 exp(-2 pi^2 s^2) an axis: 4.8e-4 at .65, 3.9e-3 at .55.
 inline constexpr double kLatticeS = 0.65;
 
+// How cells become particles.
 struct LatticeOptions {
     // Cells at or below this are left out. What they had is shared by the others in proportion, so that the mass
     // stays.

@@ -13,6 +13,7 @@
 
 namespace awan {
 
+// What a model needs to know beside the cloud's description.
 struct ModelRequest {
     // The key of all that is random in the cloud: keyed(seed, place in the scene).
     std::uint64_t key = 1;
@@ -32,6 +33,7 @@ struct ModelRequest {
     double density = 1;
 };
 
+// What a model makes.
 struct ModelParticles {
     // Their densities multiply the cloud's density; their colours are empty.
     ReadyParticles particles;
@@ -44,6 +46,8 @@ struct ModelParticles {
     std::uint64_t variant = 0;
 };
 
+// One function a model, in its own folder. Errors: kOverDeadline, kCancelled; of an automaton also kInvalidScene, when
+// it is to go on from the state of another cloud.
 Result<ModelParticles> automaton_particles(const AutomatonCloud& cloud, const ModelRequest& request,
                                            const Deadline& deadline);
 Result<ModelParticles> spheres_particles(const SpheresCloud& cloud, const ModelRequest& request,

@@ -33,6 +33,7 @@ struct ParticleSet {
     std::size_t size() const { return center.size(); }
 };
 
+// An axis-aligned box.
 struct Bounds {
     // Scene units; both 0 for an empty set.
     glm::dvec3 min{0}, max{0};

@@ -9,6 +9,7 @@
 
 namespace awan {
 
+// What draws, for people.
 struct DeviceInfo {
     // GL_RENDERER, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)".
     std::string renderer;
@@ -22,6 +23,7 @@ struct DeviceInfo {
 // kAuto: a GPU if there is one, else Mesa's llvmpipe.
 enum class DeviceChoice { kAuto, kSoftware };
 
+// The context and its programs. Move-only.
 class Device {
   public:
     // Fails with kNoRenderer and the EGL step and code that failed.

@@ -69,6 +69,7 @@ struct PixelBox {
     int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
 };
 
+// An ellipsoid as the picture sees it.
 struct SeenEllipsoid {
     UnitSphere sphere;
     PlacedEllipsoid placed;
@@ -77,6 +78,7 @@ struct SeenEllipsoid {
     PixelBox box;
 };
 
+// A cloud as the picture sees it.
 struct SeenCloud {
     const EllipsoidsCloud* model = nullptr;
     Motion motion{};
@@ -85,6 +87,7 @@ struct SeenCloud {
     std::optional<double> plane_height;
 };
 
+// All that a picture needs of the scene.
 struct Frame {
     std::vector<SeenCloud> clouds;
     // Only those that may show in a pixel.

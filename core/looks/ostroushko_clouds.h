@@ -40,6 +40,7 @@ inline bool meets(const glm::dvec3& c, double radius, const glm::dvec3& directio
 // l), f = 1 - d/r, where l is the ray's path in the sphere and d the distance of its line from the centre.
 double through(const SphereHit& hit, double radius, double sigma);
 
+// A cloud as the look sees it.
 struct LookCloud {
     SphereTree tree;
     Motion motion;
@@ -56,6 +57,7 @@ struct LookCloud {
     int upper_levels;
 };
 
+// The clouds of a scene, seen from an eye (scene units).
 std::vector<LookCloud> look_clouds(const Scene& scene, const glm::dvec3& eye);
 
 // From the cloud's coordinates to the scene's axes and back; directions, or lengths where `scale` is taken care of.

@@ -8,6 +8,7 @@
 
 namespace awan::looks {
 
+// The light of the scene as surfaces get it.
 struct LookLight {
     glm::dvec3 to_sun{0, 1, 0};
     // Radiance of a white surface that faces the sun: irradiance / pi.

@@ -54,6 +54,7 @@ struct LitPlace {
     Reaching share;
 };
 
+// A cone of rays from the eye.
 struct Cone {
     // Unit, from the eye.
     glm::dvec3 axis;
@@ -63,6 +64,7 @@ struct Cone {
 // Whether a ball may meet it; never false where it does.
 bool may_meet(const Cone& cone, const glm::dvec3& center, double radius);
 
+// What a cone of rays may meet.
 struct ConeSpheres {
     // The spheres, nearest first.
     std::vector<LookSphere> spheres;

@@ -39,6 +39,7 @@ class OutputFile {
 // Whether write_output could begin: said before long work, not after it.
 Status check_writable(const std::string& path);
 
+// Writes all of `bytes` to a file, or to standard output for "-".
 Status write_output(const std::string& path, std::string_view bytes);
 
 }  // namespace awan

@@ -45,6 +45,7 @@ Result<std::string> output_format(const std::string& output, const std::string& 
                                   const std::vector<std::string>& known,
                                   const std::string& otherwise);
 
+// Whether output would go to a terminal, where bytes that are no text do harm.
 bool binary_to_terminal(const std::string& output);
 
 // Opens a device if there is none yet and the plan's rung needs one.

@@ -10,6 +10,7 @@
 
 namespace awan {
 
+// Names by which this server may be called, and pages that may call it.
 struct AccessRules {
     // Names without port, in any case; IPv6 in brackets.
     std::vector<std::string> hosts;

@@ -13,6 +13,7 @@
 
 namespace awan {
 
+// Why something is no request that is answered: status, and one sentence.
 struct FramingError {
     int status = 400;
     std::string detail;

@@ -18,6 +18,7 @@
 
 namespace awan {
 
+// Where and how to serve.
 struct HttpOptions {
     std::string host = "127.0.0.1";
     // 0: any free port.
@@ -47,6 +48,7 @@ struct HttpOptions {
     std::chrono::milliseconds drain_deadline = limits::kDrainDeadline;
 };
 
+// The transport in front of a Service.
 class HttpServer {
   public:
     HttpServer(Service& service, Metrics& metrics, HttpOptions options);

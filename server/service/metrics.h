@@ -8,6 +8,7 @@
 
 namespace awan {
 
+// What /metrics shows.
 class Metrics {
   public:
     Metrics();

@@ -10,6 +10,7 @@
 
 namespace awan {
 
+// A file that is served as it is.
 struct Page {
     // E.g. "/", "/main.js", "/openapi.json".
     std::string path;
@@ -21,6 +22,7 @@ struct Page {
 // Every page, and `/` for index.html.
 std::vector<Page> make_pages();
 
+// A scene of web/presets.
 struct Preset {
     PresetEntry entry;
     std::string etag;

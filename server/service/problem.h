@@ -19,6 +19,7 @@ int exit_code_of(ErrorCode code);
 // A short title of a status, e.g. "Not Found"; also of 413, 421, 431.
 std::string_view status_title(int status);
 
+// An error as a problem document. pointer: "" where none belongs to it.
 Response problem(int status, std::string_view detail, std::string_view pointer,
                  std::string_view request_id);
 Response problem(const Error& error, std::string_view request_id);

@@ -9,6 +9,7 @@
 
 namespace awan {
 
+// What came of a render, and how long it waited in the queue.
 struct RenderJobResult {
     Result<Rendered> rendered;
     double queue_ms = 0;
@@ -28,6 +29,7 @@ inline constexpr std::size_t kLightCacheBytes = 256u << 20;
 // need no device use `threads`.
 OpenRenderer device_renderer(DeviceChoice choice, int threads);
 
+// The thread and its queue. Thread-safe.
 class RenderThread {
     struct State;
 

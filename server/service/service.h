@@ -16,6 +16,7 @@
 
 namespace awan {
 
+// A request as the transport has understood it.
 struct Request {
     // In upper case.
     std::string method;
@@ -36,6 +37,7 @@ struct Request {
     std::string_view header(std::string_view name) const;
 };
 
+// An answer for the transport to write.
 struct Response {
     int status = 200;
     // Content-Length is not among them; the transport adds it.
@@ -51,6 +53,7 @@ struct Response {
     std::string_view header(std::string_view name) const;
 };
 
+// How much the service may do at once.
 struct ServiceOptions {
     // Threads of one request, for generate, survey, and the rungs without a device.
     int threads = 1;
@@ -62,6 +65,7 @@ struct ServiceOptions {
     std::size_t work_bytes = limits::kWorkBytes;
 };
 
+// Answers requests.
 class Service {
   public:
     Service(RenderThread& renderer, Metrics& metrics, ServiceOptions options);

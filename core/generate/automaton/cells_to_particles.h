@@ -10,6 +10,7 @@
 
 namespace awan {
 
+// The density of an automaton's cells between two steps.
 struct CellDensity {
     // The cloud bits (cld) after the steps to smooth over, the last one first; `next` the same one step later, or
     // empty.

@@ -13,6 +13,7 @@
 
 namespace awan {
 
+// How deep every cell lies in its ellipsoid.
 struct FallOff {
     // A bit a cell: whether it lies within an ellipsoid and not below the base.
     std::vector<std::uint64_t> inside;

@@ -8,6 +8,7 @@
 
 namespace awan {
 
+// The shape of the lattice.
 struct AutomatonGrid {
     explicit AutomatonGrid(const glm::dvec3& cells)
         : nx(static_cast<std::size_t>(cells.x)),

@@ -49,6 +49,7 @@ inline std::uint64_t lanes_that_happen(std::uint64_t lanes, Chance chance, std::
     return happen;
 }
 
+// Binary digits of a distance (fall_off.h).
 inline constexpr unsigned kDistancePlanes = 16;
 
 // The same with a probability of its own for each cell: planes[n] holds digit n of every cell, kDistancePlanes of

@@ -48,6 +48,7 @@ struct TextureFunction {
     std::array<double, limits::kMaxTextureTerms> coefficient{};
 };
 
+// The function of a texture: with its k, which takes up to a millisecond to find.
 TextureFunction texture_function(const SineTexture& texture, bool in_space,
                                  const glm::dvec3& shift = glm::dvec3(0));
 

@@ -40,6 +40,7 @@ struct PreparedFlow {
     glm::dvec3 low{0}, high{0};
 };
 
+// Everything that the density at a point needs.
 struct ImplicitField {
     Frame frame;
     std::vector<Element> elements;

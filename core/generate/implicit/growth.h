@@ -10,6 +10,7 @@
 
 namespace awan {
 
+// A particle of the growth at one time.
 struct GrownParticle {
     // From the growth's centre, in radii.
     glm::dvec3 position{0};

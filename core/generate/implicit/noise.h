@@ -27,6 +27,7 @@ using lanes::Bits;
 using lanes::Floats;
 using lanes::Ints;
 
+// Perlin's quintic: 0 at 0, 1 at 1, with its first two derivatives 0 at both.
 AWAN_INLINE Floats fade(const Floats& t) {
     return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
 }
@@ -44,6 +45,7 @@ AWAN_INLINE Floats edge(const Bits& hash, const Floats& x, const Floats& y, cons
            lanes::floats(lanes::bits(v) ^ ((h & 2u) << 30));
 }
 
+// The cell of the lattice that a point lies in.
 struct Cell {
     // The place within the cell, 0 .. 1.
     Floats x, y, z;

@@ -37,6 +37,7 @@ struct ClusterMoments {
 // (Gauss-Legendre with 5 points; within 1e-2 of it).
 std::vector<ClusterMoments> cluster_moments(const SphereTree& tree);
 
+// A cluster of leaves as one Gaussian.
 struct GaussianBlob {
     glm::dvec3 center{0};
     // Standard deviation, in the units of the children.

@@ -26,6 +26,7 @@ namespace awan {
 
 inline constexpr int kSphereChildren = 5;
 
+// A sphere of the hierarchy.
 struct Sphere {
     // In the cloud's own coordinates.
     glm::dvec3 center{0};
