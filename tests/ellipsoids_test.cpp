@@ -142,7 +142,7 @@ TEST(Translucence, IsT1AtTheCentreAndT2OnTheSilhouette) {
     const Translucence t{0.2, 0.9, 0.1};
     EXPECT_DOUBLE_EQ(threshold_at(t, 1), 0.2);
     EXPECT_DOUBLE_EQ(threshold_at(t, 0), 0.9);
-    // TR = clamp(1 - (It - T1 - (T2-T1)(1-g))/D, 0, 1) of the source.
+    // TR = clamp(1 - (It - T1 - (T2-T1)(1-g))/D, 0, 1) of Gardner 1985.
     for (const double g : {0.0, 0.3, 1.0})
         for (const double it : {0.0, 0.25, 0.5, 0.85, 1.0}) {
             const double tr = std::clamp(1 - (it - 0.2 - (0.9 - 0.2) * (1 - g)) / 0.1, 0.0, 1.0);

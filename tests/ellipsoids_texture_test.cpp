@@ -160,7 +160,7 @@ TEST(GardnerTexture, TwoNegativeFactorsMakeNoCloud) {
 }
 
 TEST(GardnerTexture, PrintedPhasesForgetTheHeight) {
-    // Document 000 (4.6): where sin(FY y / 2) = 0 the phase PX is 0, and pi sin(PX Z/2) with it, for every term: the first
+    // Sunar et al. 2005 (4.6): where sin(FY y / 2) = 0 the phase PX is 0, and pi sin(PX Z/2) with it, for every term: the first
     // sum does not change with height at all. With the frequency, as Gardner has it, it does.
     SineTexture texture = texture_with(6, 1);
     const auto range_of = [&](TextureForm form) {

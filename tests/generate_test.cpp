@@ -79,7 +79,7 @@ TEST(Fill, UniformAndGardnerAreCentredPrintedIsNot) {
     // Independent points would be within .0009 (one standard error); these are better than random.
     EXPECT_LT(glm::length(uniform), 1e-4);
     EXPECT_LT(glm::length(gardner), 2e-3);
-    // The printed equations shift a cloud by a fifth to a third of a side (document 000, measured).
+    // The printed equations shift a cloud by a fifth to a third of a side (Sunar et al. 2005; measured).
     EXPECT_GT(printed.x, 0.1);
     EXPECT_GT(printed.z, 0.1);
 }

@@ -36,7 +36,7 @@ TEST(Growth, TwelveSeedsBecomeAboutFifty) {
         EXPECT_GT(count, 15);
         sum += count;
     }
-    // The document's figure 9.9: "approximately 50".
+    // Ebert 2002, figure 9.9: "approximately 50".
     EXPECT_NEAR(sum / 20, 50, 10);
     const ImplicitGrowth standard;
     EXPECT_LE(grown(standard, 1, 1e9).size(), 50u);

@@ -35,7 +35,7 @@ TEST(ImplicitJson, AnEmptyObjectIsTheCumulus) {
     const SceneDraft draft = draft_of(implicit_with(""));
     const ImplicitSettings s = resolved(cloud_of(draft));
     EXPECT_EQ(s.primitives.size(), 9u);
-    // The document's values: .2 to .4, .5, .4, .7.
+    // The values of Ebert 2002: .2 to .4, .5, .4, .7.
     EXPECT_EQ(s.amount, 0.4);
     EXPECT_EQ(s.exponent, 0.5);
     EXPECT_EQ(s.blend, 0.4);

@@ -56,7 +56,7 @@ double simpson(double from, double to, const std::function<double(double)>& f) {
 }
 
 TEST(Integral, OfASphereIsTheClosedForm) {
-    // 736/2835 pi R^3, not the 748/405 pi R of document 001.
+    // 736/2835 pi R^3, not the 748/405 pi R of Upchurch 2009.
     EXPECT_NEAR(integral(bare({ball({3, 1, -2}, 1.7)})) / (736.0 / 2835 * kPi * std::pow(1.7, 3)),
                 1, 1e-4);
     const double by_quadrature =

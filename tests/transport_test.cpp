@@ -197,16 +197,16 @@ TEST(Transport, WhiteFurnace) {
         for (const double density : {.02, .2, 2.}) {
             const Solved solved = solve(furnace(g, density), 24, 2, 1e-4);
             const auto [low, high] = furnace_range(solved.light, 1);
-            // Optical depth 3 and 30 within 1%. At 300 light takes 1e5 scatterings to the middle, and what a residual of 1e-4
-            // leaves there is 4%, where nobody sees it.
+            // Optical depth 3 and 30 within 1%. At 300 light takes 1e5 scatterings to the middle, and what a residual
+            // of 1e-4 leaves there is 4%, where nobody sees it.
             const double bound = density < 1 ? .01 : .05;
             EXPECT_GT(low, 1 - bound) << "g " << g << " density " << density;
             EXPECT_LT(high, 1 + bound) << "g " << g << " density " << density;
         }
 }
 
-// What a cloud takes from the sun leaves it again, or is absorbed: with albedo a the scattered power cannot be more than the
-// power that falls on it times a / (1 - a), nor negative anywhere by more than the scheme's ripples.
+// What a cloud takes from the sun leaves it again, or is absorbed: with albedo a the scattered power cannot be more
+// than the power that falls on it times a / (1 - a), nor negative anywhere by more than the scheme's ripples.
 TEST(Transport, DarkMatterIsDarkAndThinMatterHoldsNoLight) {
     SceneDraft draft = test::table_4_4();
     draft.sky.none = true;

@@ -18,6 +18,7 @@ using Floats = float __attribute__((vector_size(64)));
 using Ints = std::int32_t __attribute__((vector_size(64)));
 using Bits = std::uint32_t __attribute__((vector_size(64)));
 
+// The same number in every lane.
 AWAN_INLINE Floats all(float x) {
     return Floats{} + x;
 }

@@ -14,7 +14,8 @@ AWAN_INLINE double dot_product_body(const float* a, const float* b, std::size_t 
     double sum = 0;
     for (std::size_t run = 0; run < count; run += kRun) {
         const std::size_t end = std::min(run + kRun, count);
-        Lanes parts[2] = {};  // two chains of additions
+        // Two sums that do not wait for each other.
+        Lanes parts[2] = {};
         std::size_t i = run;
         for (; i + 2 * kLanes <= end; i += 2 * kLanes) {
             Lanes x[2], y[2];

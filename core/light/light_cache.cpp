@@ -58,6 +58,7 @@ std::string light_key(const Scene& scene, const TransportSettings& settings, std
     add(sky ? 1 : 0);
     add(ground ? 1 : 0);
     add(ground_shadow ? 1 : 0);
+    add(islands.size());
     for (const auto& [own_cells, own_sun_cells] : islands) {
         add(static_cast<std::uint64_t>(own_cells));
         add(static_cast<std::uint64_t>(own_sun_cells));

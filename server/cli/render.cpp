@@ -14,7 +14,7 @@
 namespace awan {
 namespace {
 
-// What renders one after the other work with.
+// What the renders of one command share.
 struct Work {
     explicit Work(const RenderCommand& c) : command(c) {}
 
@@ -23,7 +23,8 @@ struct Work {
     std::optional<Device> device;
     ProgressLine progress;
     DetailTiles tiles;
-    std::string prefix;  // of what is said, e.g. "frame 3 of 12, "
+    // Put before what is said, e.g. "frame 3 of 12, ".
+    std::string prefix;
 };
 
 Result<Rendered> render_frame(const Scene& scene, Result<Planned> planned, Work& work) {

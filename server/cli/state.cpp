@@ -19,7 +19,7 @@ using automaton::read_state;
 using automaton::run_automaton;
 using automaton::write_state;
 
-// As generate() gives it to the model.
+// The key that generate() gives to the model.
 std::uint64_t key_of(const SceneDraft& draft, std::size_t k) {
     return keyed(draft.clouds[k].seed.value_or(draft.seed), k);
 }
@@ -64,7 +64,8 @@ Status begin_with_state(const std::string& path, SceneDraft& draft) {
         if (!cloud.automaton || key_of(draft, k) != state->key) continue;
         AutomatonCloud resumed = *cloud.automaton;
         resumed.start = std::make_shared<const AutomatonState>(*std::move(state));
-        // Whether it fits is asked here, where the pointer can name the cloud; a draft that cannot be says so later.
+        // Whether the state fits is asked here, where the pointer can name the cloud. A draft that cannot be a scene
+        // says so later.
         const std::string at = "/clouds/" + std::to_string(k) + "/automaton";
         if (!check_model(resumed, at))
             if (Status wrong = check_start(resumed, resumed.start->key)) {

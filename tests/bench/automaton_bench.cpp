@@ -1,5 +1,6 @@
-// Cellular automata against the figures of their source: document 001, on a 2.4 GHz Core 2 Duo, gives .3 s for a step of
-// 256 x 20 x 256 cells with its smoothing and .3 s for the tables of probability of 100 ellipsoids; Dobashi et al. .5 s a step.
+// Cellular automata against the figures of their source: Upchurch 2009, on a 2.4 GHz Core 2 Duo, gives .3 s for a step
+// of 256 x 20 x 256 cells with its smoothing and .3 s for the tables of probability of 100 ellipsoids; Dobashi et al.
+// 2000 .5 s a step.
 //   build/release/tests/automaton_bench
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
@@ -131,8 +132,8 @@ void DefaultCloud(benchmark::State& state) {
 }
 BENCHMARK(DefaultCloud)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-// What blocks of cells cost a picture: rms over rms of cloud pixels, beside one Gaussian a cell. Arguments: side of a block;
-// 0: all of the field in the picture, 1: one cloud from near by; the metaballs' radius, tenths of a cell.
+// What blocks of cells cost a picture: rms over rms of cloud pixels, beside one Gaussian a cell. Arguments: side of a
+// block; 0: all of the field in the picture, 1: one cloud from near by; the metaballs' radius, tenths of a cell.
 void Blocks(benchmark::State& state) {
     SceneDraft draft;
     draft.top_level_cubes = false;
