@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/fingerprint.h"
 #include "core/scene/scene.h"
 #include "core/scene/validate.h"
 #include "server/document/json.h"

@@ -27,7 +27,8 @@ TEST_F(ServiceTest, PagesAreStrictAboutScripts) {
         if (file.name.starts_with("presets/")) continue;
         const Response response = get("/" + std::string(file.name));
         EXPECT_EQ(response.status, 200) << file.name;
-        EXPECT_EQ(response.body, file.text);
+        // The contract has the scene's part from the tables of core/scene.
+        if (file.name != "openapi.json") EXPECT_EQ(response.body, file.text);
         EXPECT_NE(response.header("Content-Type"), "application/octet-stream") << file.name;
     }
 }
@@ -63,9 +64,8 @@ TEST_F(ServiceTest, ContractNamesEveryRoute) {
             << path;
     std::string rungs;
     for (const Rung& rung : ladder())
-        rungs +=
-            (rungs.empty() ? "          \"" : ",\n          \"") + std::string(rung.name) + '"';
-    EXPECT_NE(contract.body.find("\"enum\": [\n" + rungs + "\n        ]"), std::string::npos);
+        rungs += (rungs.empty() ? "\"" : ",\"") + std::string(rung.name) + '"';
+    EXPECT_NE(contract.body.find("\"enum\":[" + rungs + "]"), std::string::npos);
     EXPECT_NE(contract.body.find("\"version\": \"" + std::string(engine_version()) + "\""),
               std::string::npos);
 }

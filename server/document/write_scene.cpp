@@ -126,7 +126,8 @@ bool is_standard(const Field& field, const void* value, const void* standard, co
         case Holds::kSwitch:
             return *static_cast<const Switch*>(value) == *static_cast<const Switch*>(standard);
         default:
-            return is_empty_list(field, value);
+            // A list that may be absent says something by being empty.
+            return !field.access.optional && is_empty_list(field, value);
     }
 }
 

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "core/scene/fingerprint.h"
 #include "core/formats/awn.h"
 #include "core/formats/image_file.h"
 #include "core/formats/particle_files.h"
 #include "core/generate/generate.h"
+#include "core/scene/fingerprint.h"
 #include "core/scene/validate.h"
 #include "server/document/json.h"
 #include "server/document/scene_text.h"
