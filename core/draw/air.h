@@ -1,14 +1,14 @@
 // The haze as the eye pass sees it.
 //
-// On a ray let T_c and T_h be the transmittances of the clouds and of the haze from the eye to a distance t, O = 1 - T_h the
-// haze's opacity, and H(t) the light that the haze scatters to the eye from before t. By parts, a pixel is
+// On a ray let T_c and T_h be the transmittances of the clouds and of the haze from the eye to a distance t, O = 1 -
+// T_h the haze's opacity, and H(t) the light that the haze scatters to the eye from before t. By parts, a pixel is
 //     sum_i w_i (S_i T_h(t_i) + H(t_i)) + T_c(end) (background T_h(end) + H(end)),
 // w_i the weight of the clouds' sample i (its own opacity times T_c before it), S_i that sample's radiance. This holds
 // for haze before, between and behind the clouds. The haze's light is
 //     H(t) = albedo (sun p(theta) (O(t) - L(t)) + ambient O(t)),
-// L what the clouds' shadows take from it (air_shadows.h), p the phase function. `ambient` is the mean of all radiance that
-// comes in from the sky and from the ground far away. That clouds shade it, and that it is scattered more into some
-// directions than into others, is left out: that is a part of the model.
+// L what the clouds' shadows take from it (air_shadows.h), p the phase function. `ambient` is the mean of all radiance
+// that comes in from the sky and from the ground far away. That clouds shade it, and that it is scattered more into
+// some directions than into others, is left out: that is a part of the model.
 #pragma once
 
 #include <optional>
@@ -34,7 +34,8 @@ struct Air {
 
 PictureRays picture_rays(const View& view, int width, int height);
 
-// None where the scene has no haze. Without the clouds' shadows. Over a ground, a sun below the horizon does not light it.
+// None where the scene has no haze. Without the clouds' shadows. Over a ground, a sun below the horizon does not light
+// it.
 std::optional<Air> make_air(const Scene& scene, const View& view);
 // Puts the clouds' shadows in.
 void shade_air(const SunDepth& sun, int threads, Air& air);

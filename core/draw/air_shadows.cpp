@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMostSlices = 64;
-// Cells of the sun's depth in a slice. With half as many, the light over the cloud of Rekawan's table 4.4 changes by 1e-4.
+// Cells of the sun's depth in a slice. With half as many, the light over the cloud of Rekawan's table 4.4 changes by
+// 1e-4.
 constexpr double kSliceCells = 2;
 // Pictures up to this many pixels have rays 2, 4 pixels apart, larger ones 8.
 constexpr int kSmall = 160 * 120, kMiddling = 400 * 300;
@@ -40,8 +41,8 @@ std::uint32_t slices(double length, double per_unit) {
         std::clamp(std::ceil(length * per_unit / kSliceCells), 1.0, kMostSlices));
 }
 
-// Where the ray may meet shadow: in the prism that the lattice of the sun's depth fills when it is moved along the light.
-// Within the lattice shadow changes from cell to cell; behind it only as far as the ray crosses the light.
+// Where the ray may meet shadow: in the prism that the lattice of the sun's depth fills when it is moved along the
+// light. Within the lattice shadow changes from cell to cell; behind it only as far as the ray crosses the light.
 AirShadows::Ray place(const SunDepth& sun, const glm::dvec3& eye, const glm::dvec3& direction,
                       double end) {
     AirShadows::Ray ray;

@@ -10,12 +10,12 @@
 
 namespace awan {
 
-// The haze between the eye and a point at distance t would scatter so much sunlight to the eye; clouds keep this share of it
-// away:
+// The haze between the eye and a point at distance t would scatter so much sunlight to the eye; clouds keep this share
+// of it away:
 //     lost(t) = integral from 0 to t of (1 - V) dO / O(t),     O = 1 - exp(-depth of the haze from the eye to t),
-// V the sun's transmittance through the clouds. It is tabulated along rays that are `spacing` pixels apart, at the ends of
-// slices about two cells of the sun's depth long; slices lie only where there can be shadow. In a slice dO is exact and
-// V is taken from its middle.
+// V the sun's transmittance through the clouds. It is tabulated along rays that are `spacing` pixels apart, at the ends
+// of slices about two cells of the sun's depth long; slices lie only where there can be shadow. In a slice dO is exact
+// and V is taken from its middle.
 struct AirShadows {
     struct Ray {
         // Shadows lie between `from` and `to`; at `mid` the ray enters or leaves the box of the matter.

@@ -1,5 +1,5 @@
-// Pass 2 of the transport rungs: every pixel's ray is marched through the particles, with their exact optical depth, the
-// light of the grid, and the sun's beam. No GL.
+// Pass 2 of the transport rungs: every pixel's ray is marched through the particles, with their exact optical depth,
+// the light of the grid, and the sun's beam. No GL.
 #pragma once
 
 #include "core/draw/image.h"
@@ -9,8 +9,8 @@
 namespace awan {
 
 struct MarchSettings {
-    double step_error =
-        0.01;  // about how much the steps may cost, as a share of a pixel's radiance
+    // About how much the steps may cost, as a share of a pixel's radiance.
+    double step_error = 0.01;
     bool aerial_perspective = true;  // whether the scene's haze, if it has any, is drawn
     bool light_shafts = true;        // and whether the clouds' shadows are in it
 };

@@ -29,14 +29,14 @@ struct SeenParticle {
     BlockBox blocks;
 };
 
-// The particles in the picture, nearest first (ties: in the set's order). A Gaussian is cut off where the optical depth of
-// lines through it falls below 3e-5, but at no less than 3.8 s and no more than 9 s, and scaled so that its mass stays whole. One
-// whose s is below 0.6 pixels is widened to that, its optical depth times area kept.
+// The particles in the picture, nearest first (ties: in the set's order). A Gaussian is cut off where the optical depth
+// of lines through it falls below 3e-5, but at no less than 3.8 s and no more than 9 s, and scaled so that its mass
+// stays whole. One whose s is below 0.6 pixels is widened to that, its optical depth times area kept.
 std::vector<SeenParticle> see_particles(const ParticleSet& particles, const View& view, int width,
                                         int height, int threads);
 
-// Calls work(block x, block y, indices into `seen`) for every block of pixels, in no order, on several threads. Lists are made
-// for a few rows of blocks at a time: they hold at most 2^23 entries, or those of one row.
+// Calls work(block x, block y, indices into `seen`) for every block of pixels, in no order, on several threads. Lists
+// are made for a few rows of blocks at a time: they hold at most 2^23 entries, or those of one row.
 using BlockWork = std::function<void(int, int, const std::vector<std::uint32_t>& items)>;
 void for_each_block(const std::vector<SeenParticle>& seen, int width, int height, int threads,
                     const BlockWork& work);

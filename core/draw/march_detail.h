@@ -1,5 +1,5 @@
-// Detail (core/generate/detail.h) in a tile's depth profile, sixteen pixels at a time. Bodies are inlined into one function
-// a target in march_targets.cpp.
+// Detail (core/generate/detail.h) in a tile's depth profile, sixteen pixels at a time. Bodies are inlined into one
+// function a target in march_targets.cpp.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ using simd::Floats;
 using simd::Ints;
 using simd::kLanes;
 
-// A block's rays in the tile of noise that detail repeats over space, in voxels. The block's axes are right, up and middle
-// (its middle ray). At distance t from the eye the ray of direction middle + x right + y up + z middle is at
+// A block's rays in the tile of noise that detail repeats over space, in voxels. The block's axes are right, up and
+// middle (its middle ray). At distance t from the eye the ray of direction middle + x right + y up + z middle is at
 //     start + (t - reference) middle + t (x right + y up + z middle).
 struct DetailRays {
     const DetailField* field = nullptr;  // null: there is no detail
@@ -65,8 +65,9 @@ AWAN_INLINE Floats bumps_at(const std::uint32_t* words, const Floats p[3]) {
     return (a + part[2] * (b - a) + 0.5f) * (1.0f / 256);
 }
 
-// detailed() of core/generate/detail.h, divided by keep * edge, for u in 0..1: min(u / E(u), kMostGathered) * ramp(n; u). With
-// w the softness and a = 1 - u (1 + w) the noise at which the ramp begins, E(u) is the mean of the ramp over n in 0..1:
+// detailed() of core/generate/detail.h, divided by keep * edge, for u in 0..1: min(u / E(u), kMostGathered) * ramp(n;
+// u). With w the softness and a = 1 - u (1 + w) the noise at which the ramp begins, E(u) is the mean of the ramp over n
+// in 0..1:
 //     (1 - a)^2 / (2 w)              where a >= 1 - w: the ramp is cut off at its upper end,
 //     (1 - a) - w / 2                where 0 <= a < 1 - w,
 //     1 - (a + w)^2 / (2 w)          where a < 0: it is cut off at its lower end.
@@ -101,7 +102,8 @@ AWAN_INLINE void add_detail(const DetailRays& rays, const Chunk& chunk, Tile& ti
         const Floats u = tile.profile[k] * per_whole;
         const Ints thin = static_cast<Ints>(u < 1.0f) & static_cast<Ints>(1e-6f < u);
         const float t = chunk.from + (static_cast<float>(k) + 0.5f) * chunk.step;
-        // Bumps smaller than a pixel would be seen as noise: as they shrink from two pixels to one, smooth matter takes over.
+        // Bumps smaller than a pixel would be seen as noise: as they shrink from two pixels to one, smooth matter takes
+        // over.
         const float seen = rays.far / (rays.reference + t) - 1.0f;
         const float sharp = seen < 0.0f ? 0.0f : seen > 1.0f ? 1.0f : seen;
         const float keep = 1.0f + sharp * (field.keep - 1.0f);

@@ -8,14 +8,14 @@
 namespace awan {
 namespace {
 
-// The longest step is never less than this, in cells of the light grid. It follows the particles, since matter that is smaller
-// than a step is uneven within it: steps of whole cells had three times the error, which was seen as edges between blocks
-// that step differently, and saved no time.
+// The longest step is never less than this, in cells of the light grid. It follows the particles, since matter that is
+// smaller than a step is uneven within it: steps of whole cells had three times the error, which was seen as edges
+// between blocks that step differently, and saved no time.
 constexpr double kLeastStepCells = 0.7;
 
-// Widest gap between looked up rays, in cells of the light grid and of the sun's depth: between the rays light is interpolated
-// linearly. With 1.5 cells of the sun's depth the error was four times as large, 0.5% of a backlit picture, and edges
-// were seen where the gap changes.
+// Widest gap between looked up rays, in cells of the light grid and of the sun's depth: between the rays light is
+// interpolated linearly. With 1.5 cells of the sun's depth the error was four times as large, 0.5% of a backlit
+// picture, and edges were seen where the gap changes.
 constexpr double kLightApart = 0.75, kSunApart = 0.75;
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 namespace awan {
 
-// The longest step, scene units, where optical depth does not ask for shorter ones: about a cell of the light grid; without a
-// grid a thirty-second of the sun lattice's longest side; without that, too, least_s.
-// mean_s, least_s: mean and least standard deviation of the particles.
+// The longest step, scene units, where optical depth does not ask for shorter ones: about a cell of the light grid;
+// without a grid a thirty-second of the sun lattice's longest side; without that, too, least_s. mean_s, least_s: mean
+// and least standard deviation of the particles.
 double longest_step(const TransportLight& light, double mean_s, double least_s);
 
 // The widest gap between rays along which light is looked up, scene units.
@@ -32,8 +32,8 @@ struct Allowed {
     double apart, step;
 };
 
-// The intervals of the islands that a cone from the eye meets, and one of `otherwise` that is everywhere. axis: unit; slope:
-// of the cone's sides. Where intervals overlap, the finest counts.
+// The intervals of the islands that a cone from the eye meets, and one of `otherwise` that is everywhere. axis: unit;
+// slope: of the cone's sides. Where intervals overlap, the finest counts.
 void fineness_in_cone(const std::vector<SeenIsland>& islands, const glm::dvec3& axis, double slope,
                       const Allowed& otherwise, std::vector<FineInterval>& intervals);
 

@@ -20,8 +20,8 @@ Rgb4 rgb4(const glm::vec3& c) {
 
 using Int4 = int __attribute__((vector_size(16)));
 
-// The eight neighbours of a point of a lattice: the index of the lowest and the offsets to the others, and how far the point
-// is between them (0..1).
+// The eight neighbours of a point of a lattice: the index of the lowest and the offsets to the others, and how far the
+// point is between them (0..1).
 struct Corners {
     std::size_t at, dx, dy, dz;
     float x, y, z;

@@ -16,8 +16,8 @@ struct EyeLight {
     const TransportLight* light = nullptr;
     // Of each cell, towards the eye, radiance per optical depth. EMPTY where there is no grid, or the eye is `close`.
     std::vector<Rgb4> source;
-    // The eye is in the grid or near it: there is no one direction from a cell to it, so the moments are evaluated along
-    // each ray.
+    // The eye is in the grid or near it: there is no one direction from a cell to it, so the moments are evaluated
+    // along each ray.
     bool close = false;
     // One for each of light->islands; its `light` is null where the island is not lit.
     std::vector<EyeLight> islands;
@@ -42,7 +42,8 @@ struct LightAt {
     float air, lost;  // O and L of the haze before it (air.h); only in haze
 };
 
-// The light at distances first, first + step, ... from the ray's start, each point's that of the island in whose region it is.
+// The light at distances first, first + step, ... from the ray's start, each point's that of the island in whose region
+// it is.
 void light_along(const EyeLight& light, const LightRay& ray, float first, float step, int count,
                  LightAt* out);
 

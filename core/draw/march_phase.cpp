@@ -98,8 +98,8 @@ Sums sums_of(const Medium& medium, const Peak& peak, int columns) {
     return sums;
 }
 
-// Light that the peak has scattered n + 1 times: sum over l > L of weight chi^(n+1) P_l. For Henyey-Greenstein chi_l^(n+1) is
-// (g^(n+1))^l: the whole sum is the phase function with g^(n+1) for g, less the orders up to L.
+// Light that the peak has scattered n + 1 times: sum over l > L of weight chi^(n+1) P_l. For Henyey-Greenstein
+// chi_l^(n+1) is (g^(n+1))^l: the whole sum is the phase function with g^(n+1) for g, less the orders up to L.
 double peak_order(const Medium& medium, const Peak& peak, const Sums& sums,
                   const std::vector<double>& p, int n, double ahead, double behind) {
     const bool closed = n == 0 || medium.phase == PhaseFunction::kHenyeyGreenstein;

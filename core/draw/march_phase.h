@@ -1,6 +1,7 @@
-// The sun's beam as the eye pass sees it. The phase function is split (core/light/delta_m.h) into the part that the light
-// grid's orders resolve and the forward peak; beside light scattered once by the former there is light scattered by the
-// peak alone, any number of times. Without the latter, clouds between the eye and the sun would lack their silver lining.
+// The sun's beam as the eye pass sees it. The phase function is split (core/light/delta_m.h) into the part that the
+// light grid's orders resolve and the forward peak; beside light scattered once by the former there is light scattered
+// by the peak alone, any number of times. Without the latter, clouds between the eye and the sun would lack their
+// silver lining.
 #pragma once
 
 #include <vector>
@@ -19,8 +20,8 @@ struct Peak {
     double share = 0;  // f; 0: there is no peak, all is "rest"
 };
 
-// p1, the phase function / 4 pi of scattering that is not the peak's: sum over l <= L of moments_l P_l(mu). Where share is 0 it
-// is the whole phase function.
+// p1, the phase function / 4 pi of scattering that is not the peak's: sum over l <= L of moments_l P_l(mu). Where share
+// is 0 it is the whole phase function.
 struct RestOfPhase {
     Medium medium;
     std::vector<double> moments;  // (2l + 1) / 4 pi (chi_l - f); empty: there is no peak
@@ -34,9 +35,9 @@ double rest_of_phase(const RestOfPhase& rest, double ahead, double behind);
 //           + sum over l > L  of (2 l + 1) / 4 pi chi_l exp(-t (1 - a chi_l)) P_l(mu).
 // The table holds G = F2(t) exp(t (1 - a f)), which changes slowly with t, for the angles that a picture needs.
 //
-// Its columns are depths: 8 an octave of 1 + t, linear between them. Its rows are angles, even in asinh(chord / (1 - |g|)),
-// so that a peak has many rows and the rest of the angles few; the chord is `ahead` up to 90 degrees and `behind` from there.
-// Linear interpolation costs less than 0.3% of G (measured by march_test).
+// Its columns are depths: 8 an octave of 1 + t, linear between them. Its rows are angles, even in asinh(chord / (1 -
+// |g|)), so that a peak has many rows and the rest of the angles few; the chord is `ahead` up to 90 degrees and
+// `behind` from there. Linear interpolation costs less than 0.3% of G (measured by march_test).
 struct PeakTable {
     int columns = 0;            // a multiple of 16; 0: no peak
     float last = 0;             // largest t in it

@@ -5,8 +5,8 @@
 
 namespace awan::simd {
 
-// exp(x); relative error < 4e-7 for |x| < 86, constant beyond. With x = n ln 2 + r, |r| <= ln 2 / 2 (Cody & Waite 1980, ln 2 in
-// two parts), it is 2^n, made from the exponent's bits, times the Taylor series of exp(r).
+// exp(x); relative error < 4e-7 for |x| < 86, constant beyond. With x = n ln 2 + r, |r| <= ln 2 / 2 (Cody & Waite 1980,
+// ln 2 in two parts), it is 2^n, made from the exponent's bits, times the Taylor series of exp(r).
 AWAN_INLINE Floats exp(const Floats& at) {
     // 1.5 * 2^23: a sum with it is rounded to an integer.
     constexpr float kShift = 12582912.0f;

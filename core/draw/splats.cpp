@@ -68,8 +68,8 @@ struct Seen {
     gl::TileBox tiles;
 };
 
-// Along one side of the picture, the tiles whose pixels see a ball, and the centre and half the width of what they see, in
-// tiles. first > last: none.
+// Along one side of the picture, the tiles whose pixels see a ball, and the centre and half the width of what they see,
+// in tiles. first > last: none.
 struct Along {
     std::int32_t first = 0, last = -1;
     double center = 0, half = 0;
@@ -87,10 +87,10 @@ Along tiles_along(Interval slopes, double tangent, int pixels, int tile, bool up
     return along;
 }
 
-// The tiles that see a ball: those of its bounding rectangle, and without the corners where that is safe. A ball is seen as an
-// ellipse whose longer axis points away from the picture's middle and is e = 1 / cos(angle to the ball's far side)
-// times as long as the other, at most. It need not be the upright ellipse of the rectangle; but no ellipse in the rectangle
-// with such axes reaches beyond that one enlarged by sqrt(2 / (1 + 1 / e^2)).
+// The tiles that see a ball: those of its bounding rectangle, and without the corners where that is safe. A ball is
+// seen as an ellipse whose longer axis points away from the picture's middle and is e = 1 / cos(angle to the ball's far
+// side) times as long as the other, at most. It need not be the upright ellipse of the rectangle; but no ellipse in the
+// rectangle with such axes reaches beyond that one enlarged by sqrt(2 / (1 + 1 / e^2)).
 gl::TileBox tiles_of(const Seen& seen, const View& view, const ImageSettings& image) {
     const Along x = tiles_along(disc_slopes(seen.q.x, seen.q.z, seen.reach),
                                 view.tan_half_fov * view.aspect, image.width, kTileWidth, false);
@@ -143,8 +143,8 @@ glm::vec4 from_eye(glm::dvec4 f, const View& view, glm::dvec3 q) {
     return glm::vec4(glm::dvec4(turned, f.w - glm::dot(turned, q)));
 }
 
-// A particle's light as its splat has it. One that is drawn wider than it is has the same light all over: its gradient would
-// reach too far.
+// A particle's light as its splat has it. One that is drawn wider than it is has the same light all over: its gradient
+// would reach too far.
 glm::dvec4 over(glm::vec4 light, const Seen& seen) {
     return seen.widened ? glm::dvec4(0, 0, 0, light.w) : glm::dvec4(light);
 }
@@ -152,8 +152,8 @@ glm::dvec4 over(glm::vec4 light, const Seen& seen) {
 Splat make_splat(const Seen& seen, glm::dvec3 color, const ParticleLight* lit, const View& view,
                  const LightSources& sources) {
     Splat splat{};
-    // splat.glsl looks for the row of a column of pixels that is nearest to the particle. Straight above or below the eye
-    // there is none: the particle is moved a hair to the side.
+    // splat.glsl looks for the row of a column of pixels that is nearest to the particle. Straight above or below the
+    // eye there is none: the particle is moved a hair to the side.
     const bool vertical = seen.q.x * seen.q.x + seen.q.z * seen.q.z < 1e-10 * seen.q.y * seen.q.y;
     const glm::dvec3 place =
         vertical ? seen.q + glm::dvec3(1e-5 * std::abs(seen.q.y), 0, 0) : seen.q;

@@ -1,6 +1,6 @@
-// The diffusion limit of transport, as a preconditioner. Sweeps settle what happens over a few mean free paths, diffusion
-// what happens over many: "diffusion synthetic acceleration" (Alcouffe 1977). Within a Krylov solver such as GMRES its
-// discretisation need not be consistent with the sweep's (Warsa, Wareing & Morel 2004).
+// The diffusion limit of transport, as a preconditioner. Sweeps settle what happens over a few mean free paths,
+// diffusion what happens over many: "diffusion synthetic acceleration" (Alcouffe 1977). Within a Krylov solver such as
+// GMRES its discretisation need not be consistent with the sweep's (Warsa, Wareing & Morel 2004).
 #pragma once
 
 #include <glm/vec3.hpp>

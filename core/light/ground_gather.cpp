@@ -94,8 +94,8 @@ class CellWalk {
     glm::dvec3 next_{0}, per_{0};
 };
 
-// From p (cells) in direction d. With x the scaled depth of the way through a cell and `scaled` k, the cell adds its source
-// times (1 - exp(-x)) / k, dimmed by the cells before it.
+// From p (cells) in direction d. With x the scaled depth of the way through a cell and `scaled` k, the cell adds its
+// source times (1 - exp(-x)) / k, dimmed by the cells before it.
 Seen look(const CloudAbove& cloud, const glm::dvec3& p, const glm::dvec3& d) {
     Seen seen;
     const Crossing crossing = cross_box(cloud.cells, p, d);
@@ -129,11 +129,11 @@ Seen look(const CloudAbove& cloud, const glm::dvec3& p, const glm::dvec3& d) {
     return seen;
 }
 
-// The irradiance that the cloud adds at p, a place on the ground in cells, less what it hides of the sky.
-// Rays are spent where the cloud is. Divided by the half sides of its box, the cloud lies in a ball of radius sqrt(3), and
-// rays are spread evenly over the cone around that ball. Back in true proportions a direction d of the scaled space stands
-// for its solid angle times (product of the half sides) / |half sides * d|^3. From within or near the ball: over the whole
-// upper half of the sphere, by cosine.
+// The irradiance that the cloud adds at p, a place on the ground in cells, less what it hides of the sky. Rays are
+// spent where the cloud is. Divided by the half sides of its box, the cloud lies in a ball of radius sqrt(3), and rays
+// are spread evenly over the cone around that ball. Back in true proportions a direction d of the scaled space stands
+// for its solid angle times (product of the half sides) / |half sides * d|^3. From within or near the ball: over the
+// whole upper half of the sphere, by cosine.
 glm::dvec3 gathered(const CloudAbove& cloud, const SkyDome* sky, const glm::dvec3& p) {
     const glm::dvec3 half = 0.5 * glm::dvec3(cloud.cells);
     const glm::dvec3 to = (half - p) / half;

@@ -26,8 +26,8 @@ CloudAbove coarser(CloudAbove cloud, int most);
 // The nodes on the ground at which the cloud's light is gathered, with 0 at all of them.
 GroundChange nodes_under(const CloudAbove& cloud, double height);
 
-// Adds to each node of `change` the irradiance of the cloud's own light, less what the cloud hides of `sky` (null: it hides
-// nothing), by 160 rays a node, spread over the cone that holds the cloud.
+// Adds to each node of `change` the irradiance of the cloud's own light, less what the cloud hides of `sky` (null: it
+// hides nothing), by 160 rays a node, spread over the cone that holds the cloud.
 void gather(const CloudAbove& cloud, const SkyDome* sky, double height, int threads,
             GroundChange& change);
 

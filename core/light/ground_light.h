@@ -16,8 +16,8 @@ struct SunDepth;  // core/light/sun_depth.h
 // Of the sun's disc as seen from the ground, radians.
 inline constexpr double kSunRadius = 0.2665 * 3.14159265358979324 / 180;
 
-// A share of the sun's light, on a raster that faces the sun: a place on the ground is looked up by its distances along u and
-// v. A shadow on the ground gets long under a low sun, its image on this raster does not. Bilinear; 0 outside.
+// A share of the sun's light, on a raster that faces the sun: a place on the ground is looked up by its distances along
+// u and v. A shadow on the ground gets long under a low sun, its image on this raster does not. Bilinear; 0 outside.
 struct SunRaster {
     glm::dvec3 u{1, 0, 0}, v{0, 0, 1};  // unit, at right angles to the sun
     glm::dvec2 origin{0};               // of node (0, 0), along u and v, scene units
@@ -27,8 +27,8 @@ struct SunRaster {
 };
 double share_at(const SunRaster& raster, const glm::dvec3& point);
 
-// What the cloud adds to the irradiance of the ground or takes from it, other than direct sunlight. Far away it falls off
-// with the third power of the distance, so nodes thin out: along x and along z they lie at
+// What the cloud adds to the irradiance of the ground or takes from it, other than direct sunlight. Far away it falls
+// off with the third power of the distance, so nodes thin out: along x and along z they lie at
 //     center + reach * t / (1 - |t|),     t evenly spaced from -1 to 1.
 // Bilinear in t; 0 at infinity.
 struct GroundChange {

@@ -13,7 +13,8 @@ namespace {
 // How far a particle's matter reaches, in standard deviations.
 constexpr double kReach = 4;
 
-// The shares of a Gaussian's mass in columns first..last along one axis. What lies beyond kReach, 6e-5 of it, is left out.
+// The shares of a Gaussian's mass in columns first..last along one axis. What lies beyond kReach, 6e-5 of it, is left
+// out.
 void shares(double center, double s, double cell, int first, int last, std::vector<double>& to) {
     to.clear();
     double before = normal_cdf((first * cell - center) / s);

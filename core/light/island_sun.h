@@ -7,8 +7,8 @@
 
 namespace awan {
 
-// Whether matter that lies within `reach` of `center` can shade a prism, or lie in it. prism: the box of a sun_lattice; w is
-// the way the light goes.
+// Whether matter that lies within `reach` of `center` can shade a prism, or lie in it. prism: the box of a sun_lattice;
+// w is the way the light goes.
 bool shades(const Lattice& prism, const glm::dvec3& center, double reach);
 
 // The sun's depth within the prism. `all` holds every particle that shades it. Matter before the prism is not on its

@@ -16,7 +16,8 @@ namespace awan {
 namespace {
 
 constexpr int kTile = 8;  // texels a side, as in light_columns.glsl
-// Where a particle is cut off, in standard deviations. What lies beyond, 0.4% of its mass, is added to what lies within.
+// Where a particle is cut off, in standard deviations. What lies beyond, 0.4% of its mass, is added to what lies
+// within.
 constexpr double kReach = 3.3;
 // Half width, in s, of the smooth step that stands for a Gaussian's mass (light_columns.glsl).
 constexpr double kSpread = 1.88;
@@ -30,7 +31,8 @@ struct GpuParticle {
     glm::vec4 place, matter;
 };
 
-// A particle on the grid. One that is narrower than the grid can show is widened, and its optical depth times area kept.
+// A particle on the grid. One that is narrower than the grid can show is widened, and its optical depth times area
+// kept.
 struct OnGrid {
     GpuParticle gpu;
     gl::TileBox tiles;
@@ -88,8 +90,8 @@ struct PlacedParticles {
     LightGrid grid;
     std::vector<GpuParticle> particles;
     std::vector<gl::TileBox> tiles;
-    std::vector<glm::vec4>
-        points;  // centres on the grid; w: distance of the sample points, scene units
+    // Centres on the grid; w: distance of the sample points, scene units.
+    std::vector<glm::vec4> points;
 };
 
 PlacedParticles place_particles(const ParticleSet& particles, const OneLight& light) {

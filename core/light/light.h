@@ -13,8 +13,8 @@
 
 namespace awan {
 
-// Fractions 0..1 of a light's full strength near one particle: the value at its centre (w) and its gradient per scene unit
-// (x y z), so that every fragment of the particle can have its own light.
+// Fractions 0..1 of a light's full strength near one particle: the value at its centre (w) and its gradient per scene
+// unit (x y z), so that every fragment of the particle can have its own light.
 struct ParticleLight {
     glm::vec4 direct;  // of the sun, not scattered on the way
     // Of the sun, scattered forward on the way: it arrives from about the sun, and is scattered on in all directions.
@@ -31,21 +31,22 @@ struct Lighting {
     EffectTimes took;    // of the passes
 };
 
-// Half angles, radians, within which light that is scattered forward counts as going on. The papers leave them open. The
-// sun's is chosen by eye between 45 and 90 degrees; the sky's is the hemisphere that it shines from.
+// Half angles, radians, within which light that is scattered forward counts as going on. The papers leave them open.
+// The sun's is chosen by eye between 45 and 90 degrees; the sky's is the hemisphere that it shines from.
 inline constexpr double kSunGathering = std::numbers::pi / 3;
 inline constexpr double kSkyGathering = std::numbers::pi / 2;
 
-// The light that reaches each particle past those before it, from the sun and from the zenith. The recurrence is Harris's
-// (2001; Rekawan's eq. 3.12): with T_k the transmittance of particle k and g_k the light that it scatters forward,
+// The light that reaches each particle past those before it, from the sun and from the zenith. The recurrence is
+// Harris's (2001; Rekawan's eq. 3.12): with T_k the transmittance of particle k and g_k the light that it scatters
+// forward,
 //     I_1 = I_0,     I_k = g_(k-1) + T_(k-1) I_(k-1).
 // It is evaluated on a grid by the compute passes light_columns, light_sums and light_samples; not at all where the
 // plan has no self_shadow.
 //
 // As printed, the gain g can make light grow. Here the light that a particle scatters goes on by the albedo times the
-// phase function's true fraction (gathering_fraction) within kSunGathering of the beam; of the sky's light, which comes from
-// a whole hemisphere, within kSkyGathering. Sunlight that was gained so is kept apart from the direct beam, because it no
-// longer has the beam's direction. Errors: kOverDeadline, kCancelled, kInternal.
+// phase function's true fraction (gathering_fraction) within kSunGathering of the beam; of the sky's light, which comes
+// from a whole hemisphere, within kSkyGathering. Sunlight that was gained so is kept apart from the direct beam,
+// because it no longer has the beam's direction. Errors: kOverDeadline, kCancelled, kInternal.
 Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const Plan& plan,
                        Device& device, const Deadline& deadline);
 

@@ -40,8 +40,8 @@ class LightCache {
 };
 
 // What a light depends on, and nothing else: of the scene all but camera, image, haze, accuracy and most effects (the
-// plan has turned those into settings), then the settings, then which of the sets that the scene's procedural clouds make
-// for different eyes it was made from (ParticleSet::variant). Lights of equal keys are equal.
+// plan has turned those into settings), then the settings, then which of the sets that the scene's procedural clouds
+// make for different eyes it was made from (ParticleSet::variant). Lights of equal keys are equal.
 std::string light_key(const Scene& scene, const TransportSettings& settings,
                       std::uint64_t variant = 0);
 

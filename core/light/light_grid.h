@@ -21,8 +21,8 @@ struct LightGrid {
 inline constexpr int kMaxLightTexels = 256;  // a side: 256 x 256 x 64 x 8 bytes are 32 MiB
 inline constexpr int kMinLightTexels = 16;
 inline constexpr int kMaxLightSlabs = 64;
-// Texels in the typical (root mean square) standard deviation of the particles: the finest of these with which the work stays
-// below kMaxLightWork, else the coarsest. At 2 a Gaussian is interpolated within 3%, at 1 within 12%.
+// Texels in the typical (root mean square) standard deviation of the particles: the finest of these with which the work
+// stays below kMaxLightWork, else the coarsest. At 2 a Gaussian is interpolated within 3%, at 1 within 12%.
 inline constexpr double kTexelsPerS[] = {2, 1.5, 1.2, 1};
 // Light falls off more smoothly along its way than across: slabs may be deeper than texels are wide.
 inline constexpr double kSlabsPerTexel = 0.67;

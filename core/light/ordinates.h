@@ -11,8 +11,8 @@ namespace awan {
 inline constexpr int kOctants = 8;
 inline constexpr int kDirections = 16;  // of an octant: one lane each
 
-// Product quadrature over the sphere: 8 Gauss-Legendre levels in the cosine to the vertical, 16 even azimuths, in all 128
-// directions. It integrates harmonics up to degree 15 exactly, so those up to l = 3 are orthonormal in it.
+// Product quadrature over the sphere: 8 Gauss-Legendre levels in the cosine to the vertical, 16 even azimuths, in all
+// 128 directions. It integrates harmonics up to degree 15 exactly, so those up to l = 3 are orthonormal in it.
 struct Ordinates {
     // |cosines| to x, y and z: the same in every octant.
     alignas(64) std::array<std::array<float, kDirections>, 3> cosine;

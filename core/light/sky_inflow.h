@@ -9,8 +9,9 @@
 
 namespace awan {
 
-// The mean radiance over the solid angle that each ordinate stands for: its level of the quadrature and its sixteenth of the
-// circle. Samples in the ordinates' own directions could miss the bright sky around the sun, or count it too often.
+// The mean radiance over the solid angle that each ordinate stands for: its level of the quadrature and its sixteenth
+// of the circle. Samples in the ordinates' own directions could miss the bright sky around the sun, or count it too
+// often.
 struct SkyInflow {
     // [octant][direction], of the direction that one looks TO: light comes from there.
     std::array<std::array<glm::dvec3, kDirections>, kOctants> mean{};

@@ -44,8 +44,8 @@ double source_at(const TransportLight& light, const LightBand& band, const glm::
     return std::clamp(sum, 0.0, static_cast<double>(band.most));
 }
 
-// What the first scattering of the sun's beam adds to the source function, for a scattering angle of cosine mu: with f the
-// share of the peak, albedo sum_l (2 l + 1) (chi_l - f) P_l(mu) / 4 pi, per irradiance.
+// What the first scattering of the sun's beam adds to the source function, for a scattering angle of cosine mu: with f
+// the share of the peak, albedo sum_l (2 l + 1) (chi_l - f) P_l(mu) / 4 pi, per irradiance.
 double first_scattering(const Medium& medium, double mu, double f) {
     double p[4] = {1, mu, 1.5 * mu * mu - 0.5, 2.5 * mu * mu * mu - 1.5 * mu}, sum = 0;
     for (int l = 0; l < 4; ++l) sum += (2 * l + 1) * (phase_moment(medium, l) - f) * p[l];

@@ -51,9 +51,9 @@ struct Cosines {
     Lanes x, y, z;
 };
 
-// The light's way through one cell. psi_x, psi_y, psi_z: radiance that enters through the faces across x, y and z, and on
-// return what leaves through those opposite; psi: the mean over the cell. With c the cosine to an axis, s the depth of
-// the cell's side, q the source:
+// The light's way through one cell. psi_x, psi_y, psi_z: radiance that enters through the faces across x, y and z, and
+// on return what leaves through those opposite; psi: the mean over the cell. With c the cosine to an axis, s the depth
+// of the cell's side, q the source:
 //     sum over axes of c (psi_out - psi_in) + s psi = q,     psi = theta psi_out + (1 - theta) psi_in along each axis,
 //     theta = (3 + tau) / (6 + tau), tau = s / c,     so 1 / theta = (6 c + s) / (3 c + s).
 // The factors 1 / theta (tx, ty, tz) share one division. psi_x comes last from the cell before: all that can be is
