@@ -167,8 +167,7 @@ const std::map<std::string, std::string> kStandsWithOthers = {
 // Values, by their full pointers, that change no picture: why.
 const std::map<std::string, std::string> kSaysNothing = {
     {"/sequence/frames", "a still depends on the sequence's two ends alone"},
-    {"/clouds/4/spheres/kind", "only gives defaults, and all of them are given"},
-    {"/clouds/5/implicit/preset", "only gives defaults, and all of them are given"}};
+    {"/clouds/4/spheres/kind", "only gives defaults, and all of them are given"}};
 
 // Beginnings of what light does not depend on: the light of a cloud is the same for every picture of it.
 const char* const kPictureOnly[] = {"/camera", "/image",    "/haze",   "/accuracy",

@@ -80,7 +80,8 @@ struct ChordRange {
     double least = 2, most = 0;
 };
 
-// From the rays of a grid over the picture. Between two neighbours a chord differs from theirs by less than the rays do.
+// From the rays of a grid over the picture. Between two neighbours a chord differs from theirs by less than the rays
+// do.
 ChordRange chords_of(const MarchScene& scene) {
     ChordRange range;
     const auto across = static_cast<double>(scene.width), down = static_cast<double>(scene.height);

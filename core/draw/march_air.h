@@ -7,13 +7,13 @@
 
 namespace awan {
 
-// Fills `air` and `lost` of points at distances first, first + step, ... from the eye, on the ray through pixel coordinates
-// (x, y). count <= kChunk (march_tile.h).
+// Fills `air` and `lost` of points at distances first, first + step, ... from the eye, on the ray through pixel
+// coordinates (x, y). count <= kChunk (march_tile.h).
 void air_along(const Air& air, double x, double y, double first, double step, int count,
                LightAt* out);
 
-// The distance up to which the haze may be interpolated linearly between rays whose unit directions differ by `apart`: up
-// to there their heights differ by no more than 0.3 scale heights, and the error is below 0.5% of the transmittance.
+// The distance up to which the haze may be interpolated linearly between rays whose unit directions differ by `apart`:
+// up to there their heights differ by no more than 0.3 scale heights, and the error is below 0.5% of the transmittance.
 double farthest_for_air(const Air& air, double apart);
 
 // The haze over a tile's pixels, in floats.

@@ -11,8 +11,8 @@
 namespace awan {
 namespace {
 
-// After each so many chunks of samples the shortest step doubles, so that every march ends, whatever lies along its rays.
-// Scenes that are looked at take some hundred.
+// After each so many chunks of samples the shortest step doubles, so that every march ends, whatever lies along its
+// rays. Scenes that are looked at take some hundred.
 constexpr int kManyChunks = 8192;
 // A chunk whose steps all are below this share of what they may be is followed by longer ones.
 constexpr float kFarTooFine = 0.3f;

@@ -1,5 +1,5 @@
-// The matter of particles along the rays of a block: optical depth, sample by sample. Bodies are inlined into one function
-// a target in march_targets.cpp.
+// The matter of particles along the rays of a block: optical depth, sample by sample. Bodies are inlined into one
+// function a target in march_targets.cpp.
 //
 // A particle is a Gaussian of extinction, n exp(-d^2 / (2 s^2)). Along a ray that passes its centre at distance b it is
 //     sigma(t) = n exp(-(b^2 + (t - c)^2) / (2 s^2)),     c the ray's closest point to the centre.
@@ -17,8 +17,8 @@ using simd::Floats;
 using simd::Ints;
 
 constexpr float kRootTwoPi = 2.50662827f;
-// Least s, in steps, of a particle that is sampled at the samples' middles. Equally spaced samples of such a Gaussian sum to
-// its mass within 1e-8. A narrower one has its mass in each sample, exactly.
+// Least s, in steps, of a particle that is sampled at the samples' middles. Equally spaced samples of such a Gaussian
+// sum to its mass within 1e-8. A narrower one has its mass in each sample, exactly.
 constexpr float kLeastRecurrence = 1.0f;
 
 // A ray's closest point to a particle's centre: the distance b squared, and how much farther along the ray it is than
@@ -35,8 +35,8 @@ AWAN_INLINE Closest closest(const BlockParticles& p, std::size_t i, const Floats
     return {simd::max(wx * wx + wy * wy + wz * wz - shift * shift, Floats{}), shift};
 }
 
-// Where a block's particle has matter in each tile. `ray`: the tiles' middle rays, as the directions of a Tile; `spread`:
-// how far a pixel's ray may be from its tile's middle ray (difference of unit directions).
+// Where a block's particle has matter in each tile. `ray`: the tiles' middle rays, as the directions of a Tile;
+// `spread`: how far a pixel's ray may be from its tile's middle ray (difference of unit directions).
 AWAN_INLINE void measure(const BlockParticles& p, const Floats ray[3], const Floats& spread,
                          ActiveParticle& a) {
     const std::size_t i = a.index;
@@ -130,11 +130,12 @@ AWAN_INLINE void deposit_masses(const BlockParticles& p, const ActiveParticle& a
     }
 }
 
-// A particle that is wide beside a step: each sample is step * sigma in its middle. From sample to sample, at v = t - c,
+// A particle that is wide beside a step: each sample is step * sigma in its middle. From sample to sample, at v = t -
+// c,
 //     sigma(v + h) / sigma(v) = exp(-(v h + h^2 / 2) / s^2),
 // and this factor shrinks by exp(-(h / s)^2) a sample: two multiplications each instead of an exponential. The first
-// factor is that of the tile's middle ray times exp(y) for each pixel, y small: its series to the third order. Where the
-// closest points of a tile's pixels differ too much for that (a.direct), every sample has its exponential.
+// factor is that of the tile's middle ray times exp(y) for each pixel, y small: its series to the third order. Where
+// the closest points of a tile's pixels differ too much for that (a.direct), every sample has its exponential.
 AWAN_INLINE void deposit_samples(const BlockParticles& p, const ActiveParticle& a,
                                  const Chunk& chunk, const SampleSpan& span,
                                  const TouchedTiles& touched, Tile* tiles) {
@@ -174,11 +175,11 @@ AWAN_INLINE void deposit_samples(const BlockParticles& p, const ActiveParticle& 
     }
 }
 
-// The sum of samples at the middles of steps h misses the integral of what is smooth by terms of its two ends only (Euler
-// & Maclaurin; [..]: the difference between the ends):
+// The sum of samples at the middles of steps h misses the integral of what is smooth by terms of its two ends only
+// (Euler & Maclaurin; [..]: the difference between the ends):
 //     sum h sigma = integral - h^2 / 24 [sigma'] + 7 h^4 / 5760 [sigma''']
-// Where the step changes from `before` to `after`, the terms of the two sides do not cancel. Their difference goes to the
-// chunk's first sample.
+// Where the step changes from `before` to `after`, the terms of the two sides do not cancel. Their difference goes to
+// the chunk's first sample.
 AWAN_INLINE void join(float extinction, float s, float before, float after, const Floats& b2,
                       const Floats& center, Tile& tile) {
     const float h2 = before * before - after * after;
@@ -217,8 +218,8 @@ AWAN_INLINE void join_chunks(const BlockParticles& p, const ActiveParticle& a, c
     }
 }
 
-// Adds one particle to the profiles of all tiles. What hardly differs between a tile's pixels is computed for its middle
-// ray, for all tiles at once.
+// Adds one particle to the profiles of all tiles. What hardly differs between a tile's pixels is computed for its
+// middle ray, for all tiles at once.
 AWAN_INLINE void deposit(const BlockParticles& p, const ActiveParticle& a, const Chunk& chunk,
                          Tile* tiles) {
     const SampleSpan span = samples_of(a, chunk);
@@ -231,8 +232,8 @@ AWAN_INLINE void deposit(const BlockParticles& p, const ActiveParticle& a, const
     if (chunk.joined) join_chunks(p, a, chunk, span, touched, tiles);
 }
 
-// The first sample of a tile that is deeper than a step may be, or kChunk. `allowed`: scaled depth of a step that nothing
-// hides; behind the scaled depth T it is (1 + T) times that, since less of an error there is seen.
+// The first sample of a tile that is deeper than a step may be, or kChunk. `allowed`: scaled depth of a step that
+// nothing hides; behind the scaled depth T it is (1 + T) times that, since less of an error there is seen.
 AWAN_INLINE int first_too_deep(const Tile& tile, float scaled, float allowed) {
     // Mostly there is none: that is found without looking at each sample's lanes.
     Floats seen = tile.depth * scaled, worst = Floats{};

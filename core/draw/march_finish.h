@@ -1,5 +1,5 @@
-// How a tile's pixels end: the light that the march found, and what stands behind the cloud. Bodies are inlined into one
-// function a target in march_targets.cpp.
+// How a tile's pixels end: the light that the march found, and what stands behind the cloud. Bodies are inlined into
+// one function a target in march_targets.cpp.
 #pragma once
 
 #include <cstring>
@@ -75,8 +75,8 @@ AWAN_INLINE void finish(const MarchScene& scene, const BehindTile& behind, const
     to_pixels(channels, to);
 }
 
-// The same through haze (air.h), with O and L of the whole ray, and those that the march has seen: sums over its samples of
-// alpha weight * O and * L. What the haze sends is
+// The same through haze (air.h), with O and L of the whole ray, and those that the march has seen: sums over its
+// samples of alpha weight * O and * L. What the haze sends is
 //     ambient A + sun p (A - shaded),     A = seen O + exp(-tau) O,     shaded = seen L + exp(-tau) L.
 // The cloud's own radiance is dimmed already. Light that comes through the forward peak met the cloud before the haze
 // dimmed it: it is dimmed as the cloud's own light is in the mean, by 1 - seen O / (1 - exp(-tau)).

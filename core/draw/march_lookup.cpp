@@ -8,8 +8,8 @@
 namespace awan {
 namespace {
 
-// Largest change of depth towards the sun within a step, over the largest depth of a step towards the eye. 1 would halve
-// what is left of the step error in a flat sheet under a low sun, and double the time of a cumulus.
+// Largest change of depth towards the sun within a step, over the largest depth of a step towards the eye. 1 would
+// halve what is left of the step error in a flat sheet under a low sun, and double the time of a cumulus.
 constexpr float kRise = 2.5f;
 constexpr float kDark = 7.0f;  // scaled depth towards the sun behind which the beam is not seen
 // Rays that differ more (difference of directions) are too far apart at any distance.

@@ -12,8 +12,8 @@ struct SampleRange {
     int first, last;
 };
 
-// Of the spacings, the widest whose rays are at most `apart` (scene units) from each other at a distance from the eye; -1:
-// every pixel's ray.
+// Of the spacings, the widest whose rays are at most `apart` (scene units) from each other at a distance from the eye;
+// -1: every pixel's ray.
 int choose_spacing(const MarchScene& scene, double distance, double apart);
 // The distance up to which a spacing will do.
 double farthest(const MarchScene& scene, int spacing, double apart);
@@ -29,9 +29,9 @@ void look_up_corners(const MarchScene& scene, const PlacedBlock& block, const Sa
 void look_up_pixels(const MarchScene& scene, const PlacedBlock& block, int tile,
                     const SampleRange& samples, BlockRoom& room);
 
-// The first sample with matter in which the depth towards the sun changes more than a step may cost, as the block's middle
-// ray has it, or kChunk: within such a step the beam is not what it is in its middle, however thin the step is towards
-// the eye.
+// The first sample with matter in which the depth towards the sun changes more than a step may cost, as the block's
+// middle ray has it, or kChunk: within such a step the beam is not what it is in its middle, however thin the step is
+// towards the eye.
 int first_too_shaded(const MarchScene& scene, const PlacedBlock& block, const SampleRange& samples);
 
 }  // namespace awan

@@ -1,5 +1,5 @@
-// What the march does once a pixel, sixteen pixels at a time: directions and phase functions. Bodies are inlined into one
-// function a target in march_targets.cpp.
+// What the march does once a pixel, sixteen pixels at a time: directions and phase functions. Bodies are inlined into
+// one function a target in march_targets.cpp.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +13,17 @@
 
 namespace awan {
 
-// The rays of a block. Pixel coordinates (x, y) from its top left corner are seen along slopes (u0 + du x, v0 + dv y): the
-// direction (slope, slope, 1) in the eye's frame (right, up, forward). `forward` is the block's middle ray, `right` and `up`
-// stand at right angles to it; all three are unit, in the eye's frame.
+// The rays of a block. Pixel coordinates (x, y) from its top left corner are seen along slopes (u0 + du x, v0 + dv y):
+// the direction (slope, slope, 1) in the eye's frame (right, up, forward). `forward` is the block's middle ray, `right`
+// and `up` stand at right angles to it; all three are unit, in the eye's frame.
 struct BlockFrame {
     double u0, du, v0, dv;
     glm::dvec3 right{0}, up{0}, forward{0};
 };
 
-// Unit directions of sixteen rays less the middle ray's, in the block's frame. They are small differences of large numbers,
-// hence computed in double. With d = m + e, d and m unit: e . m = -|e|^2 / 2, so the third is had without cancellation.
+// Unit directions of sixteen rays less the middle ray's, in the block's frame. They are small differences of large
+// numbers, hence computed in double. With d = m + e, d and m unit: e . m = -|e|^2 / 2, so the third is had without
+// cancellation.
 AWAN_INLINE void directions(const BlockFrame& f, const float* x, const float* y,
                             simd::Floats to[3]) {
     float out[3][simd::kLanes];
@@ -45,8 +46,8 @@ struct SunInBlock {
     float x, y, z;
 };
 
-// The chords |d - s| and |d + s| between a ray's direction d and the sun's s, both unit. Phase functions take them instead of
-// the cosine 1 - |d - s|^2 / 2, which would lose its digits near the sun.
+// The chords |d - s| and |d + s| between a ray's direction d and the sun's s, both unit. Phase functions take them
+// instead of the cosine 1 - |d - s|^2 / 2, which would lose its digits near the sun.
 struct Chords {
     simd::Floats ahead, behind;
 };
@@ -99,8 +100,8 @@ AWAN_INLINE void rows_of(const PeakTable& table, const Chords& c, simd::Floats* 
     const int high = std::min(static_cast<int>(simd::largest(at)), end);
     const auto columns = static_cast<std::size_t>(table.columns);
     const float* const values = table.values.data();
-    // A piecewise linear function is its first value plus the rises of its pieces, each as far as it is climbed. So lanes in
-    // different rows are done together.
+    // A piecewise linear function is its first value plus the rises of its pieces, each as far as it is climbed. So
+    // lanes in different rows are done together.
     const float* const first = values + static_cast<std::size_t>(low) * columns;
     for (std::size_t k = 0; k < columns; ++k) to[k] = simd::all(first[k]);
     for (int row = low; row <= high; ++row) {

@@ -21,8 +21,8 @@ struct SkyBehind {
     float zenith[3] = {}, horizon[3] = {};  // radiance of a sky that is a gradient
     bool behind = false;                    // it is drawn behind the cloud
     bool peak = false;                      // it is seen through the forward peak, too
-    // What stands behind instead of the gradient; null: nothing. Then these say whether the sky's and the ground's pixels
-    // are seen through the peak.
+    // What stands behind instead of the gradient; null: nothing. Then these say whether the sky's and the ground's
+    // pixels are seen through the peak.
     const Backdrop* backdrop = nullptr;
     bool sky_peak = false, ground_peak = false;
 };
@@ -40,8 +40,8 @@ struct MarchScene {
     glm::vec3 sun{0};            // irradiance
     float scaled = 1;            // share of extinction that is not the peak's: 1 - albedo * f
     double step = 1;             // the longest step, scene units
-    double apart =
-        1e300;  // the widest gap between rays along which light is looked up, scene units
+    // The widest gap between rays along which light is looked up, scene units.
+    double apart = 1e300;
     std::vector<SeenIsland> islands;  // where step and apart are less
     float step_depth = 1;             // scaled optical depth of the longest step, where it is seen
     SkyBehind sky;

@@ -1,7 +1,7 @@
 // The light that a ray collects, sample by sample. Bodies are inlined into one function a target in march_targets.cpp.
 //
-// With sigma the extinction along the ray, tau its optical depth from the eye, t_s the optical depth from the sun, a the
-// albedo, f the share of the forward peak and k = 1 - a f (core/light/delta_m.h), the eye gets
+// With sigma the extinction along the ray, tau its optical depth from the eye, t_s the optical depth from the sun, a
+// the albedo, f the share of the forward peak and k = 1 - a f (core/light/delta_m.h), the eye gets
 //     integral of sigma ( S exp(-k tau)                                  light of the grid
 //                       + a E p1 exp(-k (t_s + tau))                     the sun's, scattered once, outside the peak
 //                       + a E (F2(t_s) exp(-tau) + F2(tau) exp(-t_s)) / 2   and any number of times within the peak
@@ -35,9 +35,9 @@ struct Shade {
     float last;          // of the peak table: its largest depth
 };
 
-// G of the peak table (march_phase.h) at optical depth t, linear between columns. Columns are even in the bits of the float
-// 1 + t: 8 an octave. A tile's pixels mostly lie in one or two columns, so the pieces between the lowest and the highest
-// are climbed for all pixels together, and nothing is gathered.
+// G of the peak table (march_phase.h) at optical depth t, linear between columns. Columns are even in the bits of the
+// float 1 + t: 8 an octave. A tile's pixels mostly lie in one or two columns, so the pieces between the lowest and the
+// highest are climbed for all pixels together, and nothing is gathered.
 AWAN_INLINE Floats peak_value(const Floats* rows, float last, const Floats& t) {
     const auto column = [](float y) {
         std::uint32_t b;
@@ -92,11 +92,12 @@ AWAN_INLINE Step step_of(const Floats& profile, float scaled, float per_scaled) 
 
 // Where in a step its light is read, in steps from the middle; x: the step's scaled depth.
 //
-// A step's weight exp(-k tau) (1 - exp(-x)) / k is exact for light that is even in the step. Where the light has a slope S'
-// along the ray, reading it in the middle would be wrong in every step. But what counts is the sum: the errors of samples
-// that are evenly spaced cancel in it, except for what the weight itself adds, which is step^2 / 24 sigma^2 S' exp(-k tau)
-// a unit of length. Reading the light x / 24 of a step before the middle undoes that. (One step alone would ask for
-// twice as much.) Of a deep step only the front is seen, 1 / x of a step deep. The quotient goes from the one to the other.
+// A step's weight exp(-k tau) (1 - exp(-x)) / k is exact for light that is even in the step. Where the light has a
+// slope S' along the ray, reading it in the middle would be wrong in every step. But what counts is the sum: the errors
+// of samples that are evenly spaced cancel in it, except for what the weight itself adds, which is step^2 / 24 sigma^2
+// S' exp(-k tau) a unit of length. Reading the light x / 24 of a step before the middle undoes that. (One step alone
+// would ask for twice as much.) Of a deep step only the front is seen, 1 / x of a step deep. The quotient goes from the
+// one to the other.
 AWAN_INLINE Floats reading_place(const Floats& x) {
     return -0.5f * x * (1.0f + x) / (12.0f + x * (3.0f + x));
 }
@@ -134,10 +135,10 @@ AWAN_INLINE SunHere sun_here(const TileLight& light, int k, const Step& step, co
     return sun;
 }
 
-// The weight of a step that is not deep, for light that dims by exp(-x u) towards the eye and by exp(-rise u) towards the
-// sun, u = 0..1 along the step: its depth times the mean of exp(-x / 2) exp(-(x + rise) (u - 1/2)). Of this step alone the
-// mean would be mean_decay with z^2 = (x + rise)^2 / 4. The sum over evenly spaced samples needs only half of the product
-// of x and rise in it, and nothing of rise^2, for the reason given at reading_place.
+// The weight of a step that is not deep, for light that dims by exp(-x u) towards the eye and by exp(-rise u) towards
+// the sun, u = 0..1 along the step: its depth times the mean of exp(-x / 2) exp(-(x + rise) (u - 1/2)). Of this step
+// alone the mean would be mean_decay with z^2 = (x + rise)^2 / 4. The sum over evenly spaced samples needs only half of
+// the product of x and rise in it, and nothing of rise^2, for the reason given at reading_place.
 AWAN_INLINE Floats thin_weight(const Floats& half, const Floats& x, const Floats& depth,
                                const Floats& rise, float seam) {
     return mean_decay(half, 0.25f * x * (x + rise)) * depth * at_seam(seam, rise);

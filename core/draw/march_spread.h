@@ -1,5 +1,5 @@
-// Light that is looked up at the corners of squares of pixels, interpolated to each pixel. Inlined into one function a target
-// in march_targets.cpp.
+// Light that is looked up at the corners of squares of pixels, interpolated to each pixel. Inlined into one function a
+// target in march_targets.cpp.
 #pragma once
 
 #include "core/draw/march_light.h"
@@ -13,8 +13,8 @@ AWAN_INLINE Floats blend(const Bilinear& b, float c0, float c1, float c2, float 
     return b.weight[0] * c0 + b.weight[1] * c1 + b.weight[2] * c2 + b.weight[3] * c3;
 }
 
-// Fills samples first..last of a tile's light, and one more at either end of what has slopes. corners[c][k + 1]: light of
-// sample k at corner c. `albedo`, `air`: whether those are wanted.
+// Fills samples first..last of a tile's light, and one more at either end of what has slopes. corners[c][k + 1]: light
+// of sample k at corner c. `albedo`, `air`: whether those are wanted.
 AWAN_INLINE void spread_light(const Bilinear& b, const LightAt (*corners)[kChunk + 2], int first,
                               int last, bool albedo, bool air, TileLight& light) {
     const LightAt *c0 = corners[b.corner[0]], *c1 = corners[b.corner[1]],

@@ -41,7 +41,7 @@ AWAN_INLINE void ratio_body(const BlockParticles& p, float step,
     }
 }
 
-// Where light is scattered to sixteen pixels.
+// The phase functions towards sixteen pixels.
 AWAN_INLINE void phases_body(const MarchScene& scene, const SunInBlock& sun, Tile& tile,
                              Floats* rows) {
     const Floats ray[3] = {tile.x, tile.y, tile.z};

@@ -1,5 +1,5 @@
-// The inner loops of the march, compiled once a target (AVX-512, AVX2, any x86-64). Results are the same on all of them, bit
-// for bit.
+// The inner loops of the march, compiled once a target (AVX-512, AVX2, any x86-64). Results are the same on all of
+// them, bit for bit.
 #pragma once
 
 #include <vector>

@@ -30,9 +30,10 @@ struct SolvedBand {
 
 // With psi the radiance, Y_i the harmonics of order l(i), the scaled depth s of a cell's side, a the albedo and chi'_l
 // the moments of scattering outside the peak, solves for the moments phi_i = integral of psi Y_i in
-//     o . grad psi + s psi = sum_i Y_i(o) [ s a (1 - f) / (1 - a f) chi'_l(i) phi_i + a (1 - f) chi'_l(i) Y_i(sun) beam ]
-// and gives the source function: moments a (1 - f) chi'_l(i) phi_i. The sun's beam itself is not in it: the eye pass has
-// what the beam scatters once (core/draw/march.h). Errors: kOverDeadline, kCancelled.
+//     o . grad psi + s psi = sum_i Y_i(o) [ s a (1 - f) / (1 - a f) chi'_l(i) phi_i
+//                                           + a (1 - f) chi'_l(i) Y_i(sun) beam ]
+// and gives the source function: moments a (1 - f) chi'_l(i) phi_i. The sun's beam itself is not in it: the eye pass
+// has what the beam scatters once (core/draw/march.h). Errors: kOverDeadline, kCancelled.
 Result<SolvedBand> solve_band(const BandProblem& problem, const Ordinates& ordinates, int threads,
                               const Deadline& deadline);
 

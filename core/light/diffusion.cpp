@@ -9,7 +9,7 @@
 namespace awan {
 namespace {
 
-// Cells without matter do not conduct without limit: over one of them light streams.
+// Keeps the conductance of empty cells finite: over so few cells light does not diffuse but streams.
 constexpr float kStreaming = 0.75F;
 
 using Vector = std::vector<float>;
@@ -74,7 +74,7 @@ Diffusion make_diffusion(const glm::ivec3& cells, std::span<const float> depth,
         across.assign(depth.size(), 0.F);
         for (std::size_t i = 0; i < depth.size(); ++i) {
             const std::size_t at = i / stride[axis] % count[axis];
-            // Marshak's condition: half a cell, then half of the radiance leaves.
+            // An outer face, by Marshak's condition: half a cell's way, and behind it only what leaves.
             const float out = 1 / (1.5F * transport[i] + 2);
             if (at == 0) diffusion.diagonal[i] += out;
             if (at + 1 == count[axis]) {

@@ -9,8 +9,8 @@ namespace awan {
 namespace {
 
 constexpr int kMostCells = 32;  // along a side of the cloud that light is gathered from
-constexpr double kLeastBounce =
-    2e-3;                            // of the ground's irradiance: a weaker bounce is not followed
+// Of the ground's irradiance: a weaker bounce is not followed.
+constexpr double kLeastBounce = 2e-3;
 constexpr double kMostRatio = 0.95;  // of one bounce to the one before
 
 // What a band of the ground's light takes of a colour: its luminance, or one channel of it.

@@ -9,7 +9,7 @@
 
 namespace awan {
 
-// A cloud as the ground sees it: cells (x fastest, then y, then z) that dim and shine.
+// A cloud as the ground sees it: cells (x fastest, then y, then z) that dim what is behind them and shine.
 struct CloudAbove {
     glm::dvec3 origin{0};  // corner of cell 0, scene units
     double cell = 0;       // side, scene units
@@ -20,14 +20,14 @@ struct CloudAbove {
     std::vector<std::array<float, 3 * kHarmonics>> source;
 };
 
-// The same with blocks of cells made one, so that none of its sides has more than `most`.
+// The same cloud with blocks of cells made one, so that no side of the grid has more than `most` cells.
 CloudAbove coarser(CloudAbove cloud, int most);
 
-// Where nodes lie, and 0 at all of them.
+// The nodes on the ground at which the cloud's light is gathered, with 0 at all of them.
 GroundChange nodes_under(const CloudAbove& cloud, double height);
 
-// Irradiance that the cloud's own light adds at each node, less what the cloud hides of `sky` (null: nothing). kRays rays
-// a node, spread over the cone that holds the cloud. Adds to `change`.
+// Adds to each node of `change` the irradiance of the cloud's own light, less what the cloud hides of `sky` (null: it
+// hides nothing), by 160 rays a node, spread over the cone that holds the cloud.
 void gather(const CloudAbove& cloud, const SkyDome* sky, double height, int threads,
             GroundChange& change);
 

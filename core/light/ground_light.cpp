@@ -72,8 +72,8 @@ double longest_way(const SunBox& box) {
     return longest;
 }
 
-// Optical depth from the sun. Beside the lattice there is no matter, though its outermost nodes may hold a little: there
-// the depth falls off over a cell.
+// Optical depth from the sun. Beside the lattice there is no matter, though its outermost nodes may hold a little:
+// there the depth falls off over a cell.
 double depth_in(const SunBox& box, double u, double v, double w) {
     const SunDepth& sun = box.sun;
     const glm::dvec2 off =

@@ -1,5 +1,5 @@
-// Light of a scene that falls apart into islands (core/survey/islands.h): each has a grid and a SunDepth of its own, as fine as
-// it is large in the picture.
+// Light of a scene that falls apart into islands (core/survey/islands.h): each has a grid and a SunDepth of its own, as
+// fine as it is large in the picture.
 //
 // How islands light each other: the sun's beam is dimmed by all matter between it and an island, exactly
 // (island_sun.h). Of the sky and of what the others scatter, an island gets what its middle sees. Seen from there the
@@ -7,15 +7,16 @@
 // (surroundings.h). Where a cut between islands goes through thin matter, the light that would cross it is lost.
 //
 // Measured on nine clouds of depth 12, at 3 to 5 times their size from each other, with transport-24 (islands_test):
-// 5.7% nrmse and a bias of -3%. If no island saw the others it would be 9.2% and -7%; with one grid for all, 20% and -10%.
+// 5.7% nrmse and a bias of -3%. If no island saw the others it would be 9.2% and -7%; with one grid for all, 20% and
+// -10%.
 #pragma once
 
 #include "core/light/transport.h"
 
 namespace awan {
 
-// As transport_light, of which this is a part. Precondition: settings.islands and survey.islands.list have one length, not 0.
-// Islands are solved side by side, each on one thread where there are more of them than threads.
+// As transport_light, of which this is a part. Precondition: settings.islands and survey.islands.list have one length,
+// not 0. Islands are solved side by side, each on one thread where there are more of them than threads.
 Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& particles,
                                         const Survey& survey, const TransportSettings& settings,
                                         int threads, const Deadline& deadline);

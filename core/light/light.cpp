@@ -16,29 +16,32 @@ namespace awan {
 namespace {
 
 constexpr int kTile = 8;  // texels a side, as in light_columns.glsl
-// Where a particle is cut, in s. What lies beyond, 0.4%, goes to what is within.
+// Where a particle is cut off, in standard deviations. What lies beyond, 0.4% of its mass, is added to what lies
+// within.
 constexpr double kReach = 3.3;
 // Half width, in s, of the smooth step that stands for a Gaussian's mass (light_columns.glsl).
 constexpr double kSpread = 1.88;
 constexpr int kShadowCells = 64;  // along the cloud's longest side, of its shadow on the ground
-constexpr std::uint64_t kMaxEntries =
-    1u << 21;  // about half a second of llvmpipe between looks at the deadline
-constexpr float kSampleDistance =
-    1.2F;  // of the sample points, in s: where most of a particle's mass is
+// List entries of a dispatch: about half a second of llvmpipe between looks at the deadline.
+constexpr std::uint64_t kMaxEntries = 1u << 21;
+// Distance of the sample points from the centre, in standard deviations: where most of a particle's mass is.
+constexpr float kSampleDistance = 1.2F;
 
 struct GpuParticle {
     glm::vec4 place, matter;
 };
 
-// A particle narrower than the grid can see is widened, its optical depth times area kept.
+// A particle on the grid. One that is narrower than the grid can show is widened, and its optical depth times area
+// kept.
 struct OnGrid {
     GpuParticle gpu;
     gl::TileBox tiles;
 };
 
-// Coefficients of light_columns.glsl's start tau / (1 + bend tau), which stands for the gain depth
-// -log(gain + (1 - gain) e^-tau) on lines through a particle whose centre has optical depth
-// `whole`.
+// Of the light on a line through a particle with optical depth tau, gain + (1 - gain) exp(-tau) goes on. That is the
+// transmittance of a depth -log(gain + (1 - gain) exp(-tau)), for which light_columns.glsl takes
+//     start tau / (1 + bend tau);
+// the two agree for thin lines and on the line through the centre, where tau is `whole`.
 struct GainCurve {
     double start, bend;
 };
@@ -46,8 +49,8 @@ struct GainCurve {
 GainCurve gain_curve(double gain, double whole) {
     const double start = 1 - gain;
     if (!(start > 0)) return {0, 0};
-    if (whole < 1e-4)
-        return {start, gain / 2};  // the limit; below, the quotients lose their digits
+    // The limit for thin particles, in which the quotients below lose their digits.
+    if (whole < 1e-4) return {start, gain / 2};
     const double depth = -std::log1p(start * std::expm1(-std::min(whole, 700.0)));
     return {start, std::max(0.0, (start * whole / depth - 1) / whole)};
 }
@@ -87,8 +90,8 @@ struct PlacedParticles {
     LightGrid grid;
     std::vector<GpuParticle> particles;
     std::vector<gl::TileBox> tiles;
-    std::vector<glm::vec4>
-        points;  // centres on the grid; w: distance of the sample points, scene units
+    // Centres on the grid; w: distance of the sample points, scene units.
+    std::vector<glm::vec4> points;
 };
 
 PlacedParticles place_particles(const ParticleSet& particles, const OneLight& light) {
@@ -192,7 +195,7 @@ Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const One
     return samples;
 }
 
-// No light of the cloud's own: direct sun and open sky.
+// Lit by the direct sun and the open sky: the cloud's own light is not sent down by these passes.
 GroundLight ground_under(const Scene& scene, const ParticleSet& particles, const Plan& plan) {
     GroundLight ground = bare_ground(*scene);
     if (particles.size() == 0 || !has_ground(*scene, bounds_of(particles))) return ground;

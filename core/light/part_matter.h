@@ -13,7 +13,8 @@
 
 namespace awan {
 
-// Mean extinction on the solve's grid, and on a finer one, whose cells are those of the grid cut in `sub` along each side.
+// Mean extinction on the solve's grid, and on a finer one, whose cells are those of the grid cut in `sub` along each
+// side.
 struct PartGrid {
     Lattice lattice;
     std::vector<float> extinction;  // of each cell, 1/unit
@@ -43,8 +44,8 @@ std::vector<glm::vec3> colored_albedo(const ParticleSet& particles, const Lattic
 struct Matter {
     SweepGrid grid;
     std::vector<float> albedo;  // of each cell
-    std::vector<float>
-        scattered;  // of each cell: the scaled depth of its side times the albedo of p'
+    // Of each cell: the scaled depth of its side times the albedo of p'.
+    std::vector<float> scattered;
 };
 
 // albedo: of each cell (colored_albedo), of which channel 0, 1 or 2 is taken; EMPTY: split.albedo everywhere.

@@ -28,9 +28,9 @@ struct Shine {
 };
 
 // The lights from outside. Grey matter: the sun, the zenith's share of the sky and the horizon's (or both as one, where
-// their colours are proportional). Coloured matter differs from channel to channel, so it needs one solve a channel, which
-// then does the sun and the sky together. A physical sky has a shape of its own in each channel. `physical` must outlive
-// the result; it is only looked at where outside.sky is physical. with_sky: whether the sky's light is wanted.
+// their colours are proportional). Coloured matter differs from channel to channel, so it needs one solve a channel,
+// which then does the sun and the sky together. A physical sky has a shape of its own in each channel. `physical` must
+// outlive the result; it is only looked at where outside.sky is physical. with_sky: whether the sky's light is wanted.
 std::vector<Shine> shines_of(const Outside& outside, const SkyInflow& physical, bool colored,
                              bool with_sky);
 

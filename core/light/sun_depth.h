@@ -35,8 +35,8 @@ SunDepth sun_depth(const ParticleSet& particles, const glm::dvec3& towards_sun, 
 Lattice sun_lattice(const ParticleSet& particles, const glm::dvec3& towards_sun, int cells,
                     int threads);
 
-// The depth on such a lattice: the mean extinctions of its cells, summed up from the sun's side. `entry`: the depth that
-// the light has already come through where it enters each of the lattice's columns (u fastest).
+// The depth on such a lattice: the mean extinctions of its cells, summed up from the sun's side. `entry`: the depth
+// that the light has already come through where it enters each of the lattice's columns (u fastest).
 SunDepth sun_depth_on(const Lattice& lattice, const ParticleSet& particles,
                       std::vector<float> entry, int threads);
 

@@ -122,7 +122,8 @@ Status add_band(const PartSolve& solve, const Shine& shine, Effect effect, Trans
     return std::nullopt;
 }
 
-// A part of a scene has the ground's light from the bands that the whole has for it, after those of the sun and the sky.
+// A part of a scene has the ground's light from the bands that the whole has for it, after those of the sun and the
+// sky.
 Status add_bands_of_whole_ground(const PartSolve& solve, TransportLight& light) {
     const std::vector<LightBand>& bands = solve.part.whole->bands;
     for (std::size_t b = light.bands.size(); b < bands.size(); ++b) {
@@ -134,8 +135,8 @@ Status add_bands_of_whole_ground(const PartSolve& solve, TransportLight& light) 
     return std::nullopt;
 }
 
-// The light between the cloud and the ground below it. Its solves are timed as ground_light, the rest, which is what the
-// cloud sends down, as ground_shadow.
+// The light between the cloud and the ground below it. Its solves are timed as ground_light, the rest, which is what
+// the cloud sends down, as ground_shadow.
 Status add_own_ground(const PartSolve& solve, TransportLight& light) {
     const auto start = Deadline::Clock::now();
     const ScatteringSplit& split = solve.split;

@@ -14,8 +14,8 @@
 
 namespace awan {
 
-// Errors: kOverDeadline, kCancelled. The same bytes for every number of threads. Time: cells^3 and particles; memory: see
-// transport_bytes (core/plan/forecast.h).
+// Errors: kOverDeadline, kCancelled. The same bytes for every number of threads. Time: cells^3 and particles; memory:
+// see transport_bytes (core/plan/forecast.h).
 Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& particles,
                                        const Survey& survey, const TransportSettings& settings,
                                        int threads, const Deadline& deadline);

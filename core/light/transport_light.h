@@ -38,8 +38,8 @@ struct TransportLight {
     double cell = 0;
     glm::ivec3 cells{0};
     std::vector<LightBand> bands;
-    std::vector<glm::vec3>
-        albedo;  // of each cell, for the sun's beam; EMPTY: medium.albedo everywhere
+    // Of each cell, for the sun's beam; EMPTY: medium.albedo everywhere.
+    std::vector<glm::vec3> albedo;
     SunDepth sun;
     // L + 1: the forward peak holds the Legendre orders of the phase function from here on.
     int peak_from = 4;
