@@ -1,5 +1,6 @@
 // The automaton once more, one byte a cell and one random number a cell, straight from its rules: what the words of
-// core/generate/automaton must agree with bit by bit. Shares with it the keyed random words, the ellipsoids and their d.
+// core/generate/automaton must agree with bit by bit. Shares with it the keyed random words, the ellipsoids and their
+// d.
 #pragma once
 
 #include <algorithm>

@@ -209,7 +209,8 @@ TEST(Detail, TransportIsNearTheTruth) {
     const PictureError error = picture_error(rendered->image, *truth);
     std::printf("transport-32 with detail: nrmse %.3f +- %.3f, bias %.3f\n", error.nrmse,
                 error.nrmse_noise, error.bias);
-    // Thick lumps with hard edges are the hardest there is for a grid of 32 cells: 20% here, where smooth matter has 8%.
+    // Thick lumps with hard edges are the hardest there is for a grid of 32 cells: 20% here, where smooth matter has
+    // 8%.
     EXPECT_LT(error.nrmse, 0.25 + 2 * error.nrmse_noise);
     EXPECT_LT(std::abs(error.bias), 0.08 + 2 * error.bias_noise);
     // Far nearer than a picture without it.

@@ -18,8 +18,8 @@ namespace {
 using std::numbers::pi;
 using test::ground_picture;
 
-// The sun's depth behind an opaque half-plane that faces the sun: depth 60 where u < 0, `above` the ground's origin along
-// the light.
+// The sun's depth behind an opaque half-plane that faces the sun: depth 60 where u < 0, `above` the ground's origin
+// along the light.
 SunDepth half_plane(const glm::dvec3& to_sun, double away, double side, int cells) {
     SunDepth sun;
     sun.w = -to_sun;
@@ -114,7 +114,8 @@ TEST(Ground, AShadowLiesWhereTheSunThrowsIt) {
     const glm::dvec3 hit = ball - (ball.y + 1) / to_sun.y * to_sun;
     // Depth through the middle: 10 sqrt(2 pi).
     EXPECT_LT(irradiance_at(ground, hit.x, hit.z).y / ground.sun.y, 1e-6);
-    // Elsewhere: exp(-depth along the line to the sun); the penumbra, 7 / sin 35 * .0047 = .06 of the ball's 1, blurs less.
+    // Elsewhere: exp(-depth along the line to the sun); the penumbra, 7 / sin 35 * .0047 = .06 of the ball's 1, blurs
+    // less.
     for (double x = -6; x <= 6; x += .7)
         for (double z = -6; z <= 6; z += .7) {
             const glm::dvec3 p(hit.x + x, -1, hit.z + z);
@@ -124,8 +125,8 @@ TEST(Ground, AShadowLiesWhereTheSunThrowsIt) {
         }
 }
 
-// Light that the forward peak keeps on its way is on the ground too, less what is absorbed at each of its scatterings: under the
-// middle of a wide cloud whose depth is tau, exp(-(1 - albedo f) tau) in all.
+// Light that the forward peak keeps on its way is on the ground too, less what is absorbed at each of its scatterings:
+// under the middle of a wide cloud whose depth is tau, exp(-(1 - albedo f) tau) in all.
 TEST(Ground, ThePeaksLightComesThroughAsFarAsItIsNotAbsorbed) {
     SceneDraft draft = test::balls({{{0, 10, 0}, 16, 0.1}});
     draft.sun.elevation = 90;
@@ -174,9 +175,10 @@ TEST(Ground, InAWhiteFurnaceNothingIsSeen) {
     EXPECT_NEAR(mean, 1, .01);
 }
 
-// Under a wide layer much of the light has been up and down many times before it is spent: here the third way and those after
-// it bring an eighth of what the ground gets. Where nothing is absorbed and light comes from everywhere, the ground
-// gets all of it in the end. (The thicker the layer, the more what it reflects must be known to; optical depth 2.)
+// Under a wide layer much of the light has been up and down many times before it is spent: here the third way and those
+// after it bring an eighth of what the ground gets. Where nothing is absorbed and light comes from everywhere, the
+// ground gets all of it in the end. (The thicker the layer, the more what it reflects must be known to; optical depth
+// 2.)
 TEST(Ground, UnderAWideLayerLightGoesUpAndDownUntilItIsSpent) {
     std::vector<test::Ball> list;
     for (int i = -8; i <= 8; ++i)
@@ -197,7 +199,8 @@ TEST(Ground, UnderAWideLayerLightGoesUpAndDownUntilItIsSpent) {
     EXPECT_NEAR(mean, 1, .06);
 }
 
-// A cumulus over a dark and a bright ground, the sun high. Errors of rung transport-32 without a ground are 2 to 5% here.
+// A cumulus over a dark and a bright ground, the sun high. Errors of rung transport-32 without a ground are 2 to 5%
+// here.
 TEST(Ground, CloudAndGroundAreThoseOfThePathTracer) {
     for (const double albedo : {.3, .8}) {
         SCOPED_TRACE(albedo);

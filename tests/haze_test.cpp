@@ -20,7 +20,8 @@ using test::Ball;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// --- closed forms -----------------------------------------------------------------------------------------------------
+// --- closed forms
+// -----------------------------------------------------------------------------------------------------
 
 // Simpson over the layer as the scene states it, from a point of the ray on; the exponential part as far as it matters.
 double quadrature(const Haze& haze, double y, double slope, double t) {
@@ -132,7 +133,8 @@ TEST(Haze, TheReferenceInvertsItsDepth) {
             }
 }
 
-// --- pictures ---------------------------------------------------------------------------------------------------------
+// --- pictures
+// ---------------------------------------------------------------------------------------------------------
 
 SceneDraft hazy(SceneDraft draft, double extinction, double height, double scale_height) {
     draft.haze.emplace();

@@ -81,8 +81,8 @@ TEST(Noise, VariesAlikeAlongEveryAxisAndDiagonal) {
         };
     const double x = structure({1, 0, 0}), y = structure({0, 1, 0}), z = structure({0, 0, 1});
     const double diagonal = structure(glm::normalize(glm::dvec3(1, 1, 1)));
-    // 30,000 samples with a relative scatter of 2 or so each: 4% is more than three standard errors. A lattice favours its
-    // diagonals by some per cent.
+    // 30,000 samples with a relative scatter of 2 or so each: 4% is more than three standard errors. A lattice favours
+    // its diagonals by some per cent.
     EXPECT_NEAR(y / x, 1, 0.04);
     EXPECT_NEAR(z / x, 1, 0.04);
     EXPECT_NEAR(diagonal / x, 1, 0.15);

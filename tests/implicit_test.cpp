@@ -39,8 +39,8 @@ TEST(WyvillCubic, IsThePrintedOneWithItsEnds) {
         EXPECT_NEAR(density(cloud, {0, 2 * a, 0}), printed_cubic(a), 1e-6) << a;  // floats
 }
 
-// Integral of the density over space by the lattice: for smooth fields with nothing at their edge, midpoints are better than
-// the tolerances, which leave room for the kink in the second derivative at the reach.
+// Integral of the density over space by the lattice: for smooth fields with nothing at their edge, midpoints are better
+// than the tolerances, which leave room for the kink in the second derivative at the reach.
 double integral(const ImplicitCloud& cloud, std::uint64_t resolution = 96) {
     const ImplicitField field = prepare_field(cloud, test::kKey, 0);
     LatticeField lattice = lattice_over(field, resolution);
@@ -153,7 +153,8 @@ TEST(Density, FollowsAmountExponentAndWeight) {
             cloud.amount = 0.4;
             cloud.exponent = exponent;
             const double wanted = std::pow(0.4 * 3 * printed_cubic(glm::length(p) / 1.5), exponent);
-            // The logarithm's error, 1e-6, times the exponent; and what floats lose near the reach, where the base is small.
+            // The logarithm's error, 1e-6, times the exponent; and what floats lose near the reach, where the base is
+            // small.
             EXPECT_NEAR(density(cloud, p), wanted, 2e-5 * wanted + 1e-6) << exponent;
         });
     // Linear in weight at exponent 1.

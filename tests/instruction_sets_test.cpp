@@ -23,8 +23,8 @@
 namespace awan {
 namespace {
 
-// Between them they call every kernel: cells of an automaton, an implicit field and its growth; transport with and without
-// directions, and the march, with detail and in haze.
+// Between them they call every kernel: cells of an automaton, an implicit field and its growth; transport with and
+// without directions, and the march, with detail and in haze.
 struct Case {
     const char* preset;
     void (*change)(SceneDraft&);

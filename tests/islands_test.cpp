@@ -121,8 +121,8 @@ TEST(Islands, OneCloudIsOne) {
     EXPECT_TRUE(find_islands(ParticleSet{}).list.empty());
 }
 
-// Apart, each has the light that it has alone: .5% is what the solve's tolerance, and the little that they see of each other at
-// 60 times their size, leave.
+// Apart, each has the light that it has alone: .5% is what the solve's tolerance, and the little that they see of each
+// other at 60 times their size, leave.
 TEST(Islands, TwoFarCloudsHaveTheirOwnLight) {
     std::vector<test::Ball> one, both;
     add_cloud(one, {0, 0, 0}, 2, 15, 1);
@@ -164,8 +164,8 @@ TEST(Islands, ShadowsOfOthersAreInTheDepthFromTheSun) {
     }
 }
 
-// A neighbour need not stand between an island and the sun to shade it: out to 4 s its rim does. Each island's depth from the
-// sun is that of all matter, wherever the neighbour's middle is.
+// A neighbour need not stand between an island and the sun to shade it: out to 4 s its rim does. Each island's depth
+// from the sun is that of all matter, wherever the neighbour's middle is.
 TEST(Islands, ANeighboursRimShades) {
     std::vector<test::Ball> list;
     add_cloud(list, {0, 0, 0}, 2, 6, 1);
@@ -270,8 +270,9 @@ TEST(Islands, AreCloserToTheTruthThanOneGrid) {
     EXPECT_LT(error[0].nrmse, 0.5 * error[1].nrmse + 2 * error[0].nrmse_noise);
 }
 
-// The preset of a hundred clouds: memory within what the plan says, cells and nodes as the forecast counts them to a factor
-// of 1.5 (boxes are rounded up to cells; the islands' outlines are taken for ellipsoids). Times are for the reader.
+// The preset of a hundred clouds: memory within what the plan says, cells and nodes as the forecast counts them to a
+// factor of 1.5 (boxes are rounded up to cells; the islands' outlines are taken for ellipsoids). Times are for the
+// reader.
 TEST(Islands, SkyOfAHundredCostsWhatIsPredicted) {
     std::ifstream file(AWAN_SOURCE_DIR "/web/presets/sky-of-100.json");
     std::ostringstream text;

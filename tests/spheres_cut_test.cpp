@@ -1,5 +1,5 @@
-// Level of detail of clouds of spheres: what a cut keeps, how large it may get, and that pictures of it are as near to those of
-// all leaves as it says.
+// Level of detail of clouds of spheres: what a cut keeps, how large it may get, and that pictures of it are as near to
+// those of all leaves as it says.
 #include "core/generate/spheres/cut.h"
 
 #include <gtest/gtest.h>
@@ -111,8 +111,8 @@ TEST(SpheresCut, PicturesAreAsNearAsStated) {
         }
 }
 
-// A cut sphere has the mass to be expected below its five children. That of a leaf's parent is exact, deeper ones differ by 33%
-// a cluster, at random; here some thousand are cut.
+// A cut sphere has the mass to be expected below its five children. That of a leaf's parent is exact, deeper ones
+// differ by 33% a cluster, at random; here some thousand are cut.
 TEST(SpheresCut, MassIsKept) {
     SpheresCloud cloud;
     cloud.levels = 7;
@@ -158,7 +158,8 @@ TEST(SpheresCut, TheDeepestTreesStayWithinTheirBudget) {
     EXPECT_GT(made.error, 0);
 }
 
-// All spheres of a tree of one ratio are as large as each other, a level at a time: the budget falls between two levels.
+// All spheres of a tree of one ratio are as large as each other, a level at a time: the budget falls between two
+// levels.
 TEST(SpheresCut, EqualSpheresStayWithinTheBudgetToo) {
     SpheresCloud cloud;
     cloud.levels = 10;

@@ -59,7 +59,8 @@ void each_pair(const SphereTree& tree, const SphereNode& node, int level, const 
 
 // --- subdivision
 
-// The law that makes every sphere a bounding volume. Rounding: three additions of numbers no larger than the parent's place.
+// The law that makes every sphere a bounding volume. Rounding: three additions of numbers no larger than the parent's
+// place.
 TEST(Spheres, EveryChildLiesInItsParent) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         test::Dice dice(seed);
@@ -100,8 +101,8 @@ TEST(Spheres, TheFiveGoWhereTheSourceSays) {
     EXPECT_EQ(child_offset(4, other, axes, across, -1), glm::dvec3(-aside, -along * 0.5, 0));
 }
 
-// Without its root the printed f is an area: the same cloud drawn ten times as large throws its children ten times as far, in
-// parents' radii, and out of their parents. The fifth's f(s, D) is not even an area.
+// Without its root the printed f is an area: the same cloud drawn ten times as large throws its children ten times as
+// far, in parents' radii, and out of their parents. The fifth's f(s, D) is not even an area.
 TEST(Spheres, ThePrintedCoordinateLeavesTheParent) {
     const double s = 0.9, ratio = 0.26;
     const auto reach = [&](double radius, auto f) {

@@ -440,8 +440,8 @@ TEST(Light, DrawnFromTheSunsSideIsTheSame) {
         }
 }
 
-// Absorption in particles of a colour, or by an albedo of the same: one law, and the same light, from whichever side the
-// directions are drawn.
+// Absorption in particles of a colour, or by an albedo of the same: one law, and the same light, from whichever side
+// the directions are drawn.
 TEST(Light, DrawnFromTheSunsSideIsAbsorbedAsFromTheEyes) {
     const glm::vec3 color(0.9F, 0.6F, 0.3F);
     const glm::dvec3 to_sun = glm::normalize(glm::dvec3(0.5, 0.7, -0.4));
@@ -537,7 +537,8 @@ TEST(Ground, HasTheCloudsShadow) {
         truth::Tally tally;
         const glm::dvec3 p(x, -3, 0.2);
         const double through = std::exp(-line_optical_depth(one, p, to_sun, 0, kInfinite));
-        // Each path gets through to a point of the sun's disc or not: of the mean, 3.4 standard errors are allowed at worst.
+        // Each path gets through to a point of the sun's disc or not: of the mean, 3.4 standard errors are allowed at
+        // worst.
         constexpr int kPaths = 40000;
         double sum = 0;
         for (int i = 0; i < kPaths; ++i)

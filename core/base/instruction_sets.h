@@ -15,8 +15,8 @@ enum class InstructionSet { kPlain, kAvx2, kAvx512 };  // kPlain: any processor 
 // AWAN_INSTRUCTIONS=plain or avx2, for comparing them.
 InstructionSet instruction_set();
 
-// What instruction_set() answers for a wish, on a processor that has `widest`. A wish for more than that, or one that is
-// no set's name, is as good as none.
+// What instruction_set() answers for a wish, on a processor that has `widest`. A wish for more than that, or one that
+// is no set's name, is as good as none.
 InstructionSet instruction_set_for(std::string_view wish, InstructionSet widest);
 
 }  // namespace awan

@@ -5,8 +5,8 @@
 
 namespace awan {
 
-// Calls work(what, i) once for every i in 0..count-1, on at most `threads` threads (the caller's is one of them). work must
-// not throw and items must not touch each other's data.
+// Calls work(what, i) once for every i in 0..count-1, on at most `threads` threads (the caller's is one of them). work
+// must not throw and items must not touch each other's data.
 void run_in_parallel(int threads, std::size_t count, void (*work)(const void* what, std::size_t i),
                      const void* what);
 

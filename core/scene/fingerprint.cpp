@@ -1,12 +1,12 @@
 // XXH3-128 over a canonical byte serialisation.
 //
 // A walk over the tables puts every field in, in their order: every list, optional and string preceded by its length or
-// presence, so that no two scenes share their bytes by running together. Numbers go in as their little-endian bytes (the
-// engine is built for x86-64 only), with -0 as 0.
+// presence, so that no two scenes share their bytes by running together. Numbers go in as their little-endian bytes
+// (the engine is built for x86-64 only), with -0 as 0.
 //
-// Equal scenes may be written in several ways, and some values have no meaning beside others. Those, and only those, are
-// named here (Instead): another value stands for the member, or the member is left out. What is not named goes in as it is,
-// so a new field is part of every fingerprint until somebody says otherwise.
+// Equal scenes may be written in several ways, and some values have no meaning beside others. Those, and only those,
+// are named here (Instead): another value stands for the member, or the member is left out. What is not named goes in
+// as it is, so a new field is part of every fingerprint until somebody says otherwise.
 #include "core/scene/fingerprint.h"
 
 #define XXH_STATIC_LINKING_ONLY  // the state may stand on the stack

@@ -304,7 +304,7 @@ MUTANTS = [
       "return tau < 0.03125f ? tau * (1.0f - tau * (0.5f", "return tau < 0.03125f ? tau * (1.0f + tau * (0.5f",
       "a sign", ["shared_maths_test:Optics.*"]),
     M("phase not normalised", "shaders", "core/shaders/phase.glsl", "(2.0f + g * g)", "(1.0f + g * g)",
-      "as document 000 prints it", ["shared_maths_test:Phase.*"]),
+      "as Sunar et al. 2005 prints it", ["shared_maths_test:Phase.*"]),
     M("sums without the first slab", "shaders", "core/shaders/light_sums.glsl",
       "for (int k = 0; k < cells.z; ++k)", "for (int k = 1; k < cells.z; ++k)", "off by one",
       ["passes_test:Light.*"]),
