@@ -54,6 +54,7 @@ INSTANTIATE_TEST_SUITE_P(
         Attack{"PlusLength", with("Content-Length: +2\r\n", "{}"), 400},
         Attack{"NegativeLength", with("Content-Length: -2\r\n", "{}"), 400},
         Attack{"HexLength", with("Content-Length: 0x2\r\n", "{}"), 400},
+        Attack{"LettersInLength", with("Content-Length: 2a\r\n", "{}"), 400},
         Attack{"SpaceInLength", with("Content-Length: 1 2\r\n", "{}"), 400},
         Attack{"EmptyLength", with("Content-Length: \r\n", "{}"), 400},
         Attack{"LengthOverflow", with("Content-Length: 18446744073709551618\r\n", "{}"), 413},

@@ -109,9 +109,18 @@ TEST(Accept, BestOfferIsThatOfHighestQualityThenFirst) {
     EXPECT_EQ(best("a/x;q=0.2,a/y;q=0.8;v=1"), "a/y");
     EXPECT_EQ(best("a/x;q=0.001, b/z;q=0.002"), "b/z");
     EXPECT_EQ(best("a/x;v=\"1,2\";q=0.1, a/y;q=0.2"), "a/y");
+    EXPECT_EQ(best("a/x;q=0.19, b/z;q=0.91"), "b/z") << "each digit has its own weight";
+    EXPECT_EQ(best("a/x;q=0.29, b/z;q=0.3"), "b/z");
     EXPECT_EQ(best("c/c"), "none");
     EXPECT_EQ(best("*/*;q=0"), "none");
     EXPECT_EQ(best(",,;,"), "none");
+}
+
+TEST(Tags, PartsDoNotRunIntoOneAnother) {
+    EXPECT_EQ(make_etag({"ab", "c"}), make_etag({"ab", "c"}));
+    EXPECT_NE(make_etag({"ab", "c"}), make_etag({"a", "bc"}));
+    EXPECT_NE(make_etag({"ab", ""}), make_etag({"", "ab"}));
+    EXPECT_NE(make_etag({"ab"}), make_etag({"ab", ""}));
 }
 
 TEST(SceneText, FormatIsSeenFromTheFirstBytes) {
