@@ -160,7 +160,7 @@ void add_value(Hasher& hash, const Field& field, const void* value, const Instea
 }
 
 void add_field(Hasher& hash, const Field& field, const void* object, const Instead& instead) {
-    if (field.access.holds == Holds::kOutside) return;
+    if (field.access.holds == Holds::kOutside || field.access.holds == Holds::kAbsence) return;
     const void* const value = instead.value_of(field, object);
     const bool idle = field.idle != nullptr && field.idle(object);
     const bool used = value != nullptr && !idle &&
@@ -170,12 +170,9 @@ void add_field(Hasher& hash, const Field& field, const void* object, const Inste
 }
 
 void add_object(Hasher& hash, const Table& table, const void* object, const Instead& instead) {
-    for (const Field& field : table.fields) {
-        if (field.access.holds != Holds::kAbsence) continue;
-        const bool absent = *static_cast<const bool*>(field.access.member(object));
-        hash.integer(absent);
-        if (absent) return;
-    }
+    const bool absent = is_absent(table, object);
+    hash.integer(absent);
+    if (absent) return;
     for (const Field& field : table.fields) add_field(hash, field, object, instead);
 }
 

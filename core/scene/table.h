@@ -159,6 +159,12 @@ struct Table {
     const char* shorthand = nullptr;
 };
 
+// The row by which the whole object can be absent (absence() below); null: it has none.
+const Field* absence_of(const Table& table);
+
+// Whether that row says that `object` is not there.
+bool is_absent(const Table& table, const void* object);
+
 // The table of a struct of the document; defined below each of them.
 template <typename Object>
 const Table& table_of();

@@ -89,12 +89,6 @@ std::string any_of(const std::vector<std::string>& schemas) {
     return out + "]}";
 }
 
-const Field* absence_of(const Table& table) {
-    for (const Field& field : table.fields)
-        if (field.access.holds == Holds::kAbsence) return &field;
-    return nullptr;
-}
-
 std::string object_schema(const Table& table, const void* standards, Schemas& schemas);
 
 // Named, unless its defaults are other than those of its kind.
@@ -188,9 +182,8 @@ void add_default(const Field& field, const void* standards, std::string& out) {
             words("default", "auto", out);
             break;
         case Holds::kObject: {
-            const Field* const absence = absence_of(field.access.table());
-            if (value && absence && *static_cast<const bool*>(absence->access.member(value)))
-                words("default", absence->absent, out);
+            const Table& table = field.access.table();
+            if (value && is_absent(table, value)) words("default", absence_of(table)->absent, out);
             break;
         }
         default:
