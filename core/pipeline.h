@@ -1,5 +1,6 @@
-// From a scene to its picture. The stages, in order: generate, survey and plan (core/planning.h, core/sequence.h), light, draw.
-// A document is parsed and validated before (server/document, core/scene), the picture is encoded after (core/formats).
+// From a scene to its picture. The stages, in order: generate, survey and plan (core/planning.h, core/sequence.h),
+// light, draw. A document is parsed and validated before (server/document, core/scene), the picture is encoded after
+// (core/formats).
 #pragma once
 
 #include "core/base/deadline.h"
@@ -24,15 +25,18 @@ struct Rendered {
 // What rendering works with. The splat rungs need the device, on the thread that owns it; the others run on
 // `threads` threads and do without.
 struct Tools {
-    Device* device = nullptr;      // null: splat rungs fail with kNoRenderer
+    // Null: splat rungs fail with kNoRenderer.
+    Device* device = nullptr;
     int threads = 1;               // >= 1
     LightCache* lights = nullptr;  // null: nothing is kept
-    Progress progress;             // of rung truth, the only one that takes long
+    // Of rung truth, the only one that takes long.
+    Progress progress;
     MachineSpeed speed;
 };
 
-// Generates, surveys and plans. Of a scene with a sequence: with what is settled for all of its frames (core/sequence.h).
-// threads >= 1. Errors: kInvalidScene (what only making the clouds shows), kOverDeadline, kCancelled.
+// Generates, surveys and plans. Of a scene with a sequence: with what is settled for all of its frames
+// (core/sequence.h). threads >= 1. Errors: kInvalidScene (what only making the clouds shows), kOverDeadline,
+// kCancelled.
 Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadline,
                           const MachineSpeed& speed = {});
 

@@ -15,7 +15,8 @@ namespace awan {
 // Wall time, ms.
 struct StageTimes {
     double generate_ms = 0, survey_ms = 0, light_ms = 0, draw_ms = 0;
-    EffectTimes effects;  // parts of the above; of effects that are on
+    // Parts of the above; of effects that are on.
+    EffectTimes effects;
 };
 
 struct Planned {

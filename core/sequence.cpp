@@ -66,7 +66,8 @@ Result<Settled> settle(const Scene& scene, int threads, const Deadline& deadline
         auto camera = hold_all(draft, times, threads, deadline);
         if (!camera.ok()) return camera.error();
         const Camera own = std::exchange(draft.camera, *camera);
-        if (!validate(draft).ok()) draft.camera = own;  // it would stand beyond the limits
+        // It would stand beyond the limits.
+        if (!validate(draft).ok()) draft.camera = own;
     }
     if (draft.look != Look::kPhysical) return settled;
     const Rung* chosen = nullptr;
@@ -94,7 +95,8 @@ Result<Settled> settle(const Scene& scene, int threads, const Deadline& deadline
         }
     }
     draft = std::move(with_effects);
-    // As many paths as the wish needs: they stay with the wish.
+    // Rung truth is not named: by name it would have a noise of its own choice instead of the one that the scene's
+    // error or time asks for.
     if (chosen->method != Method::kPaths) draft.accuracy = {{}, {}, std::string(chosen->name)};
     return settled;
 }
@@ -103,7 +105,7 @@ Frame frame_at(const Settled& settled, double time) {
     SceneDraft draft = settled.draft;
     draft.time = time;
     Frame frame{valid(std::move(draft)), settled.detail};
-    // It goes with the clouds.
+    // The detail's bumps move with the first cloud.
     if (frame.detail && !settled.draft.clouds.empty())
         frame.detail->origin += (time - settled.from) * settled.draft.clouds[0].velocity;
     return frame;

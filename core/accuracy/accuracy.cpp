@@ -21,7 +21,8 @@ namespace {
 using Clock = Deadline::Clock;
 
 constexpr double kReferenceShare = 0.5;  // of the time allowed
-constexpr double kRungShare = 0.6;       // of what is left, for one rung at most
+// Of what is left, for one rung at most.
+constexpr double kRungShare = 0.6;
 
 std::string seconds_text(double ms) {
     std::array<char, 32> text{};

@@ -63,8 +63,8 @@ GroundLight ground_below(const Scene& scene, const Planned& planned) {
     return ground;
 }
 
-// What tracing a picture takes: a part that every picture takes before its first path (the tracer's tables), and the paths,
-// of which those in thick clouds take a hundred times those in thin ones.
+// What tracing a picture takes: a part that every picture takes before its first path (the tracer's tables), and the
+// paths, of which those in thick clouds take a hundred times those in thin ones.
 struct TracingTime {
     double fixed_ms = 0, path_ms = 0;
 

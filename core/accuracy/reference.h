@@ -1,5 +1,5 @@
-// The picture that all rungs are measured against: truth by rung truth's path tracer, as large and as free of noise as the time
-// allows.
+// The picture that all rungs are measured against: truth by rung truth's path tracer, as large and as free of noise
+// as the time allows.
 #pragma once
 
 #include <cstdint>

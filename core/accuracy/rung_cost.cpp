@@ -34,7 +34,8 @@ struct Timed {
 struct MedianTime {
     int runs = 0;
     double whole_ms = 0;
-    StageTimes stages;  // of the run at the median, the faster one of two
+    // Of the run at the median, the faster one of two.
+    StageTimes stages;
 };
 
 MedianTime median_of(std::vector<Timed> timed) {
@@ -149,7 +150,8 @@ Result<RungCost> measure_rung(const RungMeasurement& with, const Rung& rung,
 }
 
 double measuring_ms(const RungForecast* forecast, const Scene& scene, PictureSize small, int runs) {
-    constexpr double kUnknownMs = 200;  // of a render that nobody predicts
+    // Of a render that nobody predicts.
+    constexpr double kUnknownMs = 200;
     const double one =
         forecast != nullptr && std::isfinite(forecast->time_ms) && forecast->time_ms > 0
             ? forecast->time_ms

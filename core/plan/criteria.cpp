@@ -24,8 +24,8 @@ constexpr double kScatterDepthForward = 0.02;    // |g| >= .5; linear in between
 constexpr double kShare = 0.01;  // of the light, of a pixel
 constexpr double kTint = 0.01;   // of a channel from grey
 
-// What the picture loses without an effect, measured by the largest optical depth (PHYSICS: bias of exact solutions
-// without self-shadow, view extinction, and scattering at its worst).
+// What the picture loses without an effect, measured by the largest optical depth (the error of exact solutions
+// that go without self-shadow, view extinction, and scattering at its worst).
 struct Measured {
     double depth, shadow, view, scattering;
 };
@@ -141,9 +141,10 @@ double phase_in_view(const Haze& haze, const Lights& lights, const View& view) {
 
 Criterion haze(Effect effect, const Scene& scene, const Survey& survey, const Lights& lights) {
     if (!scene->haze || !(scene->haze->extinction > 0)) return {false, 0, "the scene has no haze"};
+    // What shafts' absence costs is measured over the whole picture.
     if (effect == Effect::kLightShafts)
         return above("the clouds' shadows in the haze, over a typical pixel,", survey.haze.shaded,
-                     kShare, 0.4 * survey.haze.shaded);  // of the whole picture; measured
+                     kShare, 0.4 * survey.haze.shaded);
     // Thin haze shows where it glows: towards the sun, over a typical pixel.
     const double depth = std::max(survey.haze.depth_to_clouds, survey.haze.depth_behind);
     const double glow =
@@ -157,7 +158,7 @@ Criterion haze(Effect effect, const Scene& scene, const Survey& survey, const Li
 Criterion detail(const Scene& scene, const Survey& survey) {
     if (!scene->detail) return {false, 0, "the scene asks for none"};
     if (!(scene->detail->amount > 0)) return {false, 0, "the scene asks for an amount of 0"};
-    // Where matter is gathered a pixel has it or has it not. Measured on table 4.4.
+    // Where matter is gathered a pixel has it or has it not. Measured on table 4.4 of Sunar et al. 2005.
     const double left_out = 0.55 * scene->detail->amount;
     return above("its largest bumps in pixels,", detail_pixels(scene, survey), kLeastBump,
                  left_out);

@@ -22,8 +22,8 @@ double predicted_ms(const TimeModel& model, const TimeFigures& figures) {
     return std::inner_product(figures.begin(), figures.end(), model.coefficient.begin(), 0.0);
 }
 
-// Of a scene in islands: the solves that run at a time, the lights, the particles sorted into islands and those that the
-// islands at work have of each other.
+// Of a scene in islands: the solves that run at a time, the lights, the particles sorted into islands and those that
+// the islands at work have of each other.
 double island_bytes(const IslandWork& work, double bands, double particles, double vectors,
                     int threads) {
     return 64 * vectors * work.largest * std::max(threads, 1) + 64 * bands * work.cells +
@@ -33,8 +33,8 @@ double island_bytes(const IslandWork& work, double bands, double particles, doub
 // At its peak, beside particles and picture: the transport solve's vectors, or the light grid and lists of the splats.
 double predicted_bytes(const Rung& rung, const Scene& scene, const Survey& survey,
                        const TimeFigures& figures, int threads) {
-    constexpr double kVectors =
-        2 * 12 + 8;  // of GMRES (core/light/transport.cpp) and the sweeps, 16 floats a cell
+    // Of GMRES (core/light/transport.cpp) and the sweeps, 16 floats a cell.
+    constexpr double kVectors = 2 * 12 + 8;
     const double pairs = figures[3], particles = figures[2];
     switch (rung.method) {
         case Method::kSplats:

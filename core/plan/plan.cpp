@@ -11,10 +11,15 @@
 namespace awan {
 namespace {
 
-constexpr double kPatience_ms = 20e3;  // longer paths than these are not chosen, only taken by name
+// Longer paths than these are not chosen, only taken by name.
+constexpr double kPatience_ms = 20e3;
+// Where no rung keeps to the error that is wanted: a cheaper rung than the closest is taken, if its error is at most
+// so many times the closest's.
 constexpr double kKnee = 2.5;
-constexpr double kFarOff = 0.3;       // relative error
-constexpr double kTruthNoise = 0.05;  // of a pixel, when rung truth is asked for by name
+// Relative error above which a picture is far from the truth for anyone to see.
+constexpr double kFarOff = 0.3;
+// Of a pixel, when rung truth is asked for by name.
+constexpr double kTruthNoise = 0.05;
 
 // Forward-scattered light travels with the light pass of self_shadow: one does not run without the
 // other.
@@ -82,8 +87,9 @@ Choice cheapest_within(double error, const std::vector<RungForecast>& candidates
         if (candidate.error <= error && (!cheapest || candidate.time_ms < cheapest->time_ms))
             cheapest = &candidate;
     }
-    // Where all are far off, what leaves out most of the light is not close because its forecast is a little less: a picture of
-    // a dark cloud is the worst of them.
+    // Where all rungs are far off, forecasts that differ by a little say nothing. A rung that leaves out most of the
+    // light shows a dark cloud, which is the worst of the pictures: only rungs that follow all orders are left to
+    // choose from.
     if (!cheapest && best && best->error > kFarOff) {
         const RungForecast* of_grids = nullptr;
         for (const RungForecast& candidate : candidates)
@@ -97,7 +103,7 @@ Choice cheapest_within(double error, const std::vector<RungForecast>& candidates
         return {*cheapest, "the cheapest with a predicted error of at most " + percent(error)};
     std::string reason = "none is predicted to stay under " + percent(error);
     if (!cheapest && error >= kDefaultError) {
-        // No more than a picture at all was asked for: not ten times the time for a little less of a large error.
+        // The scene asks for no particular error: it is not made to wait ten times as long for a slightly smaller one.
         const RungForecast* knee = best;
         for (const RungForecast& candidate : candidates)
             if (candidate.rung->method != Method::kPaths &&
@@ -129,9 +135,10 @@ Choice best_in_time(double time_ms, const std::vector<RungForecast>& candidates)
             "none is predicted to take at most " + milliseconds(time_ms) + "; this is the fastest"};
 }
 
-// Of splats in matter so thin that little is shaded or scattered twice: what that little costs, and their sky, which comes evenly
-// from above and from below. Measured on table 4.4 at depths .03 to .3: 5 to 7% under a gradient, 25 to 27% under a physical
-// sky, whose light about the sun is scattered forward. Infinite where matter is deeper than that.
+// Error of splats in matter so thin that little is shaded or scattered twice: that little is what they leave out;
+// besides, splats have the sky's light come evenly from above and below. Infinite where matter is deeper. Measured on
+// table 4.4 of Sunar et al. 2005 at depths .03 to .3: 5 to 7% under a gradient, 25 to 27% under a physical sky, whose
+// light about the sun is scattered forward.
 double thin_error(const Plan& plan, const Scene& scene, const Survey& survey, bool additive) {
     const double deepest =
         std::max({survey.optical_depth_eye, survey.optical_depth_sun, survey.optical_depth_zenith});

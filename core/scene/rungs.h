@@ -37,7 +37,8 @@ struct Rung {
     const char* name;       // in documents
     const char* simulates;  // one phrase, for people
     Method method;
-    int cells;  // of the transport grid along its longest side; 0: no transport
+    // Of the transport grid along its longest side; 0: no transport.
+    int cells;
 
     // A rung is known by its id, wherever a copy of it stands in memory.
     friend bool operator==(const Rung& a, const Rung& b) { return a.id == b.id; }

@@ -17,7 +17,8 @@ namespace {
 constexpr int kAcross = 16, kDown = 12, kPoints = 32;
 constexpr int kSkySteps = 48;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kSeen = 0.01;  // optical depth from which a ray meets clouds
+// Optical depth from which a ray meets clouds.
+constexpr double kSeen = 0.01;
 
 // Part of origin + t direction, t in from..to, inside of the volume.
 bool clip(const DensityVolume& volume, const glm::dvec3& origin, const glm::dvec3& direction,
@@ -54,9 +55,10 @@ double depth_towards(const DensityVolume& volume, const glm::dvec3& p,
 
 // What lights the haze and, by a guess, the clouds in it. Luminances.
 struct Lights {
-    double sun;      // irradiance
-    double ambient;  // mean radiance from all directions
-    double cloud;    // radiance of a lit cloud
+    double sun;  // irradiance
+    // Mean radiance from all directions.
+    double ambient;
+    double cloud;  // radiance of a lit cloud
     glm::dvec3 to_sun;
     SkyDome sky;
 };
@@ -89,7 +91,8 @@ RayFigures look_along(const Haze& haze, double ground, const Lights& lights, con
     const double albedo = luminance(haze.albedo);
     RayFigures figures;
     figures.behind = ray.depth(end);
-    // Points even in the haze's opacity would crowd at the eye: even in distance instead, out to well behind the clouds.
+    // Points even in the haze's opacity would crowd at the eye: even in distance instead, out to well behind the
+    // clouds.
     const glm::dvec3 half = 0.5 * glm::dvec3(volume.cells) * volume.cell;
     const double reach =
         std::min(end, glm::length(volume.origin + half - view.eye) + 2 * glm::length(half));

@@ -10,8 +10,8 @@
 namespace awan {
 namespace {
 
-constexpr double kCut =
-    4;  // in s; what lies beyond (0.03% of the mass) is folded back by renormalising
+// In s; what lies beyond (0.03% of the mass) is folded back by renormalising.
+constexpr double kCut = 4;
 
 struct Span {
     int first, last;  // cells, inclusive

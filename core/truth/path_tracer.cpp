@@ -21,7 +21,8 @@ using truth::Picture;
 using truth::Pixel;
 using truth::Setting;
 
-constexpr int kTile = 8;  // pixels; particles are looked up by tile
+// Pixels; particles are looked up by tile.
+constexpr int kTile = 8;
 
 TruthImage empty_image(const ImageSettings& settings) {
     TruthImage truth;

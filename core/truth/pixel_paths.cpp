@@ -10,16 +10,21 @@
 namespace awan::truth {
 namespace {
 
-constexpr std::uint32_t kLook = 32;  // paths between two looks at the deadline
-constexpr double kDark = 1e-9;       // of the light behind the clouds: below, it is not traced
+// Paths between two looks at the deadline.
+constexpr std::uint32_t kLook = 32;
+// Of the light behind the clouds: below, it is not traced.
+constexpr double kDark = 1e-9;
 
 // A pixel's ray and how much of what lies along it is seen. Lengths in cells.
 struct Sight {
     glm::dvec3 eye;
     glm::dvec3 direction;
-    double ground;   // distance of the ground; infinite: there is none on the ray
-    double covered;  // share of the light from behind that the clouds keep away, exact
-    double through;  // 1 - covered, with all its digits
+    // Distance of the ground; infinite: there is none on the ray.
+    double ground;
+    // Share of the light from behind that the clouds keep away, exact.
+    double covered;
+    // 1 - covered, with all its digits.
+    double through;
     std::optional<HazePath> haze;
 };
 
@@ -40,8 +45,8 @@ glm::dvec3 through_haze(const Picture& picture, const Sight& sight, const glm::d
                                                                sight.direction, end, random);
 }
 
-// Adds the mean of samples / 2 paths to each half of a pixel. path(random, stratum): the radiance of one; stratum is uniform
-// in (0, 1) and spread evenly over them. False: out of time.
+// Adds the mean of samples / 2 paths to each half of a pixel. path(random, stratum): the radiance of one; stratum is
+// uniform in (0, 1) and spread evenly over them. False: out of time.
 template <typename Path>
 bool add_mean(const Picture& picture, std::uint64_t key, std::uint32_t samples, Pixel& pixel,
               const Path& path) {

@@ -27,7 +27,8 @@ struct Picture {
     const Setting& setting;
     // None: there is no haze, or it is not to be seen.
     const std::optional<HazeSetting>& air;
-    std::uint32_t samples;  // paths a pixel, both halves together; even, >= 2
+    // Paths a pixel, both halves together; even, >= 2.
+    std::uint32_t samples;
     std::uint64_t seed;
     const Deadline& deadline;
     // Set by the first pixel that finds the time over; all others stop then.
