@@ -139,7 +139,7 @@ TEST(SpheresCut, IsFinerWhereTheEyeIsNear) {
 
 // From where an eye stands a sphere is as near as its nearest point.
 TEST(SpheresCut, SpheresLookAsLargeAsFromTheirNearestPoint) {
-    SphereCut cut;
+    spheres::SphereCut cut;
     cut.eye = glm::dvec3(0, 0, 13);
     cut.least_distance = 1e-6;
     EXPECT_DOUBLE_EQ(cut.size_of({{0, 0, 0}, 10}), 10.0 / 3);

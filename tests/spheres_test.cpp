@@ -273,7 +273,7 @@ TEST(Spheres, ExpectedMomentsAreTheMeansOverAllSides) {
     cloud.shift_min = cloud.shift_max = shift;
     const SphereTree tree(cloud, 1, 0, 0);
     std::vector<glm::dvec3> offsets;  // of ten children, two in each place, in radii of the parent
-    for (int j = 0; j < kSphereChildren; ++j)
+    for (int j = 0; j < spheres::kSphereChildren; ++j)
         for (const double side : {-1.0, 1.0})
             offsets.push_back(
                 child_offset(j, {ratio, shift, side}, glm::dvec3(1), glm::dvec3(1), tree.up()));

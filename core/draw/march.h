@@ -12,7 +12,7 @@ namespace awan {
 struct MarchSettings {
     // About how much the steps may cost, as a share of a pixel's radiance.
     double step_error = 0.01;
-    EyeEffects eye_effects;
+    EyeEffects eye_effects{};
 };
 
 // The same picture for every number of threads. times: what it took is added to them; may be null.

@@ -40,7 +40,7 @@ struct TruthOptions {
     // Scatterings a path may have; 0 = no end but the albedo's and the limit kMaxOrders.
     std::uint32_t max_orders = 0;
     SkySampling sky = SkySampling::kEscape;
-    EyeEffects eye_effects;
+    EyeEffects eye_effects{};
     std::uint64_t seed = 1;
     int threads = 1;
 };
