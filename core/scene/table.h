@@ -144,7 +144,7 @@ struct Field : Row {
     Access access;
 
     constexpr Field(const Row& row, const Access& how) : Row(row), access(how) {}
-    bool in_documents() const { return name[0] != '\0'; }
+    constexpr bool in_documents() const { return name[0] != '\0'; }
 };
 
 struct Table {
@@ -357,13 +357,26 @@ constexpr std::size_t members_of() {
         return sizeof...(Members);
 }
 
+// Whether two rows are for one member, or have one name.
+constexpr bool any_twice(std::span<const Field> fields) {
+    for (std::size_t i = 0; i < fields.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const Field &a = fields[i], &b = fields[j];
+            if (a.access.member != nullptr && a.access.member == b.access.member) return true;
+            if (a.in_documents() && std::string_view(a.name) == b.name) return true;
+        }
+    return false;
+}
+
 }  // namespace table_detail
 
-// Whether the rows are as many as the struct's members, a member that is a struct of which the rows name the parts
-// (Row::part_of) counted once and a bool of field_unless counted too. Tables assert it: a member without a row does not
-// compile.
+// Whether the rows are as many as the struct's members, none twice; a member that is a struct of which the rows name
+// the parts (Row::part_of) is counted once, and a bool of field_unless is counted too. Tables assert it: a member
+// without a row does not compile.
 template <typename Object, std::size_t N>
 constexpr bool covers(const Field (&fields)[N]) {
+    static_assert(N <= 64, "readers keep a bit for each field");
+    if (table_detail::any_twice(fields)) return false;
     std::size_t covered = 0;
     for (std::size_t i = 0; i < N; ++i) {
         bool counted = false;
@@ -379,6 +392,7 @@ constexpr bool covers(const Field (&fields)[N]) {
 // The same for a member's parts.
 template <typename Part, std::size_t N>
 constexpr bool covers_part(const Field (&fields)[N], std::string_view name) {
+    if (table_detail::any_twice(fields)) return false;
     std::size_t covered = 0;
     for (const Field& one : fields)
         if (one.part_of != nullptr && name == one.part_of) ++covered;

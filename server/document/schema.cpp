@@ -30,10 +30,16 @@ void ends(const Range& range, std::string& out) {
     if (range.highest < std::numeric_limits<double>::max()) member("maximum", range.highest, out);
 }
 
+// Whether numbers are kept as float32: what rounds to an end of their range is in it.
+bool is_single(const Field& field) {
+    return field.access.holds == Holds::kFloats || field.access.holds == Holds::kColors;
+}
+
 // One number: of a field, of a component, or of a list's element.
 std::string number_schema(const Field& field) {
     std::string out = "{";
     words("type", field.whole ? "integer" : "number", out);
+    if (is_single(field)) words("format", "float", out);
     ends(field.range, out);
     out += '}';
     if (!field.or_zero) return out;
@@ -105,7 +111,7 @@ std::string object_reference(const Table& table, const void* standards, Schemas&
 }
 
 std::string value_schema(const Field& field, const void* standard, Schemas& schemas) {
-    const std::uint64_t most = field.counts.highest;
+    const auto [least, most] = field.counts;
     const std::string number = number_schema(field);
     switch (field.access.holds) {
         case Holds::kNumber:
@@ -124,12 +130,13 @@ std::string value_schema(const Field& field, const void* standard, Schemas& sche
         case Holds::kObject:
             return object_reference(field.access.table(), standard, schemas);
         case Holds::kObjects:
-            return array_schema(object_reference(field.access.table(), nullptr, schemas), 0, most);
+            return array_schema(object_reference(field.access.table(), nullptr, schemas), least,
+                                most);
         case Holds::kFloats:
-            return array_schema(number, 0, most);
+            return array_schema(number, least, most);
         case Holds::kPoints:
         case Holds::kColors:
-            return array_schema(array_schema(number, 3, 3), 0, most);
+            return array_schema(array_schema(number, 3, 3), least, most);
         case Holds::kAbsence:
         case Holds::kOutside:
             return "{}";

@@ -1,0 +1,185 @@
+// What the contract says in prose, since JSON Schema has no words for it: which values need others beside them.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace awan::contract {
+
+using nlohmann::json;
+
+// A value that is refused alone, or that shows in no fingerprint, with this beside it is taken, and shows. Tried only
+// then: one that nothing needs is an error.
+struct Companion {
+    // Name of the schema of the object, or its end; and the property in it, "": with only what the object cannot do
+    // without.
+    const char* object;
+    const char* property;
+    const char* reason;
+    void (*put_beside)(json& document, json& object);
+};
+
+inline bool belongs(const char* row_object, const char* row_property, const std::string& object,
+                    const std::string& property) {
+    return object.ends_with(row_object) && property == row_property;
+}
+
+inline json ones_for(const json& list) {
+    return json(list.size(), 1);
+}
+
+inline const Companion kCompanions[] = {
+    // --- the scene
+    {"Scene", "time", "moves clouds that change",
+     [](json& document, json&) {
+         document.erase("cubes");
+         document["clouds"] = json::parse(R"([{"model": "spheres", "spheres": {}}])");
+     }},
+    {"Scene", "look", "ostroushko belongs to spheres",
+     [](json& document, json&) {
+         document.erase("cubes");
+         document["clouds"] = json::parse(R"([{"model": "spheres", "spheres": {}}])");
+     }},
+    {"Scene", "look", "gardner belongs to ellipsoids",
+     [](json& document, json&) {
+         document.erase("cubes");
+         document["clouds"] = json::parse(R"([{"model": "ellipsoids", "ellipsoids": {}}])");
+     }},
+    {"Sky", "turbidity", "colours a physical sky and a sun of colour \"auto\"",
+     [](json& document, json&) { document["sun"]["color"] = "auto"; }},
+    {"Camera", "", "the target differs from the eye",
+     [](json&, json& camera) {
+         camera["target"] = {2, 1, 1};
+     }},
+    {"Camera", "eye", "`up` is not along the view",
+     [](json&, json& camera) {
+         camera["up"] = {0, 0, 1};
+     }},
+    {"Camera", "target", "`up` is not along the view",
+     [](json&, json& camera) {
+         camera["up"] = {0, 0, 1};
+     }},
+    {"Camera", "up", "`up` is not along the view",
+     [](json&, json& camera) {
+         camera["target"] = {1, 1, 2};
+     }},
+    // --- clouds
+    {"Cloud", "velocity", "where it stands at the scene's time is what counts",
+     [](json& document, json&) { document["time"] = 1; }},
+    {"ParticlesCloud", "positions", "lists are as long as `positions`",
+     [](json&, json& cloud) { cloud["radii"] = ones_for(cloud["positions"]); }},
+    {"ParticlesCloud", "radii", "lists are as long as `positions`",
+     [](json&, json& cloud) {
+         cloud["positions"] = {{0, 0, 0}};
+     }},
+    {"ParticlesCloud", "densities", "lists are as long as `positions`",
+     [](json&, json& cloud) {
+         cloud["positions"] = {{0, 0, 0}};
+         cloud["radii"] = {1};
+     }},
+    {"ParticlesCloud", "colors", "lists are as long as `positions`",
+     [](json&, json& cloud) {
+         cloud["positions"] = {{0, 0, 0}};
+         cloud["radii"] = {1};
+     }},
+    // --- automaton
+    {"AutomatonRandom", "smallest", "smallest <= largest",
+     [](json&, json& random) {
+         random["largest"] = {4096, 4096, 4096};
+     }},
+    {"AutomatonRandom", "largest", "smallest <= largest",
+     [](json&, json& random) {
+         random["smallest"] = {0.5, 0.5, 0.5};
+     }},
+    {"AutomatonWindBand", "from", "from <= to", [](json&, json& band) { band["to"] = 1e5; }},
+    {"AutomatonWindBand", "to", "from <= to", [](json&, json& band) { band["from"] = -1e5; }},
+    {"Automaton", "steps", "warm_up <= steps",
+     [](json&, json& automaton) { automaton["warm_up"] = 0; }},
+    {"Automaton", "warm_up", "warm_up <= steps",
+     [](json&, json& automaton) { automaton["steps"] = 100'000; }},
+    // --- spheres
+    {"Spheres", "ratio_min", "ratio_min <= ratio_max",
+     [](json&, json& spheres) { spheres["ratio_max"] = 0.9; }},
+    {"Spheres", "ratio_max", "ratio_min <= ratio_max",
+     [](json&, json& spheres) { spheres["ratio_min"] = 0.05; }},
+    {"Spheres", "shift_max", "shift_min <= shift_max",
+     [](json&, json& spheres) { spheres["shift_min"] = 0; }},
+    // --- implicit
+    {"ImplicitPrimitive", "shape", "cylinders and segments have points",
+     [](json&, json& primitive) {
+         primitive["points"] = {{0, 0, 0}, {0, 1, 0}};
+     }},
+    {"ImplicitPrimitive", "radii", "belong to an ellipsoid",
+     [](json&, json& primitive) { primitive["shape"] = "ellipsoid"; }},
+    {"ImplicitPrimitive", "points", "belong to cylinders and segments",
+     [](json&, json& primitive) { primitive["shape"] = "segment"; }},
+    {"ImplicitPrimitive", "points", "a segment has two points at least",
+     [](json&, json& primitive) {
+         primitive["shape"] = "segment";
+         primitive["points"].push_back({0, 0, 0});
+     }},
+    {"ImplicitPrimitive", "keys", "keys are in rising order of time",
+     [](json&, json& primitive) {
+         int time = 0;
+         for (json& key : primitive["keys"]) key["time"] = ++time;
+     }},
+    {"ImplicitGrowth", "seeds", "seeds <= most", [](json&, json& growth) { growth["most"] = 500; }},
+    {"ImplicitGrowth", "most", "seeds <= most", [](json&, json& growth) { growth["seeds"] = 1; }},
+    {"ImplicitFlow", "", "min < max",
+     [](json&, json& flow) {
+         flow["max"] = {2, 2, 2};
+     }},
+    {"ImplicitFlow", "min", "min < max",
+     [](json&, json& flow) {
+         flow["max"] = {1e6, 1e6, 1e6};
+     }},
+    {"ImplicitFlow", "max", "min < max",
+     [](json&, json& flow) {
+         flow["min"] = {-1e6, -1e6, -1e6};
+     }},
+    {"ImplicitFlow", "size", "as many vectors as `size` says",
+     [](json&, json& flow) {
+         std::size_t count = 1;
+         for (const json& side : flow["size"]) count *= side.get<std::size_t>();
+         flow["vectors"] = json(count, {0, 0, 0});
+     }},
+    {"ImplicitFlow", "vectors", "as many vectors as `size` says",
+     [](json&, json& flow) {
+         flow["size"] = {flow["vectors"].size(), 1, 1};
+     }},
+    // --- ellipsoids
+    {"EllipsoidsPlane", "extent", "thickness <= extent",
+     [](json&, json& plane) { plane["thickness"] = 0; }},
+    {"EllipsoidsPlane", "thickness", "thickness <= extent",
+     [](json&, json& plane) { plane["extent"] = 1e6; }},
+    {"EllipsoidsPlane", "resolution", "so fine a plane has room for one layer",
+     [](json&, json& plane) { plane["thickness"] = 0; }},
+    {"Ellipsoids", "formations", "1000 ellipsoids in all",
+     [](json&, json& ellipsoids) {
+         for (json& formation : ellipsoids["formations"]) formation["count"] = 1;
+     }},
+};
+
+// Ends that nothing can stand beside.
+struct OutOfReach {
+    const char* object;
+    const char* property;
+    double end;
+    const char* reason;
+};
+inline constexpr OutOfReach kOutOfReach[] = {
+    {"ImplicitFlow", "min", 1e6, "`max` is greater, and cannot be"},
+    {"ImplicitFlow", "max", -1e6, "`min` is less, and cannot be"},
+};
+
+// Properties that tell no two pictures apart, and so show in no fingerprint.
+struct Silent {
+    const char* object;
+    const char* property;
+    const char* reason;
+};
+inline constexpr Silent kSilent[] = {
+    {"Sequence", "frames", "a picture is of one time, whatever their number"},
+};
+
+}  // namespace awan::contract
