@@ -59,6 +59,15 @@ TEST(Detail, MeanOverTheBumpsIsTheSmoothExtinction) {
     }
 }
 
+// The amount says how dense matter may be and still be gathered; without any, nothing is.
+TEST(Detail, ItsAmountIsOfTheEdge) {
+    EXPECT_NEAR(field_of(0.8).edge, 2 * field_of(0.4).edge, 1e-6F);
+    const DetailField none = field_of(0);
+    for (const float extinction : {1e-3F, 0.1F, 2.0F})
+        for (const float n : {0.0F, 0.5F, 1.0F})
+            EXPECT_EQ(detailed(none, extinction, n), extinction);
+}
+
 TEST(Detail, NothingIsAboveItsBound) {
     const DetailField field = field_of(0.9);
     for (double most = 1e-4; most < 50; most *= 1.7) {

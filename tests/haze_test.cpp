@@ -321,6 +321,25 @@ TEST(Haze, SplatsAreSeenThroughIt) {
     EXPECT_LT(difference(rendered(white, "harris"), march), 0.03);
 }
 
+// Shadows only take light, and about as much of the air around a black ball, whichever rung draws the ball. (A splat is as far
+// away as its middle: of the air in the ball's own shade it shows more than the march, which stops at its near side.)
+TEST(Haze, ShaftsTakeFromSplatsWhatTheyTakeFromTheMarch) {
+    SceneDraft draft = shading_ball();
+    draft.medium.albedo = 0;
+    const auto taken = [&](const char* rung) {
+        test::effect(draft, Effect::kLightShafts) = Switch::kOff;
+        const Image off = rendered(draft, rung);
+        test::effect(draft, Effect::kLightShafts) = Switch::kOn;
+        const Image on = rendered(draft, rung);
+        for (std::size_t i = 0; i < on.pixels.size(); ++i)
+            EXPECT_LE(on.pixels[i], off.pixels[i] * 1.0001F) << rung << ' ' << i;
+        return mean(off) - mean(on);
+    };
+    const double march = taken("transport-16"), splats = taken("harris");
+    EXPECT_GT(march, 0);
+    EXPECT_NEAR(splats / march, 1, 0.4);
+}
+
 TEST(Haze, WithoutHazeNothingChanges) {
     for (const char* rung : {"harris", "transport-16"}) {
         SceneDraft draft = test::table_4_4();

@@ -220,6 +220,41 @@ TEST(SpheresLook, AGroundHidesWhatIsBelowIt) {
     EXPECT_GT(most, 0.1F);
 }
 
+TEST(SpheresLook, ShinesOnTheSidesThatLightComesFrom) {
+    looks::LookLight light;
+    light.to_sun = {0, 0, 1};
+    light.sun = glm::dvec3(2);
+    light.above = glm::dvec3(0.5);
+    light.below = glm::dvec3(0.25);
+    light.albedo = 0.5;
+    const auto shade = [&](const glm::dvec3& normal, double sun, double sky) {
+        return looks::shade(light, {sun, sky}, normal).x;
+    };
+    // Level, half of what is around is above: 0.5 (0.25 + 0.125) beside the sun's.
+    const double around = 0.5 * (0.5 * 0.5 + 0.5 * 0.25);
+    EXPECT_NEAR(shade({0, 0, 1}, 1, 1), 0.5 * 2 + around, 1e-12);
+    EXPECT_NEAR(shade({1, 0, 0}, 1, 1), 0.5 * 1 + around, 1e-12);  // half at the limb
+    EXPECT_NEAR(shade({0, 0, -1}, 1, 1), around, 1e-12);           // none at the back
+    EXPECT_NEAR(shade({0, 0, 1}, 0.25, 1), 0.5 * 0.5 + around, 1e-12);
+    light.sun = glm::dvec3(0);
+    EXPECT_NEAR(shade({0, 1, 0}, 1, 0.5), 0.5 * 0.5 * 0.5, 1e-12);
+    EXPECT_NEAR(shade({0, -1, 0}, 1, 0.5), 0.5 * 0.25, 1e-12);
+}
+
+// Depth that light goes on through as if it had not been scattered counts for nothing (similarity).
+TEST(SpheresLook, ForwardScatteringSoftensShadows) {
+    SceneDraft draft = test::table_4_4();
+    const auto softened = [&](double albedo, double g) {
+        draft.medium = {albedo, g, PhaseFunction::kHenyeyGreenstein};
+        return looks::look_light(test::valid(draft)).softened;
+    };
+    EXPECT_DOUBLE_EQ(softened(0, 0.9), 1);
+    EXPECT_DOUBLE_EQ(softened(1, 0), 1);
+    EXPECT_DOUBLE_EQ(softened(1, -0.5), 1);
+    EXPECT_NEAR(softened(0.5, 0.8), 0.6, 1e-12);
+    EXPECT_LT(softened(0.9, 0.9), softened(0.9, 0.3));
+}
+
 TEST(SpheresLook, BumpedNormalsAreUnitAndFaceOutward) {
     test::Dice dice(1);
     for (int i = 0; i < 10000; ++i) {

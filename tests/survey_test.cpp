@@ -210,6 +210,31 @@ TEST(TileLists, AreThoseOfBruteForceHoweverTheRasterIsCut) {
     }
 }
 
+// Of a disc the tiles that it reaches into, by the nearest of many points of each.
+TEST(TileLists, OfADiscAreTheTilesThatItReachesInto) {
+    gl::TileBox disc{0, 0, 11, 9, 0, 0, 6.3F, 4.6F, 1 / 3.2F, 1 / 2.4F};
+    std::vector<std::size_t> count(12 * 10);
+    const auto status = gl::for_each_region(std::span(&disc, 1), 12, 10, 1, 1000, 1000, {},
+                                            [&](const gl::TileRegion& region) -> Status {
+                                                for (std::size_t t = 0; t < count.size(); ++t)
+                                                    count[t] =
+                                                        region.begin[t + 1] - region.begin[t];
+                                                return std::nullopt;
+                                            });
+    ASSERT_FALSE(status.has_value());
+    for (int y = 0; y < 10; ++y)
+        for (int x = 0; x < 12; ++x) {
+            double nearest = 1e9;
+            for (int i = 0; i <= 100; ++i)
+                for (int j = 0; j <= 100; ++j)
+                    nearest = std::min(nearest, std::hypot((x + i / 100.0 - 6.3) / 3.2,
+                                                           (y + j / 100.0 - 4.6) / 2.4));
+            if (std::abs(nearest - 1) < 0.01) continue;  // too near to say
+            EXPECT_EQ(count[static_cast<std::size_t>(y * 12 + x)], nearest < 1 ? 1U : 0U)
+                << x << ' ' << y;
+        }
+}
+
 TEST(TileLists, StopAtTheDeadline) {
     const std::vector<gl::TileBox> boxes(1);
     Deadline over;
