@@ -277,7 +277,8 @@ TEST(GardnerTexture, BlurIsTheMeanAndTheVarianceOverABlob) {
     }
 }
 
-// What blur takes from the mean is in the variance: the mean of the square over all places stays. And no axis is another's.
+// What blur takes from the mean is in the variance: the mean of the square over all places stays. And no axis is
+// another's.
 TEST(GardnerTexture, BlurMovesWhatItTakesIntoTheVariance) {
     SineTexture texture = texture_with(3, 2);  // an offset that no sum of sines falls below
     texture.frequency_z = texture.frequency_x;

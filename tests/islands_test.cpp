@@ -164,8 +164,8 @@ TEST(Islands, ShadowsOfOthersAreInTheDepthFromTheSun) {
     }
 }
 
-// A neighbour need not stand between an island and the sun to shade it: out to 4 s its rim does. Each island's depth from the
-// sun is that of all matter, wherever the neighbour's middle is.
+// A neighbour need not stand between an island and the sun to shade it: out to 4 s its rim does. Each island's depth
+// from the sun is that of all matter, wherever the neighbour's middle is.
 TEST(Islands, ANeighboursRimShades) {
     std::vector<test::Ball> list;
     add_cloud(list, {0, 0, 0}, 2, 6, 1);

@@ -1,5 +1,5 @@
-// Every field of the scene document counts: whichever is changed alone, the scene has another fingerprint, and the light
-// another key where light depends on it. Nothing here lists fields: the documents below set all that the parser
+// Every field of the scene document counts: whichever is changed alone, the scene has another fingerprint, and the
+// light another key where light depends on it. Nothing here lists fields: the documents below set all that the parser
 // knows (which the parser's own refusals tell), and each value in them is changed in turn. A field that is added to a
 // scene fails the first test until a document below sets it, and the second until the fingerprint has it.
 #include <gtest/gtest.h>

@@ -8,8 +8,9 @@
 namespace awan {
 namespace {
 
-// Through empty space light goes straight on: radiance that is linear across the rays stays so, and linear weighted diamond
-// differences without matter have it exactly. Sides all differ, so that no two axes may be taken for one another.
+// Through empty space light goes straight on: radiance that is linear across the rays stays so, and linear weighted
+// diamond differences without matter have it exactly. Sides all differ, so that no two axes may be taken for one
+// another.
 TEST(Sweep, LightFromBelowGoesStraightThroughEmptySpace) {
     const Ordinates ordinates = make_ordinates();
     SweepGrid grid;
@@ -109,8 +110,8 @@ TEST(Sweep, MirroredScenesHaveMirroredLight) {
     expect_plain_at(seen(exchanged(cells), exchanged), exchanged);
 }
 
-// Along any direction a uniform medium takes exp(-tau). The corner between two faces, where the light of one way ends and that
-// of another begins, is a kink that cells blur: 2% of the light, within a cell's depth.
+// Along any direction a uniform medium takes exp(-tau). The corner between two faces, where the light of one way ends
+// and that of another begins, is a kink that cells blur: 2% of the light, within a cell's depth.
 TEST(Sweep, ThinMatterTakesItsShareOfTheLight) {
     const Ordinates ordinates = make_ordinates();
     SweepGrid grid;

@@ -109,7 +109,8 @@ TEST(Lattice, KeepsTheMassWhateverItsAxes) {
     }
 }
 
-// Cells are cubes: what they are too long goes to both ends. Within the coarse cells that its box is found by, 32 along.
+// Cells are cubes: what they are too long goes to both ends. Within the coarse cells that its box is found by, 32
+// along.
 TEST(Lattice, StandsAboutTheMiddleOfWhatItHolds) {
     SceneDraft draft = test::balls({{{-6, 1, 2}, 2, 1}, {{6, 1, 2}, 2, 1}});
     const auto planned = plan_scene(test::valid(draft), 1, {});

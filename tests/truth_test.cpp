@@ -440,8 +440,8 @@ TEST(Light, DrawnFromTheSunsSideIsTheSame) {
         }
 }
 
-// Absorption in particles of a colour, or by an albedo of the same: one law, and the same light, from whichever side the
-// directions are drawn.
+// Absorption in particles of a colour, or by an albedo of the same: one law, and the same light, from whichever side
+// the directions are drawn.
 TEST(Light, DrawnFromTheSunsSideIsAbsorbedAsFromTheEyes) {
     const glm::vec3 color(0.9F, 0.6F, 0.3F);
     const glm::dvec3 to_sun = glm::normalize(glm::dvec3(0.5, 0.7, -0.4));

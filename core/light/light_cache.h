@@ -32,8 +32,8 @@ class LightCache {
 };
 
 // What a light depends on: everything of the scene but camera, image, effects and accuracy, and the settings.
-// variant, detail: ParticleSet's. Whether there is detail is the plan's choice, and a sequence makes it for figures of its
-// own: the scene alone does not say.
+// variant, detail: ParticleSet's. Whether there is detail is the plan's choice, and a sequence makes it for figures of
+// its own: the scene alone does not say.
 std::string light_key(const Scene& scene, const TransportSettings& settings,
                       std::uint64_t variant = 0, const DetailField* detail = nullptr);
 
