@@ -175,10 +175,10 @@ TEST(Ground, InAWhiteFurnaceNothingIsSeen) {
     EXPECT_NEAR(mean, 1, .01);
 }
 
-// Under a wide layer much of the light has been up and down many times before it is spent: here the third way and those
-// after it bring an eighth of what the ground gets. Where nothing is absorbed and light comes from everywhere, the
-// ground gets all of it in the end. (The thicker the layer, the more what it reflects must be known to; optical depth
-// 2.)
+// Under a wide layer much of the light has been up and down many times before it is spent: here the third way and
+// those after it bring an eighth of what the ground gets. Where nothing is absorbed and light comes from everywhere,
+// the ground gets all of it in the end. (The thicker the layer, the more what it reflects must be known to; optical
+// depth 2.)
 TEST(Ground, UnderAWideLayerLightGoesUpAndDownUntilItIsSpent) {
     std::vector<test::Ball> list;
     for (int i = -8; i <= 8; ++i)

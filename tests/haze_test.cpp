@@ -321,8 +321,9 @@ TEST(Haze, SplatsAreSeenThroughIt) {
     EXPECT_LT(difference(rendered(white, "harris"), march), 0.03);
 }
 
-// Shadows only take light, and about as much of the air around a black ball, whichever rung draws the ball. (A splat is as far
-// away as its middle: of the air in the ball's own shade it shows more than the march, which stops at its near side.)
+// Shadows only take light, and about as much of the air around a black ball, whichever rung draws the ball. (A splat
+// is as far away as its middle: of the air in the ball's own shade it shows more than the march, which stops at its
+// near side.)
 TEST(Haze, ShaftsTakeFromSplatsWhatTheyTakeFromTheMarch) {
     SceneDraft draft = shading_ball();
     draft.medium.albedo = 0;

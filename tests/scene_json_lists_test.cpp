@@ -42,7 +42,8 @@ TEST(SceneJsonLists, ReadsListsOfNumbersInEveryFormThatJsonAllows) {
     EXPECT_FALSE(std::signbit(ready.positions[2].x));
 }
 
-// Equal scenes have equal bytes: a zero is a zero, also where it is read ahead (to the first number that needs the parser).
+// Equal scenes have equal bytes: a zero is a zero, also where it is read ahead (to the first number that needs the
+// parser).
 TEST(SceneJsonLists, NegativeZeroIsZeroThereToo) {
     const SceneDraft draft = draft_of(lists_with("[1, 1]", "[[-0, -0.0, 1], [-0e5, 2, -0.00]]"));
     for (const glm::dvec3& p : draft.clouds[0].ready.positions)

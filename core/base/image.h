@@ -11,8 +11,10 @@ namespace awan {
 struct Image {
     int width = 0;
     int height = 0;
-    bool opaque = false;        // alpha is 1 everywhere by construction
-    std::vector<float> pixels;  // 4 * width * height
+    // Alpha is 1 everywhere by construction.
+    bool opaque = false;
+    // 4 * width * height.
+    std::vector<float> pixels;
 
     std::size_t pixel_count() const {
         return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

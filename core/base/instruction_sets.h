@@ -9,7 +9,8 @@
 
 namespace awan {
 
-enum class InstructionSet { kPlain, kAvx2, kAvx512 };  // kPlain: any processor of this family
+// kPlain: any processor of this family.
+enum class InstructionSet { kPlain, kAvx2, kAvx512 };
 
 // The widest set that this processor has, or the narrower one that the environment asked for when the program began:
 // AWAN_INSTRUCTIONS=plain or avx2, for comparing them.

@@ -76,7 +76,8 @@ class [[nodiscard]] Result {
   private:
     // Not a std::variant, which takes a compiler far longer, in every file.
     std::optional<T> value_;
-    Error error_;  // that of a Result without a value
+    // That of a Result without a value.
+    Error error_;
 };
 
 // The outcome of something that gives no value: nothing, or an Error.

@@ -8,8 +8,8 @@
 A suite that passes says little about what it would have caught. Each row of table.py is a slip that a tired
 programmer makes: a sign, a factor, an axis, a bound, a key that was forgotten. It names the tests that ought to fail;
 "quick" stands for all tests with that label. What survives is a law that no test states: write that test (a truth about
-the thing, not the bytes it gives today), or say in the row why it cannot matter. Warnings are errors here as they are in
-CI: what the compiler sees by itself is no mutant.
+the thing, not the bytes it gives today), or say in the row why it cannot matter. Warnings are errors here as they are in CI:
+what the compiler sees by itself is no mutant.
 
 Exit code 0: every mutant has its place, builds, and is caught or explained. Needs Python 3.11, CMake, and what the
 build needs; nothing else. Edits nothing but its copy, which is deleted unless --copy names where it is to stay.
