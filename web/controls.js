@@ -200,7 +200,7 @@ export function seedField(store, { label = "Seed", pointer = () => "/seed", get,
 // [[word, title]...] of a field with words: first those with titles here, in their order, then the others by their names.
 export function choicesOf({ words }, titles = {}) {
   const unknown = Object.keys(titles).filter((word) => !words.includes(word));
-  if (unknown.length) throw new RangeError(`No field is “${unknown[0]}” that may be ${words.join(", ")}.`);
+  if (unknown.length) throw new RangeError(`“${unknown[0]}” is none of ${words.join(", ")}.`);
   return [...Object.entries(titles), ...words.filter((word) => !(word in titles)).map((word) => [word, word])];
 }
 

@@ -162,7 +162,10 @@ export function createModels(store, choice, { changed, bounds, note }) {
   const buttons = el("div", { class: "buttons cloud-buttons" },
     el("button", { type: "button", onclick: duplicate }, "Duplicate cloud"), dropButton);
 
-  const model = select(store, { label: "Model", pointer: () => `${choice.pointer}/model`, field: fieldAt("/clouds/0/model"), titles: TITLES, get: () => choice.model, set: setModel });
+  const model = select(store, {
+    label: "Model", pointer: () => `${choice.pointer}/model`, field: fieldAt("/clouds/0/model"),
+    titles: TITLES, get: () => choice.model, set: setModel,
+  });
   const lookNow = () => atOrDefault(store.scene, "/look");
   const lookOfAll = () => {
     const names = new Set(cloudsOf(store.scene).map(({ cloud }) => LOOKS[modelOf(cloud)]));
