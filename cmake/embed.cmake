@@ -1,6 +1,6 @@
 # awan_embed(NAME ROOT FILES) compiles FILES into the program. Gives NAME_SOURCE, a generated .cpp that
 # defines   std::span<const awan::EmbeddedFile> awan::NAME();   declared in core/base/embedded.h.
-# File names are relative to ROOT. Contents are arrays of bytes, so any text and any length will do.
+# File names are relative to ROOT. FILES are texts.
 set(AWAN_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/embed_files.cmake)
 function(awan_embed name root files)
     set(source ${CMAKE_BINARY_DIR}/generated/${name}.cpp)

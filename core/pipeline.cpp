@@ -1,30 +1,18 @@
 #include "core/pipeline.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/draw/draw.h"
 #include "core/draw/march.h"
-#include "core/generate/generate.h"
 #include "core/light/light.h"
 #include "core/light/transport.h"
 #include "core/looks/looks.h"
-#include "core/plan/island_settings.h"
 #include "core/sequence.h"
 #include "core/survey/detail_of.h"
 #include "core/truth/path_tracer.h"
 
 namespace awan {
 namespace {
-
-// Runs a stage and notes its wall time.
-template <typename Stage>
-auto timed(double& milliseconds, const Stage& stage) {
-    const auto start = Deadline::Clock::now();
-    auto result = stage();
-    milliseconds = ms_since(start);
-    return result;
-}
 
 // The two passes of splats on the renderer.
 Status render_splats(const Scene& scene, const Planned& planned, const Tools& tools,
@@ -51,8 +39,9 @@ using SharedLight = std::shared_ptr<const TransportLight>;
 Result<SharedLight> kept_or_solved(const Scene& scene, const Planned& planned, const Tools& tools,
                                    const Deadline& deadline, bool& was_kept) {
     const TransportSettings& settings = planned.plan.transport;
-    const std::string key =
-        tools.lights ? light_key(scene, settings, planned.particles.variant) : std::string();
+    const std::string key = tools.lights ? light_key(scene, settings, planned.particles.variant,
+                                                     planned.particles.detail.get())
+                                         : std::string();
     if (tools.lights)
         if (SharedLight light = tools.lights->find(key)) {
             was_kept = true;
@@ -76,8 +65,7 @@ Status render_march(const Scene& scene, const Planned& planned, const Tools& too
     if (!rendered.light_was_kept) rendered.times.effects.add((*light)->took);
     auto image = timed(rendered.times.draw_ms, [&] {
         MarchSettings settings;
-        settings.aerial_perspective = planned.plan.on(Effect::kAerialPerspective);
-        settings.light_shafts = planned.plan.on(Effect::kLightShafts);
+        settings.eye_effects = planned.plan.eye_effects();
         return march(scene, planned.particles, planned.survey.view, **light, settings,
                      tools.threads, deadline, &rendered.times.effects);
     });
@@ -91,8 +79,7 @@ Status render_paths(const Scene& scene, const Planned& planned, const Tools& too
                     const Deadline& deadline, Rendered& rendered) {
     TruthOptions options;
     options.samples = planned.plan.samples;
-    options.aerial_perspective = planned.plan.on(Effect::kAerialPerspective);
-    options.light_shafts = planned.plan.on(Effect::kLightShafts);
+    options.eye_effects = planned.plan.eye_effects();
     options.threads = tools.threads;
     auto truth = timed(rendered.times.draw_ms, [&] {
         return trace_truth(scene, planned.particles, planned.survey.view, options, tools.progress,
@@ -116,30 +103,6 @@ Status render_look(const Scene& scene, const Planned& planned, const Tools& tool
 
 }  // namespace
 
-Result<Planned> plan_still(const Scene& scene, int threads, const Deadline& deadline,
-                           const MachineSpeed& speed, const std::optional<DetailFigures>& detail) {
-    Planned planned;
-    auto particles = timed(planned.times.generate_ms, [&] {
-        return generate(scene, threads, deadline, scene->look != Look::kPhysical);
-    });
-    if (!particles.ok()) return particles.error();
-    planned.particles = *std::move(particles);
-    auto surveyed = timed(planned.times.survey_ms,
-                          [&] { return survey(scene, planned.particles, threads, deadline); });
-    if (!surveyed.ok()) return surveyed.error();
-    planned.survey = *std::move(surveyed);
-    if (detail) planned.survey.detail = *detail;
-    planned.plan = plan(scene, planned.survey, threads, speed);
-    // What procedural clouds take is known only by running them.
-    if (std::any_of(scene->clouds.begin(), scene->clouds.end(), is_procedural)) {
-        planned.plan.predicted.time_ms += planned.times.generate_ms;
-        for (RungForecast& one : planned.plan.forecasts) one.time_ms += planned.times.generate_ms;
-    }
-    if (planned.plan.predicted.rung->method == Method::kMarch)
-        planned.plan.transport.islands = island_cells(planned.plan.transport, planned.survey);
-    return planned;
-}
-
 Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadline,
                           const MachineSpeed& speed) {
     if (!scene->sequence) return plan_still(scene, threads, deadline, speed, {});
@@ -150,18 +113,17 @@ Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadl
     const Frame frame = frame_at(*settled, scene->time);
     auto planned = plan_still(frame.scene, threads, deadline, speed, frame.detail);
     if (!planned.ok()) return planned;
-    // It is mostly surveys, and a client waits for it as for them.
+    // Settling is mostly surveys, and a client waits for it as for them.
     planned->times.survey_ms += settling_ms;
-    planned->plan.predicted.time_ms += settling_ms;
-    for (RungForecast& one : planned->plan.forecasts) one.time_ms += settling_ms;
+    add_to_predictions(planned->plan, settling_ms);
     if (!scene->accuracy.rung && settled->draft.accuracy.rung)
         planned->plan.rung_reason =
             "settled for the whole sequence by its first, middle and last frame";
     return planned;
 }
 
-Result<Planned> ready_to_render(const Scene& scene, Result<Planned> planned, int threads,
-                                DetailTiles* tiles) {
+Result<Planned> with_detail_made(const Scene& scene, Result<Planned> planned, int threads,
+                                 DetailTiles* tiles) {
     if (planned.ok() && planned->plan.on(Effect::kDetail)) {
         EffectTimes& effects = planned->times.effects;
         planned->particles.detail = timed_for(effects, Effect::kDetail, [&] {
@@ -174,7 +136,7 @@ Result<Planned> ready_to_render(const Scene& scene, Result<Planned> planned, int
 
 Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& deadline,
                            const MachineSpeed& speed, DetailTiles* tiles) {
-    return ready_to_render(scene, plan_only(scene, threads, deadline, speed), threads, tiles);
+    return with_detail_made(scene, plan_only(scene, threads, deadline, speed), threads, tiles);
 }
 
 Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools& tools,

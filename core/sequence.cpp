@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/generate/generate.h"
-#include "core/pipeline.h"
+#include "core/planning.h"
 #include "core/scene/validate.h"
 
 namespace awan {
@@ -66,7 +66,8 @@ Result<Settled> settle(const Scene& scene, int threads, const Deadline& deadline
         auto camera = hold_all(draft, times, threads, deadline);
         if (!camera.ok()) return camera.error();
         const Camera own = std::exchange(draft.camera, *camera);
-        if (!validate(draft).ok()) draft.camera = own;  // it would stand beyond the limits
+        // It would stand beyond the limits.
+        if (!validate(draft).ok()) draft.camera = own;
     }
     if (draft.look != Look::kPhysical) return settled;
     const Rung* chosen = nullptr;
@@ -78,8 +79,8 @@ Result<Settled> settle(const Scene& scene, int threads, const Deadline& deadline
         auto planned = plan_still(valid(std::move(frame)), threads, deadline, speed, {});
         if (!planned.ok()) return planned.error();
         const Rung* const own = planned->plan.predicted.rung;
-        // The ladder stands in memory in its order.
-        if (chosen == nullptr || (accuracy.time_ms ? own < chosen : own > chosen)) chosen = own;
+        if (chosen == nullptr || (accuracy.time_ms ? own->id < chosen->id : own->id > chosen->id))
+            chosen = own;
         for (const EffectDecision& decision : planned->plan.effects) {
             Switch& asked = with_effects.effects[static_cast<int>(decision.effect)];
             if (decision.on && asked == Switch::kAuto) asked = Switch::kOn;
@@ -94,7 +95,8 @@ Result<Settled> settle(const Scene& scene, int threads, const Deadline& deadline
         }
     }
     draft = std::move(with_effects);
-    // As many paths as the wish needs: they stay with the wish.
+    // Rung truth is not named: by name it would have a noise of its own choice instead of the one that the scene's
+    // error or time asks for.
     if (chosen->method != Method::kPaths) draft.accuracy = {{}, {}, std::string(chosen->name)};
     return settled;
 }
@@ -103,7 +105,7 @@ Frame frame_at(const Settled& settled, double time) {
     SceneDraft draft = settled.draft;
     draft.time = time;
     Frame frame{valid(std::move(draft)), settled.detail};
-    // It goes with the clouds.
+    // The detail's bumps move with the first cloud.
     if (frame.detail && !settled.draft.clouds.empty())
         frame.detail->origin += (time - settled.from) * settled.draft.clouds[0].velocity;
     return frame;

@@ -5,21 +5,22 @@
 #   bash server/start.sh render web/presets/cumulus.json -o cloud.png
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+built=$root/build/release
 
 bash "$root/server/install_packages.sh" build run
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
-build() {
-    { [ -f "$root/build/release/build.ninja" ] || cmake -S "$root" --preset release -DAWAN_TESTS=OFF; } &&
-    cmake --build "$root/build/release" --target awan
-}
-[ -x "$root/build/release/awan" ] || echo "awan: building (about a minute, once)" >&2
-if ! (cd "$root" && build) >"$log" 2>&1; then
-    tail -n 40 "$log" >&2
-    echo "awan: the build failed" >&2
-    exit 1
+if [ ! -f "$built/build.ninja" ]; then
+    log=$(mktemp)
+    trap 'rm -f "$log"' EXIT
+    if ! (cd "$root" && cmake --preset release -DAWAN_TESTS=OFF) >"$log" 2>&1; then
+        tail -n 40 "$log" >&2
+        echo "awan: the build could not be set up" >&2
+        exit 1
+    fi
+    rm -f "$log"
 fi
-rm -f "$log"
+[ -x "$built/awan" ] ||
+    echo "awan: the first build takes 2 to 5 minutes of processor time, shared by $(nproc) processors" >&2
+bash "$root/server/build.sh" "$built" --target awan
 
 [ $# -eq 0 ] && set -- serve
-exec "$root/build/release/awan" "$@"
+exec "$built/awan" "$@"

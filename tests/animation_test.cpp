@@ -141,6 +141,28 @@ TEST(Webp, HasEveryFrameForItsTime) {
     EXPECT_EQ(frames, 4);
 }
 
+// No whole number of milliseconds makes thirty frames a second: over a second they come to one all the same.
+TEST(Webp, FramesDoNotDrift) {
+    auto animation = Animation::begin(AnimationFormat::kWebp, 30, 30);
+    ASSERT_TRUE(animation.ok());
+    for (int i = 0; i < 30; ++i)
+        ASSERT_FALSE(animation->add(picture(8, 6, 0.02F * static_cast<float>(i) + 0.1F, true), 0)
+                         .has_value());
+    const auto file = animation->end();
+    ASSERT_TRUE(file.ok());
+    int all_ms = 0;
+    for (std::size_t at = 12; at + 8 <= file->size();) {
+        const auto byte = [&](std::size_t i) {
+            return static_cast<unsigned char>((*file)[at + i]);
+        };
+        const std::size_t length =
+            byte(4) | byte(5) << 8 | byte(6) << 16 | static_cast<std::size_t>(byte(7)) << 24;
+        if (file->substr(at, 4) == "ANMF") all_ms += byte(20) | byte(21) << 8 | byte(22) << 16;
+        at += 8 + length + (length & 1);
+    }
+    EXPECT_EQ(all_ms, 1000);
+}
+
 TEST(Frames, AreReadAsWritten) {
     using List = std::vector<std::uint64_t>;
     EXPECT_EQ(*parse_frames("", 3), (List{0, 1, 2}));
@@ -155,6 +177,8 @@ TEST(Frames, AreReadAsWritten) {
 TEST(Frames, NumbersStandInNames) {
     EXPECT_EQ(numbered_name("a.%04d.png", 7), "a.0007.png");
     EXPECT_EQ(numbered_name("a.%d.png", 12), "a.12.png");
+    EXPECT_EQ(numbered_name("a.%09d.png", 12), "a.000000012.png");
+    EXPECT_EQ(numbered_name("a.%01d.png", 12), "a.12.png");
     EXPECT_EQ(numbered_name("100%/a%02d.png", 123), "100%/a123.png");
     EXPECT_EQ(numbered_name("a.png", 7), "a.png");
     EXPECT_EQ(numbered_name("%s%n.png", 7), "%s%n.png");  // no other letter means anything

@@ -18,6 +18,15 @@
 namespace awan {
 namespace {
 
+using automaton::AutomatonGrid;
+using automaton::CellDensity;
+using automaton::cells_to_particles;
+using automaton::CloudBits;
+using automaton::kMetaballIntegral;
+using automaton::kMetaballVariance;
+using automaton::metaball;
+using automaton::PlaneSmoother;
+
 std::vector<std::uint64_t> random_sky(const AutomatonGrid& grid, std::uint64_t key, bool sparse) {
     std::vector<std::uint64_t> sky(grid.all_words());
     for (std::size_t w = 0; w < sky.size(); ++w) {
@@ -87,7 +96,8 @@ TEST(AutomatonMetaball, HasTheIntegralOf736Over2835PiAndNotThePrintedOne) {
     }
     EXPECT_NEAR(volume, kMetaballIntegral, 1e-7);
     EXPECT_NEAR(volume, 736.0 / 2835 * std::numbers::pi, 1e-7);
-    EXPECT_GT(748.0 / 405 * std::numbers::pi / volume, 7);  // document 001, at R = 1
+    // As Upchurch 2009 has it, at R = 1.
+    EXPECT_GT(748.0 / 405 * std::numbers::pi / volume, 7);
     EXPECT_NEAR(square / volume, 3 * kMetaballVariance, 1e-7);
     EXPECT_EQ(metaball(0), 1);
     EXPECT_NEAR(metaball(0.5), 0.5, 1e-12);  // Wyvill's: a half at the half

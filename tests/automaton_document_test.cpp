@@ -5,13 +5,14 @@
 #include <cstring>
 #include <limits>
 
-#include "core/scene/fingerprint.h"
 #include "core/generate/automaton/parcels.h"
 #include "core/generate/automaton/run.h"
 #include "core/generate/automaton/state_file.h"
 #include "core/generate/generate.h"
 #include "core/generate/models.h"
+#include "core/scene/fingerprint.h"
 #include "core/scene/limits.h"
+#include "core/scene/rules.h"
 #include "core/scene/validate.h"
 #include "server/document/json.h"
 #include "tests/random_models_automaton.h"
@@ -20,6 +21,17 @@
 
 namespace awan {
 namespace {
+
+// Over every field of it.
+std::string all_fields_of(const AutomatonCloud& cloud) {
+    return fingerprint_of(table_of<AutomatonCloud>(), &cloud);
+}
+
+using automaton::AutomatonScratch;
+using automaton::check_start;
+using automaton::read_state;
+using automaton::run_automaton;
+using automaton::write_state;
 
 using namespace scene_checks;
 
@@ -33,9 +45,9 @@ AutomatonCloud automaton_of(const std::string& fields) {
 
 TEST(AutomatonDocument, TheSmallestHasEveryDefault) {
     const AutomatonCloud cloud = automaton_of("");
-    EXPECT_EQ(figures_of(cloud), figures_of(AutomatonCloud{}));
+    EXPECT_EQ(all_fields_of(cloud), all_fields_of(AutomatonCloud{}));
     EXPECT_EQ(cloud.cells, glm::dvec3(96, 32, 96));
-    EXPECT_FALSE(check_automaton(cloud, ""));
+    EXPECT_FALSE(check_model(cloud, ""));
     EXPECT_GT(random_ellipsoids_of(cloud).count, 0u);
     EXPECT_EQ(
         random_ellipsoids_of(automaton_of(R"("ellipsoids":[{"center":[1,2,3],"radii":[4,5,6]}])"))
@@ -87,7 +99,7 @@ TEST(AutomatonDocument, EveryFieldArrivesWhereItBelongs) {
     EXPECT_EQ(cloud.metaball_radius, 2.5);
     EXPECT_EQ(cloud.threshold, 0.25);
     EXPECT_EQ(cloud.most_particles, 1000u);
-    EXPECT_FALSE(check_automaton(cloud, ""));
+    EXPECT_FALSE(check_model(cloud, ""));
 }
 
 TEST(AutomatonDocument, WhatIsWrittenReadsBackEqual) {
@@ -99,7 +111,8 @@ TEST(AutomatonDocument, WhatIsWrittenReadsBackEqual) {
         const std::string text = scene_to_json(draft);
         const SceneDraft again = draft_of(text);
         ASSERT_TRUE(again.clouds[0].automaton) << text;
-        EXPECT_EQ(figures_of(*again.clouds[0].automaton), figures_of(*draft.clouds[0].automaton))
+        EXPECT_EQ(all_fields_of(*again.clouds[0].automaton),
+                  all_fields_of(*draft.clouds[0].automaton))
             << text;
         EXPECT_EQ(fingerprint(test::valid(again)), fingerprint(test::valid(draft))) << text;
     }
@@ -212,9 +225,9 @@ TEST(AutomatonDocument, NotANumberIsRefusedEverywhere) {
         cloud.ellipsoids.push_back({});
         cloud.random = RandomEllipsoids{};
         cloud.wind.ellipsoids.push_back({});
-        ASSERT_FALSE(check_automaton(cloud, ""));
+        ASSERT_FALSE(check_model(cloud, ""));
         change(cloud);
-        EXPECT_TRUE(check_automaton(cloud, ""));
+        EXPECT_TRUE(check_model(cloud, ""));
     };
     for (double AutomatonCloud::*field :
          {&AutomatonCloud::cell, &AutomatonCloud::base, &AutomatonCloud::humidity,
@@ -268,8 +281,8 @@ TEST(AutomatonStates, ARunThatIsResumedIsTheSame) {
             ModelRequest request;
             request.key = 5;
             request.time = static_cast<double>(to) - 12 + 0.3;
-            const auto a = automaton_particles(cloud, request, {});
-            const auto b = automaton_particles(resumed, request, {});
+            const auto a = automaton::make_particles(cloud, request, {});
+            const auto b = automaton::make_particles(resumed, request, {});
             ASSERT_TRUE(a.ok() && b.ok());
             EXPECT_EQ(a->particles.positions, b->particles.positions);
             EXPECT_EQ(a->particles.densities, b->particles.densities);

@@ -1,5 +1,6 @@
 // The automaton once more, one byte a cell and one random number a cell, straight from its rules: what the words of
-// core/generate/automaton must agree with bit by bit. Shares with it the keyed random words, the ellipsoids and their d.
+// core/generate/automaton must agree with bit by bit. Shares with it the keyed random words, the ellipsoids and their
+// d.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +21,7 @@ struct PlainAutomaton {
           nx(static_cast<int>(c.cells.x)),
           ny(static_cast<int>(c.cells.y)),
           nz(static_cast<int>(c.cells.z)),
-          first(first_ellipsoids(c, k)),
+          first(automaton::first_ellipsoids(c, k)),
           ellipsoids(first) {
         const std::size_t n = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) *
                               static_cast<std::size_t>(nz);
@@ -37,7 +38,7 @@ struct PlainAutomaton {
     }
 
     void step_once() {
-        move_ellipsoids(cloud, first, key, step, ellipsoids);
+        automaton::move_ellipsoids(cloud, first, key, step, ellipsoids);
         std::vector<std::uint8_t> h = hum, a = act, c = cld;
         each([&](int x, int y, int z) {
             const std::size_t n = at(x, y, z);

@@ -13,6 +13,19 @@
 namespace awan {
 namespace {
 
+using automaton::AutomatonGrid;
+using automaton::AutomatonScratch;
+using automaton::chance_of;
+using automaton::FallOff;
+using automaton::first_ellipsoids;
+using automaton::first_state;
+using automaton::kDistancePlanes;
+using automaton::lanes_that_happen;
+using automaton::make_fall_off;
+using automaton::move_ellipsoids;
+using automaton::run_automaton;
+using automaton::step_automaton;
+
 using test::PlainAutomaton;
 
 void expect_same_bits(const AutomatonCloud& cloud, const AutomatonState& state,
@@ -135,8 +148,8 @@ TEST(Automaton, BitsDoNotDependOnTheNumberOfThreads) {
 // --- randomness
 
 TEST(AutomatonRandom, EventsHaveTheirProbability) {
-    // Chi-square with one degree of freedom: (count - n p)^2 / (n p (1-p)). Its sum over 12 independent keys has mean 12
-    // and variance 24; 35 is exceeded by chance once in 2,000 times, and keys do not change.
+    // Chi-square with one degree of freedom: (count - n p)^2 / (n p (1-p)). Its sum over 12 independent keys has mean
+    // 12 and variance 24; 35 is exceeded by chance once in 2,000 times, and keys do not change.
     constexpr std::uint64_t kWords = 20000;
     for (const double p : {1e-4, 0.001, 0.013, 0.1, 1.0 / 3, 0.5, 0.75, 0.999}) {
         double chi = 0;

@@ -103,9 +103,9 @@ TEST(Daylight, ColouredParticlesOfWhiteAreLitLikeWhiteOnes) {
 }
 
 TEST(Daylight, TransportIsNearTheTruth) {
-    // Table 4.4 by day and in the evening. At 64 x 48 with 1024 paths a pixel it was 2.0% and 1.4% off (bias -1.1% and -.9%,
-    // of the sky seen through what is left of a forward peak at g = .5); twice that is allowed at this size, and the noise
-    // of the paths.
+    // Table 4.4 by day and in the evening. At 64 x 48 with 1024 paths a pixel it was 2.0% and 1.4% off (bias -1.1% and
+    // -.9%, of the sky seen through what is left of a forward peak at g = .5); twice that is allowed at this size, and
+    // the noise of the paths.
     for (const auto& [elevation, g] : {std::pair{45., .5}, {5., .5}, {45., .85}, {5., .85}}) {
         SceneDraft draft = under_daylight(elevation, g);
         draft.image.width = 32;

@@ -54,8 +54,8 @@ SkyDome dome(double elevation, double turbidity) {
 
 TEST(Sunlight, AirIsAsDeepAsMeasured) {
     // Turbidity 1 has no aerosol: Rayleigh scattering (Bodhaine et al. 1999, sea level, 360 ppm: .3600 at 400 nm,
-    // .0973 at 550 nm, .0366 at 700 nm) and .35 cm of ozone (Chappuis band: absorption .085 / cm at 550 nm). 5%: Penndorf's
-    // refractive index and the paper's power law.
+    // .0973 at 550 nm, .0366 at 700 nm) and .35 cm of ozone (Chappuis band: absorption .085 / cm at 550 nm). 5%:
+    // Penndorf's refractive index and the paper's power law.
     const auto depth = [](int i) { return -std::log(air_transmittance(i, 1, 1)); };
     EXPECT_NEAR(depth(2), 0.3600, 0.05 * 0.3600);
     EXPECT_NEAR(depth(17), 0.0973 + 0.35 * 0.085, 0.05 * 0.127);
@@ -82,8 +82,8 @@ TEST(Sunlight, IsAsBrightAsTheIlluminatingEngineersSay) {
 }
 
 TEST(Sunlight, HasTheColourTemperatureOfTheHour) {
-    // Photographers' tables of the sun alone: 4900 to 5800 K at noon, 4500 at 30 degrees, 4000 at 20, 3500 at 10, 2000 to
-    // 3000 when it rises or sets. They are round figures for air that is not given: 10%.
+    // Photographers' tables of the sun alone: 4900 to 5800 K at noon, 4500 at 30 degrees, 4000 at 20, 3500 at 10, 2000
+    // to 3000 when it rises or sets. They are round figures for air that is not given: 10%.
     for (const double turbidity : {2.0, 3.0}) {
         EXPECT_GT(temperature(sunlight(90 * kDegree, turbidity)), 4900);
         EXPECT_LT(temperature(sunlight(90 * kDegree, turbidity)), 5800);
@@ -101,8 +101,8 @@ TEST(Sunlight, ReddensAndDimsAsTheSunSinksAndAsTheAirThickens) {
         for (double elevation = 89.5; elevation >= 0; elevation -= 0.5) {
             const glm::dvec3 here = sunlight(elevation * kDegree, turbidity);
             EXPECT_LT(luminance(here), luminance(above)) << elevation;
-            // Green and blue over red, while there is light enough to have a colour: of less than a millionth the far red
-            // is left, where the matching functions are no more than their fits.
+            // Green and blue over red, while there is light enough to have a colour: of less than a millionth the far
+            // red is left, where the matching functions are no more than their fits.
             if (luminance(here) > 1e-6) {
                 EXPECT_LE(here.y * above.x, above.y * here.x) << elevation;
                 EXPECT_LE(here.z * above.x, above.z * here.x) << elevation;
@@ -159,9 +159,9 @@ TEST(ClearSky, HasThePapersParametersAndZenith) {
 }
 
 TEST(ClearSky, LightsTheGroundAsMeasuredOrMore) {
-    // IES 1984: a clear sky gives a level plane .8 + 15.5 sqrt(sin elevation) klx. The model is known to be brighter than
-    // measured skies (Zotti, Wilkie & Purgathofer 2007, "A critical review of the Preetham skylight model"): up to 2.4 times.
-    // With the sun, whose light is most of the day's, it is within 20% of theirs.
+    // IES 1984: a clear sky gives a level plane .8 + 15.5 sqrt(sin elevation) klx. The model is known to be brighter
+    // than measured skies (Zotti, Wilkie & Purgathofer 2007, "A critical review of the Preetham skylight model"): up to
+    // 2.4 times. With the sun, whose light is most of the day's, it is within 20% of theirs.
     for (const double elevation : {30., 45., 60., 90.}) {
         const double up = std::sin(elevation * kDegree);
         const double said = 800 + 15500 * std::sqrt(up);

@@ -145,6 +145,43 @@ TEST(Detail, KeepsTheMassOfACloud) {
     }
 }
 
+// Bumps are the cloud's: the eye that goes with it sees no difference. To where numbers still have enough digits.
+TEST(Detail, GoesWhereTheCloudGoes) {
+    const auto seen = [](const glm::dvec3& away) {
+        SceneDraft draft = test::table_4_4();
+        draft.top_level_cubes = false;
+        draft.clouds[0].translate = away;
+        draft.density = 0.5;
+        draft.detail = Detail{0.8, 1.2};
+        draft.camera = {false, away + glm::dvec3(0, 0, 30), away, {0, 1, 0}, 30};
+        draft.image.width = draft.image.height = 40;
+        draft.image.background = Background::kTransparent;
+        draft.accuracy.rung = "single";
+        auto rendered = render_scene(test::valid(draft), {nullptr, 2, nullptr, {}, {}}, {});
+        EXPECT_TRUE(rendered.ok());
+        return rendered->image;
+    };
+    const Image here = seen({0, 0, 0});
+    for (const glm::dvec3& away : {glm::dvec3(7.3, 0, 0), glm::dvec3(0, 1234.5, -77.7)}) {
+        const Image there = seen(away);
+        double off = 0, sum = 0;
+        for (std::size_t p = 3; p < here.pixels.size(); p += 4) {
+            off += std::abs(static_cast<double>(there.pixels[p] - here.pixels[p]));
+            sum += static_cast<double>(here.pixels[p]);
+        }
+        EXPECT_LT(off, 1e-3 * sum) << away.x;
+    }
+    // As a field by itself, and by as much as it moved.
+    const DetailTile tile = make_detail_tile(1, 2);
+    const glm::dvec3 away(64, -32, 16);
+    const DetailField one = make_detail({2, 1, {0, 0, 0}}, 0.7, 1, tile);
+    const DetailField other = make_detail({2, 1, away}, 0.7, 1, tile);
+    for (int i = 0; i < 100; ++i) {
+        const glm::dvec3 p = scattered_point(i);
+        EXPECT_NEAR(bumps_at(one, p), bumps_at(other, p + away), 1e-5F);
+    }
+}
+
 TEST(Detail, MarchAndTruthSeeTheSameDepth) {
     const Detailed cloud = detailed_cloud(0.8, "single");
     Tools tools;
@@ -172,7 +209,8 @@ TEST(Detail, TransportIsNearTheTruth) {
     const PictureError error = picture_error(rendered->image, *truth);
     std::printf("transport-32 with detail: nrmse %.3f +- %.3f, bias %.3f\n", error.nrmse,
                 error.nrmse_noise, error.bias);
-    // Thick lumps with hard edges are the hardest there is for a grid of 32 cells: 20% here, where smooth matter has 8%.
+    // Thick lumps with hard edges are the hardest there is for a grid of 32 cells: 20% here, where smooth matter has
+    // 8%.
     EXPECT_LT(error.nrmse, 0.25 + 2 * error.nrmse_noise);
     EXPECT_LT(std::abs(error.bias), 0.08 + 2 * error.bias_noise);
     // Far nearer than a picture without it.

@@ -1,6 +1,6 @@
-// The planner's table: scenes from nothing to much of each effect. Where the plan says that a scene does not call for one,
-// forcing it on changes the picture by less than its threshold; where it says so, leaving it out costs about what the plan
-// says it does.
+// The planner's table: scenes from nothing to much of each effect. Where the plan says that a scene does not call for
+// one, forcing it on changes the picture by less than its threshold; where it says so, leaving it out costs about what
+// the plan says it does.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -127,8 +127,8 @@ Rendered render_with(const Row& row, Switch to) {
     return test::render(draft, 2);
 }
 
-// rms difference over the pixels that show cloud (all, where the sky is behind), over the rms of a: a cloud whose rim is ten
-// times as bright as the rest counts as what it is.
+// rms difference over the pixels that show cloud (all, where the sky is behind), over the rms of a: a cloud whose rim
+// is ten times as bright as the rest counts as what it is.
 double difference(const Image& a, const Image& b) {
     double squares = 0, sum = 0, most = 0;
     for (std::size_t p = 3; p < a.pixels.size(); p += 4) most = std::max(most, double{a.pixels[p]});

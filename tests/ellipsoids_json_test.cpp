@@ -7,6 +7,7 @@
 
 #include "core/scene/fingerprint.h"
 #include "core/scene/limits.h"
+#include "core/scene/rules.h"
 #include "tests/ellipsoids_scenes.h"
 #include "tests/random_models_ellipsoids.h"
 #include "tests/scene_checks.h"
@@ -179,7 +180,7 @@ TEST(EllipsoidsJson, RefusesWhatIsOutOfRangeByItsPlace) {
 TEST(EllipsoidsJson, NotANumberIsRefusedEverywhere) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto refused = [](const EllipsoidsCloud& cloud) {
-        const Status wrong = check_ellipsoids(cloud, "/at");
+        const Status wrong = check_model(cloud, "/at");
         return wrong && wrong->code == ErrorCode::kInvalidScene &&
                wrong->message.find("not a number") != std::string::npos;
     };
@@ -188,7 +189,7 @@ TEST(EllipsoidsJson, NotANumberIsRefusedEverywhere) {
         cloud.plane.emplace();
         cloud.formations.emplace_back();
         cloud.ellipsoids.emplace_back();
-        EXPECT_FALSE(check_ellipsoids(cloud, ""));
+        EXPECT_FALSE(check_model(cloud, ""));
         set(cloud);
         return cloud;
     };

@@ -15,6 +15,15 @@
 namespace awan {
 namespace {
 
+using ellipsoids::limb_in_space;
+using ellipsoids::opacity;
+using ellipsoids::placed_ellipsoids;
+using ellipsoids::PlacedEllipsoid;
+using ellipsoids::texture_at;
+using ellipsoids::texture_function;
+using ellipsoids::TextureFunction;
+using ellipsoids::threshold_at;
+
 using namespace test;
 
 ParticleSet generated(const SceneDraft& draft, int threads = 1, bool coarse = false) {
@@ -133,7 +142,7 @@ TEST(Translucence, IsT1AtTheCentreAndT2OnTheSilhouette) {
     const Translucence t{0.2, 0.9, 0.1};
     EXPECT_DOUBLE_EQ(threshold_at(t, 1), 0.2);
     EXPECT_DOUBLE_EQ(threshold_at(t, 0), 0.9);
-    // TR = clamp(1 - (It - T1 - (T2-T1)(1-g))/D, 0, 1) of the source.
+    // TR = clamp(1 - (It - T1 - (T2-T1)(1-g))/D, 0, 1) of Gardner 1985.
     for (const double g : {0.0, 0.3, 1.0})
         for (const double it : {0.0, 0.25, 0.5, 0.85, 1.0}) {
             const double tr = std::clamp(1 - (it - 0.2 - (0.9 - 0.2) * (1 - g)) / 0.1, 0.0, 1.0);

@@ -13,6 +13,14 @@
 namespace awan {
 namespace {
 
+using ellipsoids::blur_of_blob;
+using ellipsoids::opacity;
+using ellipsoids::sin_turns;
+using ellipsoids::texture_at;
+using ellipsoids::texture_function;
+using ellipsoids::TextureFunction;
+using ellipsoids::TextureValue;
+
 using std::numbers::pi;
 using test::Dice;
 
@@ -73,7 +81,8 @@ TEST(GardnerTexture, SineIsWithinItsBound) {
     }
 }
 
-// The largest T that 60,000 places and a climb from the best 20 of them find: random, so it shares nothing with the search.
+// The largest T that 60,000 places and a climb from the best 20 of them find: random, so it shares nothing with the
+// search.
 double largest_found(const TextureFunction& texture, std::uint64_t seed) {
     Dice dice(seed);
     struct Found {
@@ -152,8 +161,8 @@ TEST(GardnerTexture, TwoNegativeFactorsMakeNoCloud) {
 }
 
 TEST(GardnerTexture, PrintedPhasesForgetTheHeight) {
-    // Document 000 (4.6): where sin(FY y / 2) = 0 the phase PX is 0, and pi sin(PX Z/2) with it, for every term: the first
-    // sum does not change with height at all. With the frequency, as Gardner has it, it does.
+    // Sunar et al. 2005 (4.6): where sin(FY y / 2) = 0 the phase PX is 0, and pi sin(PX Z/2) with it, for every term:
+    // the first sum does not change with height at all. With the frequency, as Gardner has it, it does.
     SineTexture texture = texture_with(6, 1);
     const auto range_of = [&](TextureForm form) {
         texture.form = form;
@@ -199,8 +208,8 @@ TEST(GardnerTexture, HasItsPeriodAlongEveryAxisAndIsContinuous) {
         ASSERT_NEAR(texture_at(function, p + glm::dvec3(period_x, 0, 0)).mean, here, 1e-10);
         ASSERT_NEAR(texture_at(function, p + glm::dvec3(0, period_x, 0)).mean, here, 1e-10);
         ASSERT_NEAR(texture_at(function, p + glm::dvec3(0, 0, 3 * period_z)).mean, here, 1e-10);
-        // Slopes: no term is steeper than C F (1 + pi/4 + pi/2), 64 * .125 * 1.3 * 3.4 = 35 for the last, 90 in all, times
-        // the other factor over the peak: 50.
+        // Slopes: no term is steeper than C F (1 + pi/4 + pi/2), 64 * .125 * 1.3 * 3.4 = 35 for the last, 90 in all,
+        // times the other factor over the peak: 50.
         const glm::dvec3 near = p + 1e-6 * dice.on_sphere();
         ASSERT_NEAR(texture_at(function, near).mean, here, 100 * 1e-6);
     }
@@ -269,12 +278,38 @@ TEST(GardnerTexture, BlurIsTheMeanAndTheVarianceOverABlob) {
             spread += (squares - sum * sum) / 40;
             said += value.variance / 40;
         }
-        // Slopes of phases enter by their mean square, and the two sums as if they were independent, which below they are
-        // not wholly: the mean is right within half of the spread there is, and the spread within a factor of 2.
+        // Slopes of phases enter by their mean square, and the two sums as if they were independent, which below they
+        // are not wholly: the mean is right within half of the spread there is, and the spread within a factor of 2.
         EXPECT_LT(std::sqrt(wrong), 0.5 * std::sqrt(spread)) << sigma;
         EXPECT_GT(said, 0.5 * spread) << sigma;
         EXPECT_LT(said, 2 * spread) << sigma;
     }
+}
+
+// What blur takes from the mean is in the variance: the mean of the square over all places stays. And no axis is
+// another's.
+TEST(GardnerTexture, BlurMovesWhatItTakesIntoTheVariance) {
+    SineTexture texture = texture_with(3, 2);  // an offset that no sum of sines falls below
+    texture.frequency_z = texture.frequency_x;
+    const TextureFunction function = texture_function(texture, false);
+    Dice dice(5);
+    double plain = 0, blurred = 0, taken = 0;
+    constexpr int kPlaces = 200'000;
+    for (int i = 0; i < kPlaces; ++i) {
+        const glm::dvec3 p(dice.between(-900, 900), 0, dice.between(-900, 900));
+        const double sharp = texture_at(function, p).mean;
+        const TextureValue value = texture_at(function, p, 0.4, 0.7);
+        plain += sharp * sharp / kPlaces;
+        blurred += (value.mean * value.mean + value.variance) / kPlaces;
+        taken += value.variance / kPlaces;
+        if (i < 1000) {
+            const TextureValue turned = texture_at(function, {p.z, 0, p.x}, 0.7, 0.4);
+            EXPECT_NEAR(turned.mean, value.mean, 1e-9);
+            EXPECT_NEAR(turned.variance, value.variance, 1e-9);
+        }
+    }
+    EXPECT_GT(taken, 0.02 * plain);
+    EXPECT_NEAR(blurred / plain, 1, 0.004);  // the places' chance
 }
 
 TEST(GardnerTexture, OpacityIsTheSourcesWithoutBlurAndAMeanWithIt) {

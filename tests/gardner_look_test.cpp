@@ -15,6 +15,8 @@
 namespace awan {
 namespace {
 
+using ellipsoids::PlacedEllipsoid;
+
 using namespace test;
 using namespace gardner;
 
@@ -202,8 +204,8 @@ TEST(GardnerRays, ThePrintedLimbCurveHasTheSameSilhouette) {
 }
 
 TEST(GardnerRays, ThePrintedLimbCurveFailsBesideTheEye) {
-    // An ellipsoid that reaches behind the eye, beside it: its silhouette is a hyperbola, or all the picture is inside; ours has
-    // its values from 0 to 1 there.
+    // An ellipsoid that reaches behind the eye, beside it: its silhouette is a hyperbola, or all the picture is inside;
+    // ours has its values from 0 to 1 there.
     PlacedEllipsoid one;
     one.radii = {1, 1, 5};
     const glm::dvec3 eye(2, 0, 2);

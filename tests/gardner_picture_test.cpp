@@ -1,5 +1,5 @@
-// Pictures of Gardner's look: what they show, that they are finite, free of aliases at the horizon, and the same for all
-// threads.
+// Pictures of Gardner's look: what they show, that they are finite, free of aliases at the horizon, and the same for
+// all threads.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,6 +13,9 @@
 
 namespace awan {
 namespace {
+
+using ellipsoids::placed_ellipsoids;
+using ellipsoids::PlacedEllipsoid;
 
 using namespace test;
 
@@ -148,8 +151,8 @@ TEST(GardnerPicture, ThePlaneIsSeenFromBelowAndAboveAndNotPastTheHorizon) {
 }
 
 TEST(GardnerPicture, TheSkyPlaneHasNoAliases) {
-    // Against the mean of 16 x 16 points a pixel: with the terms that a pixel cannot show faded out, and their spread in the
-    // translucence, the error is a small part of that of single points.
+    // Against the mean of 16 x 16 points a pixel: with the terms that a pixel cannot show faded out, and their spread
+    // in the translucence, the error is a small part of that of single points.
     EllipsoidsCloud model;
     SkyPlane& plane = model.plane.emplace();
     plane.altitude = 3;

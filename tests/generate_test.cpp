@@ -11,8 +11,10 @@
 
 #include "core/base/exact_math.h"
 #include "core/generate/cubes.h"
+#include "core/generate/gaussian.h"
 #include "core/generate/generate.h"
 #include "core/generate/keyed_random.h"
+#include "core/scene/spheres.h"
 #include "tests/scenes.h"
 
 namespace awan {
@@ -77,7 +79,7 @@ TEST(Fill, UniformAndGardnerAreCentredPrintedIsNot) {
     // Independent points would be within .0009 (one standard error); these are better than random.
     EXPECT_LT(glm::length(uniform), 1e-4);
     EXPECT_LT(glm::length(gardner), 2e-3);
-    // The printed equations shift a cloud by a fifth to a third of a side (document 000, measured).
+    // The printed equations shift a cloud by a fifth to a third of a side (Sunar et al. 2005; measured).
     EXPECT_GT(printed.x, 0.1);
     EXPECT_GT(printed.z, 0.1);
 }
@@ -194,6 +196,44 @@ TEST(Generate, ACloudIsScaledTurnedAndMoved) {
     EXPECT_EQ(set.center[0], glm::dvec3(10 + 6, 20 + 4, 30 - 2));
     EXPECT_EQ(set.radius[0], 1.0F);
     EXPECT_EQ(set.density[0], 2.0F);
+}
+
+TEST(Generate, CubesAreScaledWithTheirParticles) {
+    SceneDraft draft = test::table_4_4();
+    draft.top_level_cubes = false;
+    draft.density = 0.5;
+    for (Cube& cube : draft.clouds[0].cubes) cube.density = 3;
+    const ParticleSet plain = generated(draft);
+    draft.clouds[0].scale = 4;
+    const ParticleSet large = generated(draft);
+    ASSERT_EQ(plain.size(), large.size());
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        EXPECT_EQ(large.center[i], 4.0 * plain.center[i]);
+        EXPECT_EQ(large.radius[i], 4.0F * plain.radius[i]);
+        EXPECT_EQ(large.density[i], 1.5F);  // the cube's times the scene's
+        EXPECT_EQ(plain.density[i], 1.5F);
+    }
+}
+
+// What is made finer than a particle may be is made as wide as one may be, and keeps its mass.
+TEST(Generate, WhatIsTooFineKeepsItsMass) {
+    SceneDraft draft;
+    draft.top_level_cubes = false;
+    draft.clouds.emplace_back();
+    draft.clouds[0].model = CloudModel::kSpheres;
+    SpheresCloud spheres;
+    spheres.levels = 0;
+    spheres.size = {2, 2, 2};
+    draft.clouds[0].spheres = std::make_shared<const SpheresCloud>(spheres);
+    const auto mass = [&](double scale) {
+        draft.clouds[0].scale = scale;
+        const ParticleSet set = generated(draft);
+        EXPECT_EQ(set.size(), 1U);
+        EXPECT_GE(set.radius[0], 1e-6F);
+        return gaussian_mass(set, 0);
+    };
+    // Radius .72: a hundred times the limit, and three quarters of it.
+    EXPECT_NEAR(mass(1e-6) / mass(1e-4), 1e-6, 1e-11);
 }
 
 TEST(Generate, StopsWhenNobodyWaits) {

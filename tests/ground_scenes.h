@@ -11,7 +11,8 @@
 
 namespace awan::test {
 
-// A cumulus `above` the ground (of its lowest centre, scene units; it is 7 high), seen from above its base, ground in view.
+// A cumulus `above` the ground (of its lowest centre, scene units; it is 7 high), seen from above its base, ground in
+// view.
 inline SceneDraft over_ground(double albedo, double above = 3) {
     SceneDraft draft = table_4_4();
     draft.ground = Ground{-6 - above, glm::dvec3(albedo)};

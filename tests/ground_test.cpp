@@ -18,8 +18,8 @@ namespace {
 using std::numbers::pi;
 using test::ground_picture;
 
-// The sun's depth behind an opaque half-plane that faces the sun: depth 60 where u < 0, `above` the ground's origin along
-// the light.
+// The sun's depth behind an opaque half-plane that faces the sun: depth 60 where u < 0, `above` the ground's origin
+// along the light.
 SunDepth half_plane(const glm::dvec3& to_sun, double away, double side, int cells) {
     SunDepth sun;
     sun.w = -to_sun;
@@ -114,13 +114,35 @@ TEST(Ground, AShadowLiesWhereTheSunThrowsIt) {
     const glm::dvec3 hit = ball - (ball.y + 1) / to_sun.y * to_sun;
     // Depth through the middle: 10 sqrt(2 pi).
     EXPECT_LT(irradiance_at(ground, hit.x, hit.z).y / ground.sun.y, 1e-6);
-    // Elsewhere: exp(-depth along the line to the sun); the penumbra, 7 / sin 35 * .0047 = .06 of the ball's 1, blurs less.
+    // Elsewhere: exp(-depth along the line to the sun); the penumbra, 7 / sin 35 * .0047 = .06 of the ball's 1, blurs
+    // less.
     for (double x = -6; x <= 6; x += .7)
         for (double z = -6; z <= 6; z += .7) {
             const glm::dvec3 p(hit.x + x, -1, hit.z + z);
             const double depth = line_optical_depth(made.planned.particles, p, to_sun, 0, 1e30);
             EXPECT_NEAR(irradiance_at(ground, p.x, p.z).y / ground.sun.y, std::exp(-depth), .03)
                 << x << " " << z;
+        }
+}
+
+// Light that the forward peak keeps on its way is on the ground too, less what is absorbed at each of its scatterings:
+// under the middle of a wide cloud whose depth is tau, exp(-(1 - albedo f) tau) in all.
+TEST(Ground, ThePeaksLightComesThroughAsFarAsItIsNotAbsorbed) {
+    SceneDraft draft = test::balls({{{0, 10, 0}, 16, 0.1}});
+    draft.sun.elevation = 90;
+    draft.ground = Ground{0, glm::dvec3(0)};
+    const Scene scene = test::valid(draft);
+    const auto planned = plan_scene(scene, 2, {});
+    ASSERT_TRUE(planned.ok());
+    const double tau = line_optical_depth(planned->particles, {0, 0, 0}, {0, 1, 0}, 0, 1e30);
+    const SunDepth sun = sun_depth(planned->particles, {0, 1, 0}, 96, 2);
+    for (const double albedo : {1.0, 0.6, 0.0})
+        for (const double share : {0.5, 0.2, 0.0}) {
+            GroundLight ground = bare_ground(*scene);
+            cast_shadow(sun, albedo, share, 0.85, 2, ground);
+            EXPECT_NEAR(irradiance_at(ground, 0, 0).y / ground.sun.y,
+                        std::exp(-(1 - albedo * share) * tau), .01)
+                << albedo << ' ' << share;
         }
 }
 
@@ -153,7 +175,32 @@ TEST(Ground, InAWhiteFurnaceNothingIsSeen) {
     EXPECT_NEAR(mean, 1, .01);
 }
 
-// A cumulus over a dark and a bright ground, the sun high. Errors of rung transport-32 without a ground are 2 to 5% here.
+// Under a wide layer much of the light has been up and down many times before it is spent: here the third way and those
+// after it bring an eighth of what the ground gets. Where nothing is absorbed and light comes from everywhere, the
+// ground gets all of it in the end. (The thicker the layer, the more what it reflects must be known to; optical depth
+// 2.)
+TEST(Ground, UnderAWideLayerLightGoesUpAndDownUntilItIsSpent) {
+    std::vector<test::Ball> list;
+    for (int i = -8; i <= 8; ++i)
+        for (int j = -8; j <= 8; ++j) list.push_back({{2.0 * i, 0, 2.0 * j}, 3, .15});
+    SceneDraft draft = test::balls(list);
+    draft.clouds[0].ready.colors.clear();
+    draft.medium = {1, 0, PhaseFunction::kHenyeyGreenstein};
+    draft.sun.intensity = 0;
+    draft.sky.none = false;
+    draft.sky.zenith = draft.sky.horizon = {1, 1, 1};
+    draft.sky.intensity = 1;
+    draft.ground = Ground{-5, glm::dvec3(1)};
+    draft.image.width = draft.image.height = 4;
+    const auto made = ground_picture(draft, 24);
+    double mean = 0;
+    for (int i = -4; i <= 4; ++i)
+        for (int j = -4; j <= 4; ++j) mean += irradiance_at(made.light.ground, i, j).y / pi / 81;
+    EXPECT_NEAR(mean, 1, .06);
+}
+
+// A cumulus over a dark and a bright ground, the sun high. Errors of rung transport-32 without a ground are 2 to 5%
+// here.
 TEST(Ground, CloudAndGroundAreThoseOfThePathTracer) {
     for (const double albedo : {.3, .8}) {
         SCOPED_TRACE(albedo);

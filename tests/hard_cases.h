@@ -18,17 +18,18 @@ namespace awan::test {
 
 // 0: not compared. Oracles: core/truth/oracles.h, double precision.
 struct CaseBounds {
-    // |alpha - exact|, of the exact alpha's largest in the picture. Splats are cut at 3.5 s and scaled by 1.0022 for it, those of
-    // the march at 3.8 s. Holds where s is no less than .6 pixels: thinner particles are widened by design.
+    // |alpha - exact|, of the exact alpha's largest in the picture. Splats are cut at 3.5 s and scaled by 1.0022 for
+    // it, those of the march at 3.8 s. Holds where s is no less than .6 pixels: thinner particles are widened by
+    // design.
     double alpha_splats = 2.5e-3, alpha_march = 1e-3, alpha_truth = 2e-6;
-    // |radiance - sunlight scattered once|, of the brightest pixel: of rung single, and, where matter is so thin that there is no
-    // more light than that, of transport and harris. Truth: of the pictures' sums.
+    // |radiance - sunlight scattered once|, of the brightest pixel: of rung single, and, where matter is so thin that
+    // there is no more light than that, of transport and harris. Truth: of the pictures' sums.
     double once = 0, once_transport = 0, once_harris = 0, once_truth = 0;
 };
 
 struct HardCase {
-    const char*
-        row;  // of the table of hard cases in float32 (PHYSICS, section 3); "-": found beside it
+    // Of the table of hard cases in float32 (core/README.md); "-": found beside it.
+    const char* row;
     const char* name;  // letters, digits and underscores
     std::function<SceneDraft()> scene;
     CaseBounds bounds{};

@@ -1,5 +1,6 @@
-// Hard cases of light through both passes on every kind of rung: sunlight scattered once by quadrature where matter is thin
-// or the rung is `single`, a furnace and the bounds of tests/physical_bounds.h elsewhere. Rows: see hard_cases_test.cpp.
+// Hard cases of light through both passes on every kind of rung: sunlight scattered once by quadrature where matter is
+// thin or the rung is `single`, a furnace and the bounds of tests/physical_bounds.h elsewhere. Rows: see
+// hard_cases_test.cpp.
 #include "tests/hard_cases.h"
 
 namespace awan {

@@ -1,5 +1,5 @@
 // Hard cases of matter through both passes on every kind of rung, against exact optical depths. Those of light are in
-// hard_cases_light_test.cpp; each row is named after the one of PHYSICS section 3 that it covers.
+// hard_cases_light_test.cpp; each row is named after the one of the table in core/README.md that it covers.
 #include "tests/hard_cases.h"
 
 #include <random>
@@ -335,7 +335,8 @@ SceneDraft twins(bool swapped) {
 const std::vector<Pair> kPairs = {
     {"ties_in_another_order", [] { return shuffled(false); }, [] { return shuffled(true); }, 1e-5,
      1e-5},
-    // Splats have no order of their own at one distance: what they make of it is bounded by what one hides of the other.
+    // Splats have no order of their own at one distance: what they make of it is bounded by what one hides of the
+    // other.
     {"twins_in_another_order", [] { return twins(false); }, [] { return twins(true); }, .5, 1e-5},
     {"offset_9e8_is_the_same_picture", [] { return picture(some_balls()); },
      [] {

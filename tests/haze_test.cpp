@@ -20,7 +20,8 @@ using test::Ball;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// --- closed forms -----------------------------------------------------------------------------------------------------
+// --- closed forms
+// -----------------------------------------------------------------------------------------------------
 
 // Simpson over the layer as the scene states it, from a point of the ray on; the exponential part as far as it matters.
 double quadrature(const Haze& haze, double y, double slope, double t) {
@@ -132,7 +133,8 @@ TEST(Haze, TheReferenceInvertsItsDepth) {
             }
 }
 
-// --- pictures ---------------------------------------------------------------------------------------------------------
+// --- pictures
+// ---------------------------------------------------------------------------------------------------------
 
 SceneDraft hazy(SceneDraft draft, double extinction, double height, double scale_height) {
     draft.haze.emplace();
@@ -222,7 +224,7 @@ TEST(Haze, PixelsAreTheIntegralsAlongTheirRays) {
     light.sun = test::exact_sun(stage.scene, stage.particles, 48, 2);
     for (const bool shafts : {false, true}) {
         MarchSettings settings;
-        settings.light_shafts = shafts;
+        settings.eye_effects.light_shafts = shafts;
         const Image image = test::marched(stage, light, 2, settings);
         double worst = 0, shadows = 0;
         for (int y = 1; y < image.height; y += 5)
@@ -263,7 +265,7 @@ PictureError against_paths(SceneDraft draft, const char* rung, bool shafts, bool
     TruthOptions options;
     options.samples = 32;
     options.threads = 2;
-    options.light_shafts = shadows;
+    options.eye_effects.light_shafts = shadows;
     const auto truth = trace_truth(stage.scene, stage.particles, stage.view, options, {}, {});
     return picture_error(rendered(draft, rung), *truth);
 }

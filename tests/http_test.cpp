@@ -54,6 +54,7 @@ INSTANTIATE_TEST_SUITE_P(
         Attack{"PlusLength", with("Content-Length: +2\r\n", "{}"), 400},
         Attack{"NegativeLength", with("Content-Length: -2\r\n", "{}"), 400},
         Attack{"HexLength", with("Content-Length: 0x2\r\n", "{}"), 400},
+        Attack{"LettersInLength", with("Content-Length: 2a\r\n", "{}"), 400},
         Attack{"SpaceInLength", with("Content-Length: 1 2\r\n", "{}"), 400},
         Attack{"EmptyLength", with("Content-Length: \r\n", "{}"), 400},
         Attack{"LengthOverflow", with("Content-Length: 18446744073709551618\r\n", "{}"), 413},
@@ -112,6 +113,20 @@ TEST(Refusing, MoreThanAHundredHeaders) {
     std::string headers;
     for (int i = 0; i < 101; ++i) headers += "X-" + std::to_string(i) + ": a\r\n";
     EXPECT_EQ(server.ask(get("/healthz", headers)).status, 431);
+}
+
+TEST(Refusing, AHundredHeadersAreNotTooMany) {
+    const Running server;
+    const auto status = [&](int count) {
+        // Lines between the request line and the empty one.
+        const std::string plain = get("/healthz");
+        auto lines = std::count(plain.begin(), plain.end(), '\n') - 2;
+        std::string headers;
+        for (; lines < count; ++lines) headers += "X-" + std::to_string(lines) + ": a\r\n";
+        return server.ask(get("/healthz", headers)).status;
+    };
+    EXPECT_EQ(status(100), 200);
+    EXPECT_EQ(status(101), 431);
 }
 
 // --- what is allowed

@@ -251,8 +251,8 @@ TEST(Exposure, IsFiniteWithoutLightAndWithTheFaintestAndTheBrightest) {
 }
 
 TEST(Exposure, KeepsACloudInsideThePictureFromNoonToSunset) {
-    // The radiances that a cloud can have at an hour: a white one lit by the sun straight on (irradiance / pi), a thick one
-    // lit from all sides, and its shaded side, which has the sky's mean alone. As display codes after exposure.
+    // The radiances that a cloud can have at an hour: a white one lit by the sun straight on (irradiance / pi), a thick
+    // one lit from all sides, and its shaded side, which has the sky's mean alone. As display codes after exposure.
     SceneDraft draft;
     draft.clouds.emplace_back();
     draft.sky.physical = draft.sun.auto_color = true;

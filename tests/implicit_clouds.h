@@ -41,7 +41,7 @@ inline ImplicitPrimitive skeleton(ImplicitShape shape, std::vector<glm::dvec3> p
 inline constexpr std::uint64_t kKey = 77;
 
 inline double density(const ImplicitCloud& cloud, glm::dvec3 p, double time = 0) {
-    return density_at(prepare_field(cloud, kKey, time), p);
+    return implicit::density_at(implicit::prepare_field(cloud, kKey, time), p);
 }
 
 // Points all over a box of half extents `half` around the middle.
@@ -57,7 +57,7 @@ void all_over(glm::dvec3 middle, double half, int count, const Use& use) {
     }
 }
 
-// Wyvill's cubic as printed (document 004).
+// The cubic of Wyvill, McPheeters & Wyvill 1986 as Ebert 2002 prints it.
 inline double printed_cubic(double a) {
     if (a >= 1) return 0;
     return -4.0 / 9 * std::pow(a, 6) + 17.0 / 9 * std::pow(a, 4) - 22.0 / 9 * a * a + 1;

@@ -10,6 +10,14 @@
 namespace awan {
 namespace {
 
+using implicit::Box;
+using implicit::Element;
+using implicit::element_of;
+using implicit::grown;
+using implicit::GrownParticle;
+using implicit::growth_box;
+using implicit::kGrowthReach;
+
 void expect_same(const GrownParticle& a, const GrownParticle& b) {
     EXPECT_EQ(a.position, b.position);
     EXPECT_EQ(a.velocity, b.velocity);
@@ -28,7 +36,7 @@ TEST(Growth, TwelveSeedsBecomeAboutFifty) {
         EXPECT_GT(count, 15);
         sum += count;
     }
-    // The document's figure 9.9: "approximately 50".
+    // Ebert 2002, figure 9.9: "approximately 50".
     EXPECT_NEAR(sum / 20, 50, 10);
     const ImplicitGrowth standard;
     EXPECT_LE(grown(standard, 1, 1e9).size(), 50u);
@@ -40,6 +48,23 @@ TEST(Growth, FiveSeedsCanBecomeAHundredAndFifty) {
     growth.most = 150;
     growth.rate = 1;
     for (std::uint64_t key = 0; key < 5; ++key) EXPECT_EQ(grown(growth, key, 60).size(), 150u);
+}
+
+// Full-grown halfway through the life; seeds have lived a fifth of theirs when all begins.
+TEST(Growth, IsFullHalfwayThroughTheLife) {
+    ImplicitGrowth growth;
+    growth.rate = 0;
+    for (const double part : {0.0, 0.1, 0.2, 0.28, 0.31, 0.5}) {
+        const double lived = 0.2 + part;
+        for (const GrownParticle& seed : grown(growth, 3, part * growth.lifetime)) {
+            if (lived > 0.5) {
+                EXPECT_GT(seed.share, 0.99) << part;
+            } else {
+                // Half of it is there after a quarter of the life.
+                EXPECT_EQ(seed.share > 0.5, lived > 0.25) << part;
+            }
+        }
+    }
 }
 
 TEST(Growth, NobodyDiesAndWhoRestsStays) {

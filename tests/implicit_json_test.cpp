@@ -8,11 +8,18 @@
 #include "core/scene/fingerprint.h"
 #include "core/scene/implicit.h"
 #include "core/scene/limits.h"
+#include "core/scene/rules.h"
 #include "tests/random_models_implicit.h"
 #include "tests/scene_checks.h"
 
 namespace awan {
 namespace {
+
+// Over every field of it.
+std::string all_fields_of(const ImplicitCloud& cloud) {
+    const ImplicitCloud all = spelled_out(cloud);
+    return fingerprint_of(table_of<ImplicitCloud>(), &all);
+}
 
 using namespace scene_checks;
 
@@ -28,7 +35,7 @@ TEST(ImplicitJson, AnEmptyObjectIsTheCumulus) {
     const SceneDraft draft = draft_of(implicit_with(""));
     const ImplicitSettings s = resolved(cloud_of(draft));
     EXPECT_EQ(s.primitives.size(), 9u);
-    // The document's values: .2 to .4, .5, .4, .7.
+    // The values of Ebert 2002: .2 to .4, .5, .4, .7.
     EXPECT_EQ(s.amount, 0.4);
     EXPECT_EQ(s.exponent, 0.5);
     EXPECT_EQ(s.blend, 0.4);
@@ -39,7 +46,7 @@ TEST(ImplicitJson, AnEmptyObjectIsTheCumulus) {
 TEST(ImplicitJson, ExplicitFieldsOverrideThePresetInAnyOrder) {
     const SceneDraft a = draft_of(implicit_with(R"("amount": 0.3, "preset": "cirrus")")),
                      b = draft_of(implicit_with(R"("preset": "cirrus", "amount": 0.3)"));
-    EXPECT_EQ(figures_of(cloud_of(a)), figures_of(cloud_of(b)));
+    EXPECT_EQ(all_fields_of(cloud_of(a)), all_fields_of(cloud_of(b)));
     EXPECT_EQ(resolved(cloud_of(a)).amount, 0.3);
     EXPECT_EQ(resolved(cloud_of(a)).exponent, 3);
     // Primitives of one's own replace the preset's, and its base; growth replaces them too.
@@ -188,7 +195,7 @@ TEST(ImplicitJson, PrimitivesAreHeldToTheirShapes) {
 TEST(ImplicitJson, WhatIsNotANumberIsInNoRange) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto refused = [](const ImplicitCloud& cloud, const char* pointer) {
-        const Status wrong = check_implicit(cloud, "/x");
+        const Status wrong = check_model(cloud, "/x");
         ASSERT_TRUE(wrong) << pointer;
         EXPECT_EQ(wrong->pointer, pointer);
         EXPECT_EQ(wrong->code, ErrorCode::kInvalidScene);

@@ -13,6 +13,18 @@
 namespace awan {
 namespace {
 
+namespace lanes = implicit::lanes;
+using implicit::kMeanAbsNoise;
+using implicit::kRmsNoise;
+using implicit::noise;
+using implicit::noise3;
+using implicit::NoiseLattice;
+using implicit::Octaves;
+using implicit::octaves_of;
+using implicit::swirl_path;
+using implicit::SwirlPath;
+using implicit::turbulence;
+
 using test::all_over;
 
 lanes::Vec everywhere(glm::dvec3 p) {
@@ -69,8 +81,8 @@ TEST(Noise, VariesAlikeAlongEveryAxisAndDiagonal) {
         };
     const double x = structure({1, 0, 0}), y = structure({0, 1, 0}), z = structure({0, 0, 1});
     const double diagonal = structure(glm::normalize(glm::dvec3(1, 1, 1)));
-    // 30,000 samples with a relative scatter of 2 or so each: 4% is more than three standard errors. A lattice favours its
-    // diagonals by some per cent.
+    // 30,000 samples with a relative scatter of 2 or so each: 4% is more than three standard errors. A lattice favours
+    // its diagonals by some per cent.
     EXPECT_NEAR(y / x, 1, 0.04);
     EXPECT_NEAR(z / x, 1, 0.04);
     EXPECT_NEAR(diagonal / x, 1, 0.15);

@@ -22,6 +22,17 @@
 namespace awan {
 namespace {
 
+using implicit::Box;
+using implicit::box_of;
+using implicit::coarser;
+using implicit::ImplicitField;
+using implicit::lattice_over;
+using implicit::limit_octaves;
+using implicit::picture_difference;
+using implicit::prepare_field;
+using implicit::sample;
+using implicit::sampling_error;
+
 Scene scene_of(Cloud cloud, double time = 0) {
     SceneDraft draft;
     draft.top_level_cubes = false;
@@ -52,7 +63,7 @@ ParticleSet particles_of(const Scene& scene, int threads = 2, bool coarse = fals
     return *set;
 }
 
-// As implicit_particles() samples it.
+// As implicit::make_particles() samples it.
 void fill(const ImplicitCloud& cloud, std::uint64_t key, LatticeField& lattice) {
     ImplicitField field = prepare_field(cloud, key, 0);
     limit_octaves(cloud, key, 0, lattice.cell, field);

@@ -13,6 +13,11 @@
 namespace awan {
 namespace {
 
+using implicit::ImplicitField;
+using implicit::lattice_over;
+using implicit::prepare_field;
+using implicit::sample;
+
 using test::all_over;
 using test::ball;
 using test::bare;
@@ -34,8 +39,8 @@ TEST(WyvillCubic, IsThePrintedOneWithItsEnds) {
         EXPECT_NEAR(density(cloud, {0, 2 * a, 0}), printed_cubic(a), 1e-6) << a;  // floats
 }
 
-// Integral of the density over space by the lattice: for smooth fields with nothing at their edge, midpoints are better than
-// the tolerances, which leave room for the kink in the second derivative at the reach.
+// Integral of the density over space by the lattice: for smooth fields with nothing at their edge, midpoints are better
+// than the tolerances, which leave room for the kink in the second derivative at the reach.
 double integral(const ImplicitCloud& cloud, std::uint64_t resolution = 96) {
     const ImplicitField field = prepare_field(cloud, test::kKey, 0);
     LatticeField lattice = lattice_over(field, resolution);
@@ -51,7 +56,7 @@ double simpson(double from, double to, const std::function<double(double)>& f) {
 }
 
 TEST(Integral, OfASphereIsTheClosedForm) {
-    // 736/2835 pi R^3, not the 748/405 pi R of document 001.
+    // 736/2835 pi R^3, not the 748/405 pi R of Upchurch 2009.
     EXPECT_NEAR(integral(bare({ball({3, 1, -2}, 1.7)})) / (736.0 / 2835 * kPi * std::pow(1.7, 3)),
                 1, 1e-4);
     const double by_quadrature =
@@ -67,6 +72,18 @@ TEST(Integral, OfAnEllipsoidIsTheSpheresTimesItsAxesHoweverTurned) {
     EXPECT_NEAR(integral(bare({egg})) / wanted, 1, 3e-4);
     egg.rotate = {20, -70, 130};
     EXPECT_NEAR(integral(bare({egg})) / wanted, 1, 3e-4);
+}
+
+TEST(Macrostructure, IsTurnedAboutXThenYThenZ) {
+    // A rod along +z: about x by 90 degrees it comes to -y, where turning about y leaves it; about z it goes on to +x.
+    ImplicitPrimitive rod = skeleton(ImplicitShape::kSegment, {{0, 0, 0}, {0, 0, 8}}, 1);
+    rod.rotate = {90, 90, 0};
+    EXPECT_GT(density(bare({rod}), {0, -6, 0}), 0.5);
+    EXPECT_EQ(density(bare({rod}), {6, 0, 0}), 0);
+    EXPECT_EQ(density(bare({rod}), {0, 6, 0}), 0);
+    rod.rotate = {90, 0, 90};
+    EXPECT_GT(density(bare({rod}), {6, 0, 0}), 0.5);
+    EXPECT_EQ(density(bare({rod}), {0, -6, 0}), 0);
 }
 
 TEST(Integral, OfASegmentIsATubeAndABall) {
@@ -136,7 +153,8 @@ TEST(Density, FollowsAmountExponentAndWeight) {
             cloud.amount = 0.4;
             cloud.exponent = exponent;
             const double wanted = std::pow(0.4 * 3 * printed_cubic(glm::length(p) / 1.5), exponent);
-            // The logarithm's error, 1e-6, times the exponent; and what floats lose near the reach, where the base is small.
+            // The logarithm's error, 1e-6, times the exponent; and what floats lose near the reach, where the base is
+            // small.
             EXPECT_NEAR(density(cloud, p), wanted, 2e-5 * wanted + 1e-6) << exponent;
         });
     // Linear in weight at exponent 1.

@@ -12,6 +12,14 @@
 namespace awan {
 namespace {
 
+using implicit::Box;
+using implicit::box_of;
+using implicit::density_at;
+using implicit::elements_near;
+using implicit::ImplicitField;
+using implicit::prepare_field;
+using implicit::row_densities;
+
 using test::all_over;
 using test::ball;
 using test::bare;
@@ -228,8 +236,8 @@ TEST(Displacement, AsPrintedItShiftsTheWholeCloudAndNowItDoesNot) {
         }
         return moment / mass;
     };
-    // Turbulence of six octaves has a mean of .2195 (2 - 1/32) = .43: by .7 times that along (-1, 1, -1), less where it is cut
-    // at 1.
+    // Turbulence of six octaves has a mean of .2195 (2 - 1/32) = .43: by .7 times that along (-1, 1, -1), less where it
+    // is cut at 1.
     const glm::dvec3 printed = shift(true), ours = shift(false);
     EXPECT_NEAR(printed.x, -0.3, 0.06);
     EXPECT_NEAR(printed.y, 0.3, 0.06);

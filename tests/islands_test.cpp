@@ -121,8 +121,8 @@ TEST(Islands, OneCloudIsOne) {
     EXPECT_TRUE(find_islands(ParticleSet{}).list.empty());
 }
 
-// Apart, each has the light that it has alone: .5% is what the solve's tolerance, and the little that they see of each other at
-// 60 times their size, leave.
+// Apart, each has the light that it has alone: .5% is what the solve's tolerance, and the little that they see of each
+// other at 60 times their size, leave.
 TEST(Islands, TwoFarCloudsHaveTheirOwnLight) {
     std::vector<test::Ball> one, both;
     add_cloud(one, {0, 0, 0}, 2, 15, 1);
@@ -162,6 +162,38 @@ TEST(Islands, ShadowsOfOthersAreInTheDepthFromTheSun) {
         const double exact = test::line_depth(stage.particles, p, {0, 1, 0}, 0);
         EXPECT_NEAR(depth_at(sun, p), exact, 0.02 * exact + 0.01);
     }
+}
+
+// A neighbour need not stand between an island and the sun to shade it: out to 4 s its rim does. Each island's depth
+// from the sun is that of all matter, wherever the neighbour's middle is.
+TEST(Islands, ANeighboursRimShades) {
+    std::vector<test::Ball> list;
+    add_cloud(list, {0, 0, 0}, 2, 6, 1);
+    // s = 3; its middle is as far beside the small cloud as 2 s and 2.7 s, high above it.
+    list.push_back({{8, 60, 0}, 6, 4});
+    list.push_back({{0, 62, 10}, 6, 4});
+    SceneDraft draft = field_of(list);
+    draft.sun.elevation = 90;
+    const Scene scene = test::valid(draft);
+    const Planned plan = planned(scene);
+    const TransportLight light = solved(scene, plan, plan.plan.transport);
+    ASSERT_GE(light.islands.size(), 2U);
+    int lit = 0;
+    double most_of_others = 0;
+    for (const LightIsland& island : light.islands) {
+        if (!island.lit || island.high.y > 30) continue;
+        ++lit;
+        for (const glm::dvec3 p :
+             {glm::dvec3(0, 0, 0), {0.7, 0.5, -0.4}, {1.2, -0.5, 0}, {0.2, 0, 1.1}, {-1, -1, -1}}) {
+            const double all = test::line_depth(plan.particles, p, {0, 1, 0}, 0);
+            const double others =
+                test::line_depth(plan.particles, p + glm::dvec3(0, 25, 0), {0, 1, 0}, 0);
+            EXPECT_NEAR(depth_at(island.light.sun, p), all, 0.03 * all + 0.01);
+            most_of_others = std::max(most_of_others, others);
+        }
+    }
+    EXPECT_EQ(lit, 1);
+    EXPECT_GT(most_of_others, 1);
 }
 
 TEST(Islands, ThreadsDoNotShow) {
@@ -238,8 +270,9 @@ TEST(Islands, AreCloserToTheTruthThanOneGrid) {
     EXPECT_LT(error[0].nrmse, 0.5 * error[1].nrmse + 2 * error[0].nrmse_noise);
 }
 
-// The preset of a hundred clouds: memory within what the plan says, cells and nodes as the forecast counts them to a factor
-// of 1.5 (boxes are rounded up to cells; the islands' outlines are taken for ellipsoids). Times are for the reader.
+// The preset of a hundred clouds: memory within what the plan says, cells and nodes as the forecast counts them to a
+// factor of 1.5 (boxes are rounded up to cells; the islands' outlines are taken for ellipsoids). Times are for the
+// reader.
 TEST(Islands, SkyOfAHundredCostsWhatIsPredicted) {
     std::ifstream file(AWAN_SOURCE_DIR "/web/presets/sky-of-100.json");
     std::ostringstream text;

@@ -8,8 +8,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/scene/fingerprint.h"
 #include "core/formats/awn.h"
+#include "core/scene/fingerprint.h"
 #include "server/document/json.h"
 #include "tests/scene_checks.h"
 

@@ -338,7 +338,8 @@ TEST(March, NoEdgesBetweenBlocks) {
     EXPECT_LT(at_blocks / blocks, 2 * within / others + 1e-3);
 }
 
-// --- what broke prototypes (hard cases): finite, bounded, and where it has an exact answer, that ----------------------------
+// --- what broke prototypes (hard cases): finite, bounded, and where it has an exact answer, that
+// ----------------------------
 
 TransportLight lights(const test::Stage& stage) {
     TransportLight light =

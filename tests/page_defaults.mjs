@@ -1,6 +1,7 @@
-// Of page.mjs: the controls against the service. What they show where a document is silent is what the service takes then:
-// a document that says so in words is the same scene, and the service, which names scenes by their values, gives it the same
-// name. What they begin with when something is switched on or added, it accepts. What is beyond an end is said at once.
+// Of page.mjs: the controls against the service. What they show where a document is silent is what the service takes
+// then: a document that says so in words is the same scene, and the service, which names scenes by their values, gives
+// it the same name. What they begin with when something is switched on or added, it accepts. What is beyond an end is
+// said at once.
 
 import assert from "node:assert/strict";
 
@@ -71,9 +72,9 @@ async function write(page, scene) {
   await page.locator("#json").blur(); // while it is being written, it is not rewritten
 }
 
-// Every control for which the document at hand says nothing: { pointer, shown, standard, other }. `shown` is what the control
-// says there is; a colour comes as linear light. `standard` is what it was made from, `other` another value. And of those for
-// which it says something { pointer, said, standard }.
+// Every control for which the document at hand says nothing: { pointer, shown, standard, other }. `shown` is what the
+// control says there is; a colour comes as linear light. `standard` is what it was made from, `other` another value.
+// And of those for which it says something { pointer, said, standard }.
 const silentControls = (page, scene) => page.evaluate(async (document_) => {
   const { fieldAt, standardAt } = await import("/schema.js");
   const { at } = await import("/document.js");
@@ -120,7 +121,7 @@ const near = (a, b) => a === b || (typeof a === "number" && Math.abs(a - b) <= 0
 // What a control shows where the document is silent.
 function isShown({ pointer, shown, standard }) {
   if (pointer === "/image/exposure") return standard === "auto"; // the automatic one has a box of its own
-  if (standard === null) return shown.every((one) => typeof one !== "number" || Number.isNaN(one)); // says what else holds
+  if (standard === null) return shown.every((one) => typeof one !== "number" || Number.isNaN(one)); // in words, if at all
   const wanted = [standard].flat();
   const asByte = /color|zenith|horizon/.test(pointer);
   if (pointer === "/accuracy/error") return near(shown[0], 100 * standard);

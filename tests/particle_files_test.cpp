@@ -267,6 +267,27 @@ TEST(ParticlePly, ReadsEveryScalarType) {
     EXPECT_EQ(draft->clouds[0].density, 1.0);
 }
 
+// White is the largest value of the type, whichever it is.
+TEST(ParticlePly, ColoursSpanTheirTypes) {
+    const auto red_of = [](const std::string& type, const std::string& value) {
+        const Result<SceneDraft> draft = read_particles_ply(
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+            "property float z\nproperty float radius\nproperty float density\nproperty " +
+            type + " red\nproperty " + type + " green\nproperty " + type +
+            " blue\nend_header\n0 0 0 1 1 " + value + " 0 0\n");
+        EXPECT_TRUE(draft.ok()) << draft.error().message;
+        return draft->clouds[0].ready.colors[0].r;
+    };
+    EXPECT_EQ(red_of("char", "127"), 1.0F);
+    EXPECT_EQ(red_of("uchar", "255"), 1.0F);
+    EXPECT_EQ(red_of("short", "32767"), 1.0F);
+    EXPECT_EQ(red_of("ushort", "65535"), 1.0F);
+    EXPECT_EQ(red_of("int", "2147483647"), 1.0F);
+    EXPECT_EQ(red_of("uint", "4294967295"), 1.0F);
+    EXPECT_EQ(red_of("float", "1"), 1.0F);
+    EXPECT_EQ(red_of("double", "0.5"), 0.5F);
+}
+
 TEST(ParticlePly, NaNIsForValidateToReject) {
     ParticleSet set = some_particles(3, false);
     set.center[1].y = std::nan("");

@@ -15,14 +15,15 @@
 namespace awan::test {
 
 // What is scattered once stays below irradiance x the phase function's peak / 4 pi, and further orders only spread that
-// peak; what has lost its direction stays below kDiffuse x irradiance / 4 pi (deep in a conservative half space it is 5 x:
-// Chandrasekhar 1950, section 23; a cloud that light can leave on all sides has less).
+// peak; what has lost its direction stays below kDiffuse x irradiance / 4 pi (deep in a conservative half space it is 5
+// x: Chandrasekhar 1950, section 23; a cloud that light can leave on all sides has less).
 inline constexpr double kDiffuse = 6;
-// By how much a rung may pass a bound: tables and steps of the march; where the discrete ordinates' light meets it is trilinear.
+// By how much a rung may pass a bound: tables and steps of the march; where the discrete ordinates' light meets it is
+// trilinear.
 inline constexpr double kExceed = 0.02;
 
-// The sky's largest radiance of each channel: of a gradient one of its colours; of a physical sky at the sun, or near the
-// horizon, where a grid of 4 degrees misses no more than a tenth.
+// The sky's largest radiance of each channel: of a gradient one of its colours; of a physical sky at the sun, or near
+// the horizon, where a grid of 4 degrees misses no more than a tenth.
 inline glm::dvec3 brightest(const SkyDome& sky) {
     if (!sky.shines) return glm::dvec3(0);
     if (!sky.physical) return glm::max(sky.zenith, sky.horizon);
@@ -47,8 +48,8 @@ inline glm::dvec3 radiance_bound(const SceneDraft& draft) {
     const glm::dvec3 sky = brightest(outside.sky);
     glm::dvec3 most =
         outside.sun * (peak_of(draft.medium) + kDiffuse) / (4 * std::numbers::pi) + sky;
-    // Light from the ground: Lambertian under the sun and what is overhead, be it sky or cloud. What goes to and fro between
-    // ground and clouds is in kDiffuse: together they are no more than that conservative half space.
+    // Light from the ground: Lambertian under the sun and what is overhead, be it sky or cloud. What goes to and fro
+    // between ground and clouds is in kDiffuse: together they are no more than that conservative half space.
     if (draft.ground) most += draft.ground->albedo * (outside.sun / std::numbers::pi + most);
     // Haze scatters once what comes from all of these.
     if (draft.haze) {

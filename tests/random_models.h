@@ -10,8 +10,8 @@
 
 namespace awan::test {
 
-// random_scene(seed), in which now and then a procedural cloud stands for the first one; its times and speeds. Dice of its
-// own: the other scenes are what they were.
+// random_scene(seed), in which now and then a procedural cloud stands for the first one; its times and speeds. Dice of
+// its own: the other scenes are what they were.
 inline RandomScene random_scene_of_any_model(std::uint64_t seed) {
     RandomScene random = random_scene(seed);
     SceneDraft& draft = random.draft;

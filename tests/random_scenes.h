@@ -1,6 +1,6 @@
 // Random valid scenes: every field over its whole range (core/scene/limits.h), log-uniform where the range spans
-// magnitudes, and its ends more often than chance would have them. Small pictures and few particles, so that thousands of
-// them take minutes. A seed is a scene, by the generator below alone.
+// magnitudes, and its ends more often than chance would have them. Small pictures and few particles, so that thousands
+// of them take minutes. A seed is a scene, by the generator below alone.
 #pragma once
 
 #include <algorithm>
@@ -178,8 +178,8 @@ struct RandomScene {
     bool furnace = false;
 };
 
-// Daylight, ground, haze and detail; last, so that the rest of a seed's scene is what it was without them. A furnace has a
-// sky of its own, and no ground or haze, which need not be white.
+// Daylight, ground, haze and detail; last, so that the rest of a seed's scene is what it was without them. A furnace
+// has a sky of its own, and no ground or haze, which need not be white.
 inline void random_surroundings(Dice& dice, const Whereabouts& where, RandomScene& random) {
     SceneDraft& draft = random.draft;
     if (dice.chance(0.2))
@@ -213,8 +213,8 @@ inline void random_surroundings(Dice& dice, const Whereabouts& where, RandomScen
     }
 }
 
-// Apart, so that there may be islands (core/survey/islands.h): particles and cubes go to some of 27 places, near or far. Last of
-// all; what was made for one place (camera, ground, haze) stays there.
+// Apart, so that there may be islands (core/survey/islands.h): particles and cubes go to some of 27 places, near or
+// far. Last of all; what was made for one place (camera, ground, haze) stays there.
 inline void scatter(Dice& dice, const Whereabouts& where, SceneDraft& draft) {
     const double apart =
         where.size * (dice.chance(0.2) ? dice.log_between(1, 1e4) : dice.between(2, 12));

@@ -1,6 +1,6 @@
-// Random scenes through the whole pipeline, against what must hold for every one: finite, within physical bounds, the same
-// bytes again, in bounded time and memory. A failure names its seed; AWAN_SEARCH_SEED=<seed> AWAN_SEARCH_COUNT=1 renders that
-// scene alone, AWAN_SEARCH_COUNT=<n> more or fewer of them.
+// Random scenes through the whole pipeline, against what must hold for every one: finite, within physical bounds, the
+// same bytes again, in bounded time and memory. A failure names its seed; AWAN_SEARCH_SEED=<seed> AWAN_SEARCH_COUNT=1
+// renders that scene alone, AWAN_SEARCH_COUNT=<n> more or fewer of them.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 

@@ -42,6 +42,13 @@ TEST(SceneJsonLists, ReadsListsOfNumbersInEveryFormThatJsonAllows) {
     EXPECT_FALSE(std::signbit(ready.positions[2].x));
 }
 
+// Equal scenes have equal bytes: a zero is a zero, also where it is read ahead (to the first number that needs the parser).
+TEST(SceneJsonLists, NegativeZeroIsZeroThereToo) {
+    const SceneDraft draft = draft_of(lists_with("[1, 1]", "[[-0, -0.0, 1], [-0e5, 2, -0.00]]"));
+    for (const glm::dvec3& p : draft.clouds[0].ready.positions)
+        for (int axis = 0; axis < 3; ++axis) EXPECT_FALSE(std::signbit(p[axis]));
+}
+
 TEST(SceneJsonLists, RejectsInLongListsWhatItRejectsElsewhere) {
     for (const char* const bad :
          {"[1,]", "[,1]", "[1,,2]", "[1 2]", "[01]", "[1,01]", "[1,.5]", "[1,5.]", "[1,+1]",

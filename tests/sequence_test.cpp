@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/generate/generate.h"
-#include "core/plan/ladder.h"
+#include "core/scene/rungs.h"
 #include "tests/scenes.h"
 
 namespace awan {
@@ -31,7 +31,7 @@ Settled settled_of(const SceneDraft& draft) {
 
 std::vector<float> pixels(const Scene& scene, const std::optional<DetailFigures>& detail,
                           int threads = 1, LightCache* lights = nullptr) {
-    auto planned = ready_to_render(scene, plan_still(scene, threads, {}, {}, detail), threads);
+    auto planned = with_detail_made(scene, plan_still(scene, threads, {}, {}, detail), threads);
     EXPECT_TRUE(planned.ok());
     auto rendered =
         render_planned(scene, *std::move(planned), {nullptr, threads, lights, {}, {}}, {});
@@ -124,7 +124,7 @@ TEST(Sequence, RungAndEffectsAreThoseOfTheMostDemandingFrame) {
     first.sequence.reset();
     auto planned = plan_still(test::valid(first), 1, {}, {}, {});
     ASSERT_TRUE(planned.ok());
-    EXPECT_GE(find_rung(*settled.draft.accuracy.rung), find_rung(planned->plan.rung));
+    EXPECT_GE(find_rung(*settled.draft.accuracy.rung)->id, find_rung(planned->plan.rung)->id);
     for (const EffectDecision& decision : planned->plan.effects)
         if (decision.on) {
             EXPECT_EQ(settled.draft.effects[static_cast<int>(decision.effect)], Switch::kOn)
@@ -151,6 +151,12 @@ TEST(Sequence, DetailGoesWithTheCloud) {
     const glm::dvec3 moved = later.detail->origin - first.detail->origin;
     EXPECT_LT(glm::length(moved - 4.0 * draft.clouds[0].velocity), 1e-12);  // rounding
     EXPECT_EQ(later.detail->radius, first.detail->radius);
+    // At the sequence's beginning, which is not time 0, it is where a picture of that time alone has it.
+    SceneDraft alone = draft;
+    alone.sequence.reset();
+    alone.time = 1;
+    const auto still = plan_scene(test::valid(alone), 1, {});
+    EXPECT_EQ(first.detail->origin, still->survey.detail.origin);
     EXPECT_EQ(later.detail->extinction, first.detail->extinction);
 }
 

@@ -27,7 +27,10 @@ TEST_F(ServiceTest, PagesAreStrictAboutScripts) {
         if (file.name.starts_with("presets/")) continue;
         const Response response = get("/" + std::string(file.name));
         EXPECT_EQ(response.status, 200) << file.name;
-        EXPECT_EQ(response.body, file.text);
+        // The contract has the scene's part from the tables of core/scene.
+        if (file.name != "openapi.json") {
+            EXPECT_EQ(response.body, file.text);
+        }
         EXPECT_NE(response.header("Content-Type"), "application/octet-stream") << file.name;
     }
 }
@@ -63,9 +66,8 @@ TEST_F(ServiceTest, ContractNamesEveryRoute) {
             << path;
     std::string rungs;
     for (const Rung& rung : ladder())
-        rungs +=
-            (rungs.empty() ? "          \"" : ",\n          \"") + std::string(rung.name) + '"';
-    EXPECT_NE(contract.body.find("\"enum\": [\n" + rungs + "\n        ]"), std::string::npos);
+        rungs += (rungs.empty() ? "\"" : ",\"") + std::string(rung.name) + '"';
+    EXPECT_NE(contract.body.find("\"enum\":[" + rungs + "]"), std::string::npos);
     EXPECT_NE(contract.body.find("\"version\": \"" + std::string(engine_version()) + "\""),
               std::string::npos);
 }
@@ -107,9 +109,18 @@ TEST(Accept, BestOfferIsThatOfHighestQualityThenFirst) {
     EXPECT_EQ(best("a/x;q=0.2,a/y;q=0.8;v=1"), "a/y");
     EXPECT_EQ(best("a/x;q=0.001, b/z;q=0.002"), "b/z");
     EXPECT_EQ(best("a/x;v=\"1,2\";q=0.1, a/y;q=0.2"), "a/y");
+    EXPECT_EQ(best("a/x;q=0.19, b/z;q=0.91"), "b/z") << "each digit has its own weight";
+    EXPECT_EQ(best("a/x;q=0.29, b/z;q=0.3"), "b/z");
     EXPECT_EQ(best("c/c"), "none");
     EXPECT_EQ(best("*/*;q=0"), "none");
     EXPECT_EQ(best(",,;,"), "none");
+}
+
+TEST(Tags, PartsDoNotRunIntoOneAnother) {
+    EXPECT_EQ(make_etag({"ab", "c"}), make_etag({"ab", "c"}));
+    EXPECT_NE(make_etag({"ab", "c"}), make_etag({"a", "bc"}));
+    EXPECT_NE(make_etag({"ab", ""}), make_etag({"", "ab"}));
+    EXPECT_NE(make_etag({"ab"}), make_etag({"ab", ""}));
 }
 
 TEST(SceneText, FormatIsSeenFromTheFirstBytes) {

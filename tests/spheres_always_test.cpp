@@ -21,6 +21,8 @@
 namespace awan {
 namespace {
 
+using spheres::SphereTree;
+
 using test::cloud_of;
 using test::particles_of;
 using test::request_of;
@@ -150,7 +152,7 @@ TEST(SpheresAlways, RandomCloudsAreSound) {
 TEST(SpheresAlways, GivesUpWhenNobodyWaits) {
     Deadline over;
     over.until = Deadline::Clock::now();
-    const auto made = spheres_particles(cloud_of(8), request_of(1, 2), over);
+    const auto made = spheres::make_particles(cloud_of(8), request_of(1, 2), over);
     ASSERT_FALSE(made.ok());
     EXPECT_EQ(made.error().code, ErrorCode::kOverDeadline);
 }

@@ -22,7 +22,7 @@ inline ModelRequest request_of(std::uint64_t key, int threads = 1) {
 }
 
 inline ReadyParticles particles_of(const SpheresCloud& cloud, const ModelRequest& request) {
-    auto made = spheres_particles(cloud, request, {});
+    auto made = spheres::make_particles(cloud, request, {});
     EXPECT_TRUE(made.ok());
     return made->particles;
 }

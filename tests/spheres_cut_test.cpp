@@ -1,5 +1,5 @@
-// Level of detail of clouds of spheres: what a cut keeps, how large it may get, and that pictures of it are as near to those of
-// all leaves as it says.
+// Level of detail of clouds of spheres: what a cut keeps, how large it may get, and that pictures of it are as near to
+// those of all leaves as it says.
 #include "core/generate/spheres/cut.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ ModelParticles made_of(const SpheresCloud& cloud, double angle, std::optional<gl
     request.pixel_angle = angle;
     request.eye = eye;
     request.threads = threads;
-    auto made = spheres_particles(cloud, request, {});
+    auto made = spheres::make_particles(cloud, request, {});
     EXPECT_TRUE(made.ok());
     return *std::move(made);
 }
@@ -111,8 +111,8 @@ TEST(SpheresCut, PicturesAreAsNearAsStated) {
         }
 }
 
-// A cut sphere has the mass to be expected below its five children. That of a leaf's parent is exact, deeper ones differ by 33%
-// a cluster, at random; here some thousand are cut.
+// A cut sphere has the mass to be expected below its five children. That of a leaf's parent is exact, deeper ones
+// differ by 33% a cluster, at random; here some thousand are cut.
 TEST(SpheresCut, MassIsKept) {
     SpheresCloud cloud;
     cloud.levels = 7;
@@ -137,6 +137,16 @@ TEST(SpheresCut, IsFinerWhereTheEyeIsNear) {
     EXPECT_EQ(last, 1u);  // a cloud that is less than a pixel is one particle
 }
 
+// From where an eye stands a sphere is as near as its nearest point.
+TEST(SpheresCut, SpheresLookAsLargeAsFromTheirNearestPoint) {
+    spheres::SphereCut cut;
+    cut.eye = glm::dvec3(0, 0, 13);
+    cut.least_distance = 1e-6;
+    EXPECT_DOUBLE_EQ(cut.size_of({{0, 0, 0}, 10}), 10.0 / 3);
+    EXPECT_DOUBLE_EQ(cut.size_of({{5, 0, 1}, 3}), 3.0 / 10);
+    EXPECT_DOUBLE_EQ(cut.size_of({{0, 0, 10}, 5}), 5e6);  // within it
+}
+
 TEST(SpheresCut, TheDeepestTreesStayWithinTheirBudget) {
     SpheresCloud cloud;
     cloud.levels = 10;
@@ -148,7 +158,8 @@ TEST(SpheresCut, TheDeepestTreesStayWithinTheirBudget) {
     EXPECT_GT(made.error, 0);
 }
 
-// All spheres of a tree of one ratio are as large as each other, a level at a time: the budget falls between two levels.
+// All spheres of a tree of one ratio are as large as each other, a level at a time: the budget falls between two
+// levels.
 TEST(SpheresCut, EqualSpheresStayWithinTheBudgetToo) {
     SpheresCloud cloud;
     cloud.levels = 10;
@@ -181,9 +192,9 @@ TEST(SpheresCut, CoarseOnesHaveAboutTheSameBounds) {
     for (std::uint64_t key = 1; key <= 10; ++key) {
         request.key = key;
         request.coarse = true;
-        const auto coarse = spheres_particles(cloud, request, {});
+        const auto coarse = spheres::make_particles(cloud, request, {});
         request.coarse = false;
-        const auto fine = spheres_particles(cloud, request, {});
+        const auto fine = spheres::make_particles(cloud, request, {});
         ASSERT_LE(coarse->particles.positions.size(), 625u);
         const Bounds a = box(coarse->particles), b = box(fine->particles);
         // Of a cloud of 500; a coarse particle is some 50 wide.

@@ -6,6 +6,7 @@
 
 #include "core/scene/fingerprint.h"
 #include "core/scene/limits.h"
+#include "core/scene/rules.h"
 #include "core/scene/spheres.h"
 #include "core/scene/validate.h"
 #include "server/document/json.h"
@@ -15,6 +16,12 @@
 
 namespace awan {
 namespace {
+
+// Over every field of it.
+std::string all_fields_of(const SpheresCloud& cloud) {
+    const SpheresCloud all = cloud;
+    return fingerprint_of(table_of<SpheresCloud>(), &all);
+}
 
 using namespace scene_checks;
 
@@ -27,7 +34,7 @@ TEST(SpheresJson, AnEmptyObjectIsACloudOfDefaults) {
     ASSERT_EQ(draft.clouds.size(), 1u);
     EXPECT_EQ(draft.clouds[0].model, CloudModel::kSpheres);
     ASSERT_TRUE(draft.clouds[0].spheres);
-    EXPECT_EQ(figures_of(*draft.clouds[0].spheres), figures_of(SpheresCloud{}));
+    EXPECT_EQ(all_fields_of(*draft.clouds[0].spheres), all_fields_of(SpheresCloud{}));
     EXPECT_TRUE(validate(draft).ok());
 }
 
@@ -138,7 +145,7 @@ TEST(SpheresJson, NotANumberIsInNoRange) {
         SpheresCloud cloud;
         cloud.morph.emplace();
         change(cloud);
-        const Status wrong = check_spheres(cloud, "");
+        const Status wrong = check_model(cloud, "");
         return wrong ? wrong->pointer : "nothing";
     };
     EXPECT_EQ(pointer([&](SpheresCloud& c) { c.size.y = nan; }), "/size/1");

@@ -13,6 +13,8 @@
 namespace awan {
 namespace {
 
+using spheres::SphereNode;
+
 SceneDraft look_of(const SpheresCloud& spheres, int width = 80, int height = 60) {
     SceneDraft draft;
     draft.top_level_cubes = false;

@@ -21,6 +21,20 @@
 namespace awan {
 namespace {
 
+using spheres::child_offset;
+using spheres::cluster_blob;
+using spheres::cluster_moments;
+using spheres::ClusterMoments;
+using spheres::GaussianBlob;
+using spheres::kLeafMass;
+using spheres::kLeafVariance;
+using spheres::leaf_blob;
+using spheres::other_coordinate;
+using spheres::other_coordinate_printed;
+using spheres::SphereDraw;
+using spheres::SphereNode;
+using spheres::SphereTree;
+
 using test::cloud_of;
 using test::particles_of;
 using test::request_of;
@@ -45,7 +59,8 @@ void each_pair(const SphereTree& tree, const SphereNode& node, int level, const 
 
 // --- subdivision
 
-// The law that makes every sphere a bounding volume. Rounding: three additions of numbers no larger than the parent's place.
+// The law that makes every sphere a bounding volume. Rounding: three additions of numbers no larger than the parent's
+// place.
 TEST(Spheres, EveryChildLiesInItsParent) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         test::Dice dice(seed);
@@ -86,8 +101,8 @@ TEST(Spheres, TheFiveGoWhereTheSourceSays) {
     EXPECT_EQ(child_offset(4, other, axes, across, -1), glm::dvec3(-aside, -along * 0.5, 0));
 }
 
-// Without its root the printed f is an area: the same cloud drawn ten times as large throws its children ten times as far, in
-// parents' radii, and out of their parents. The fifth's f(s, D) is not even an area.
+// Without its root the printed f is an area: the same cloud drawn ten times as large throws its children ten times as
+// far, in parents' radii, and out of their parents. The fifth's f(s, D) is not even an area.
 TEST(Spheres, ThePrintedCoordinateLeavesTheParent) {
     const double s = 0.9, ratio = 0.26;
     const auto reach = [&](double radius, auto f) {
@@ -247,6 +262,59 @@ TEST(Spheres, ExpectedMomentsAreThoseOfManyClouds) {
             EXPECT_NEAR(moment[axis] / mass, expected.mean[axis], spread) << axis;
         EXPECT_NEAR(second / mass / expected.square, 1, spread);
     }
+}
+
+// With one ratio and one shift all that is left to chance is each sphere's side: its two are tried in turn. Exact.
+TEST(Spheres, ExpectedMomentsAreTheMeansOverAllSides) {
+    SpheresCloud cloud = cloud_of(4);
+    cloud.size = glm::dvec3(2);
+    const double ratio = 0.55, shift = 0.6;
+    cloud.ratio_min = cloud.ratio_max = ratio;
+    cloud.shift_min = cloud.shift_max = shift;
+    const SphereTree tree(cloud, 1, 0, 0);
+    std::vector<glm::dvec3> offsets;  // of ten children, two in each place, in radii of the parent
+    for (int j = 0; j < spheres::kSphereChildren; ++j)
+        for (const double side : {-1.0, 1.0})
+            offsets.push_back(
+                child_offset(j, {ratio, shift, side}, glm::dvec3(1), glm::dvec3(1), tree.up()));
+    glm::dvec3 mean(0);
+    double square = 0;
+    for (const glm::dvec3& a : offsets)
+        for (const glm::dvec3& b : offsets) {
+            const glm::dvec3 at = a + ratio * b;
+            mean += at / 100.0;
+            square += (glm::dot(at, at) + 3 * kLeafVariance * std::pow(ratio, 4)) / 100;
+        }
+    const ClusterMoments moments = cluster_moments(tree)[2];
+    EXPECT_NEAR(moments.mass, std::pow(5 * ratio * ratio * ratio, 2), 1e-12);
+    EXPECT_NEAR(moments.square, square, 1e-12);
+    EXPECT_LT(glm::length(moments.mean - mean), 1e-12);
+    EXPECT_GT(glm::length(mean), 0.05);  // so that the square of a sum is not a sum of squares
+}
+
+// Of clusters that are not round about their spheres' middles: the sums over all of them, place by place.
+TEST(Spheres, AClusterOfClustersKeepsItsMoments) {
+    const SphereTree tree(cloud_of(5), 9, 0, 0);
+    const auto children = tree.children(tree.children(tree.root(), 0)[3], 1);
+    const ClusterMoments below{2.5, {0.1, 0.3, -0.2}, 0.8};
+    const GaussianBlob blob = cluster_blob(children, below);
+    double mass = 0, square = 0;
+    glm::dvec3 mean(0);
+    for (const SphereNode& node : children) {
+        const double r = node.sphere.radius, own = r * r * r * below.mass;
+        const glm::dvec3 middle = node.sphere.center + r * below.mean;
+        // Steiner: about the cluster's own middle, and that about the origin.
+        const double about = r * r * (below.square - glm::dot(below.mean, below.mean));
+        mass += own;
+        mean += own * middle;
+        square += own * (about + glm::dot(middle, middle));
+    }
+    mean /= mass;
+    EXPECT_LT(glm::length(blob.center - mean), 1e-12);
+    EXPECT_NEAR(3 * blob.s * blob.s / (square / mass - glm::dot(mean, mean)), 1, 1e-9);
+    EXPECT_NEAR(
+        blob.peak * std::pow(2 * std::numbers::pi, 1.5) * std::pow(blob.s, 3) / (kLeafMass * mass),
+        1, 1e-12);
 }
 
 // A cluster of five leaves keeps mass, centre of mass and mean square exactly; 1e-12 is rounding.

@@ -54,6 +54,12 @@ TEST(Survey, OneGaussiansFigures) {
     EXPECT_FALSE(survey.eye_inside);
     const double tan_half = std::tan(20 * std::numbers::pi / 180);
     EXPECT_NEAR(survey.max_projected_px, 1.0 / 20 * 48 / (2 * tan_half), 1e-9);
+    // A disc: to where 1 - e^-tau is a twentieth of what it is in the middle.
+    const double middle = 0.7 * kRootTwoPi, edge = -std::log1p(0.05 * std::expm1(-middle));
+    const double radius = std::sqrt(2 * std::log(middle / edge)) / 20 / tan_half * 24;  // pixels
+    EXPECT_NEAR(survey.covered, std::numbers::pi * radius * radius / (64 * 48), 0.02 * 0.3);
+    EXPECT_GT(survey.mean_depth_eye, edge);
+    EXPECT_LT(survey.mean_depth_eye, middle);
 }
 
 TEST(Survey, OpticalDepthsOfManyAreThoseOfTheLines) {

@@ -109,6 +109,19 @@ TEST(Lattice, KeepsTheMassWhateverItsAxes) {
     }
 }
 
+// Cells are cubes: what they are too long goes to both ends. Within the coarse cells that its box is found by, 32
+// along.
+TEST(Lattice, StandsAboutTheMiddleOfWhatItHolds) {
+    SceneDraft draft = test::balls({{{-6, 1, 2}, 2, 1}, {{6, 1, 2}, 2, 1}});
+    const auto planned = plan_scene(test::valid(draft), 1, {});
+    for (const int count : {8, 13, 24, 50}) {
+        const Lattice lattice = lattice_around_matter(planned->particles, {1, 0, 0}, {0, 1, 0},
+                                                      {0, 0, 1}, 1e-3, count, 1);
+        const glm::dvec3 middle = lattice.at(0.5 * glm::dvec3(lattice.cells));
+        EXPECT_LT(glm::length(middle - glm::dvec3(0, 1, 2)), 0.5 * 20 / 32) << count;
+    }
+}
+
 TEST(SunDepth, IsTheLineIntegral) {
     SceneDraft draft = test::table_4_4();
     const auto planned = plan_scene(test::valid(draft), 1, {});
@@ -185,16 +198,16 @@ TEST(Transport, WhiteFurnace) {
         for (const double density : {.02, .2, 2.}) {
             const Solved solved = solve(furnace(g, density), 24, 2, 1e-4);
             const auto [low, high] = furnace_range(solved.light, 1);
-            // Optical depth 3 and 30 within 1%. At 300 light takes 1e5 scatterings to the middle, and what a residual of 1e-4
-            // leaves there is 4%, where nobody sees it.
+            // Optical depth 3 and 30 within 1%. At 300 light takes 1e5 scatterings to the middle, and what a residual
+            // of 1e-4 leaves there is 4%, where nobody sees it.
             const double bound = density < 1 ? .01 : .05;
             EXPECT_GT(low, 1 - bound) << "g " << g << " density " << density;
             EXPECT_LT(high, 1 + bound) << "g " << g << " density " << density;
         }
 }
 
-// What a cloud takes from the sun leaves it again, or is absorbed: with albedo a the scattered power cannot be more than the
-// power that falls on it times a / (1 - a), nor negative anywhere by more than the scheme's ripples.
+// What a cloud takes from the sun leaves it again, or is absorbed: with albedo a the scattered power cannot be more
+// than the power that falls on it times a / (1 - a), nor negative anywhere by more than the scheme's ripples.
 TEST(Transport, DarkMatterIsDarkAndThinMatterHoldsNoLight) {
     SceneDraft draft = test::table_4_4();
     draft.sky.none = true;

@@ -440,6 +440,54 @@ TEST(Light, DrawnFromTheSunsSideIsTheSame) {
         }
 }
 
+// Absorption in particles of a colour, or by an albedo of the same: one law, and the same light, from whichever side
+// the directions are drawn.
+TEST(Light, DrawnFromTheSunsSideIsAbsorbedAsFromTheEyes) {
+    const glm::vec3 color(0.9F, 0.6F, 0.3F);
+    const glm::dvec3 to_sun = glm::normalize(glm::dvec3(0.5, 0.7, -0.4));
+    const double albedo = 0.8;
+    struct Mean {
+        glm::dvec3 value{0}, noise{0};
+    };
+    const auto mean = [&](const glm::vec3& of_matter, const glm::dvec3& wanted, double of_setting,
+                          int from_sun) {
+        SceneDraft draft =
+            test::balls({{{0, 0, 0}, 2, 4, of_matter}, {{1.5, 0.3, -0.5}, 1, 8, of_matter}});
+        const truth::Matter matter = truth::make_matter(particles_of(draft), to_sun, 1, {}).value();
+        truth::Setting setting;
+        setting.matter = &matter;
+        setting.phase.g = 0.7;
+        setting.albedo = of_setting;
+        setting.to_sun = to_sun;
+        setting.sun_irradiance = wanted;
+        setting.from_sun = from_sun;
+        truth::Tally tally;
+        PathRandom random(static_cast<std::uint64_t>(3 + from_sun));
+        const int n = 30'000;
+        glm::dvec3 sum(0), square(0);
+        for (int i = 0; i < n; ++i) {
+            const glm::dvec3 v =
+                walk_from_matter(setting, 0.4 * matter.top, {0, 0, -1}, random, tally);
+            sum += v;
+            square += v * v;
+        }
+        const glm::dvec3 value = sum / (1.0 * n);
+        return Mean{value,
+                    glm::sqrt(glm::max(square / (1.0 * n) - value * value, 0.0) / (1.0 * n))};
+    };
+    const Mean eye = mean(color, glm::dvec3(1), albedo, 0);
+    const Mean sun = mean(color, glm::dvec3(1), albedo, 7);
+    for (int c = 0; c < 3; ++c) {
+        glm::dvec3 one(0);
+        one[c] = 1;
+        const Mean grey = mean(glm::vec3(1), one, albedo * static_cast<double>(color[c]), 7);
+        EXPECT_NEAR(sun.value[c], eye.value[c], 4.5 * std::hypot(sun.noise[c], eye.noise[c])) << c;
+        EXPECT_NEAR(sun.value[c], grey.value[c], 4.5 * std::hypot(sun.noise[c], grey.noise[c]))
+            << c;
+        EXPECT_LT(sun.noise[c], 0.04 * sun.value[c]);
+    }
+}
+
 // --- ground
 
 truth::Setting over_ground(const truth::Matter& matter, double height) {
@@ -489,7 +537,8 @@ TEST(Ground, HasTheCloudsShadow) {
         truth::Tally tally;
         const glm::dvec3 p(x, -3, 0.2);
         const double through = std::exp(-line_optical_depth(one, p, to_sun, 0, kInfinite));
-        // Each path gets through to a point of the sun's disc or not: of the mean, 3.4 standard errors are allowed at worst.
+        // Each path gets through to a point of the sun's disc or not: of the mean, 3.4 standard errors are allowed at
+        // worst.
         constexpr int kPaths = 40000;
         double sum = 0;
         for (int i = 0; i < kPaths; ++i)

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "core/scene/fingerprint.h"
-#include "core/plan/ladder.h"
 #include "core/scene/limits.h"
+#include "core/scene/rungs.h"
 #include "core/scene/validate.h"
 #include "server/document/json.h"
 #include "tests/scene_checks.h"

@@ -197,7 +197,8 @@ export function seedField(store, { label = "Seed", pointer = () => "/seed", get,
   };
 }
 
-// [[word, title]...] of a field with words: first those with titles here, in their order, then the others by their names.
+// [[word, title]...] of a field with words: first those with titles here, in their order, then the others by their
+// names.
 export function choicesOf({ words }, titles = {}) {
   const unknown = Object.keys(titles).filter((word) => !words.includes(word));
   if (unknown.length) throw new RangeError(`“${unknown[0]}” is none of ${words.join(", ")}.`);

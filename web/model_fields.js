@@ -1,18 +1,19 @@
 // Controls from descriptions: model_*.js say which fields of a model are shown, and how; what they may be, the service
-// says (schema.js). A description's `member` is its place within the object at hand ("wind/mutation"); where that object
-// is in the document, `base()` says, for the cloud that is being edited changes.
+// says (schema.js). A description's `member` is its place within the object at hand ("wind/mutation"); where that
+// object is in the document, `base()` says, for the cloud that is being edited changes.
 //
-//   { member, label, min, max, step | log }                       a slider; its useful range, where that is not the whole
+//   { member, label, min, max, step | log }                       a slider; its useful range, where not the whole
 //   { kind: "number", member, label, empty }                      a number; `empty`: what none of it means
 //   { kind: "select", member, label, titles }                     titles: what its words are called
-//   { kind: "vector", member, label, step, unit }                 three numbers; `unit`: "" where it goes without saying
+//   { kind: "vector", member, label, step, unit }                 three numbers; `unit`: "" where that is clear
 //   { kind: "switch", member, label, fresh, fields }              an object that may be left out
 //   { kind: "section", title, fields }                            folded away until the document has some of it
 //   { kind: "table", member, title, one, fresh, columns }         a list of objects, a row each
 //   { kind: "cards", member, title, one, fresh, fields }          a list of objects, a box each
 //
-// Any may have a `hint`, shown by the pointer instead of what the service says of the field. `fresh` is what an object is
-// when it is first put into the document: values of its own, or the names of members that are then written out as they are.
+// Any may have a `hint`, shown by the pointer instead of what the service says of the field. `fresh` is what an object
+// is when it is first put into the document: values of its own, or the names of members that are then written out as
+// they are.
 
 import { hintOf, select, slider, stepByArrows, numberInput, unitOf } from "./controls.js";
 import { at, withAt } from "./document.js";

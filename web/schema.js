@@ -1,5 +1,5 @@
-// What the service says a scene document may hold: the scene part of /openapi.json, asked for once. Every control takes its
-// default, its ends, its words and its hint from here, so that the page has none of its own to go out of date.
+// What the service says a scene document may hold: the scene part of /openapi.json, asked for once. Every control takes
+// its default, its ends, its words and its hint from here, so that the page has none of its own to go out of date.
 
 import * as api from "./api.js";
 import { at, steps } from "./document.js";
@@ -54,8 +54,8 @@ export function fieldAt(pointer) {
   };
 }
 
-// What the word of one field decides about the others of an object: its primitives by the preset, say. A word may stand for
-// the whole object. {}: nothing.
+// What the word of one field decides about the others of an object: its primitives by the preset, say. A word may stand
+// for the whole object. {}: nothing.
 export function presetAt(scene, pointer) {
   const object = schemasAt(pointer).flatMap(alternatives).find((node) => node["x-presets"]);
   if (!object) return {};

@@ -13,21 +13,28 @@ namespace awan {
 
 struct RungCost {
     std::string rung;
-    double time_ms = 0;                // median of whole renders at the scene's own size
+    // Median of whole renders at the scene's own size.
+    double time_ms = 0;
     double light_ms = 0, draw_ms = 0;  // of the median run
     int runs = 0;                      // renders that the median is of
-    PictureError error;                // against the reference, at its size
-    double flip = 0;                   // of the PNGs, sky behind, at the reference's size; 0..1
+    // Against the reference, at its size.
+    PictureError error;
+    // Of the PNGs, sky behind, at the reference's size; 0..1.
+    double flip = 0;
     double predicted_error = 0, predicted_time_ms = 0;  // what the plan says
-    double memory_bytes = 0;        // at its peak, beside the scene's particles: what the plan says
-    bool pareto = false;            // no other rung is both faster and better
-    Image picture;                  // at the reference's size, with the scene's background
-    std::vector<float> difference;  // of its pixels to the truth: luminance, relative to the
-                                    // truth's mean over cloud pixels
+    // At its peak, beside the scene's particles: what the plan says.
+    double memory_bytes = 0;
+    // No other rung is both faster and better.
+    bool pareto = false;
+    // At the reference's size, with the scene's background.
+    Image picture;
+    // Of its pixels to the truth: luminance, relative to the truth's mean over cloud pixels.
+    std::vector<float> difference;
 };
 
 struct AccuracyReport {
-    int width = 0, height = 0;  // of the timed renders: the scene's own
+    // Of the timed renders: the scene's own.
+    int width = 0, height = 0;
     struct Reference {
         int width = 0, height = 0;
         std::uint32_t samples = 0;  // paths a pixel
@@ -39,8 +46,10 @@ struct AccuracyReport {
     struct LeftOut {
         std::string rung, reason;
     };
-    std::vector<LeftOut> left_out;  // rungs that AccuracyOptions::time_ms had no room for
-    double exposure = 0;            // stops: what brings the pictures to the screen
+    // Rungs that AccuracyOptions::time_ms had no room for.
+    std::vector<LeftOut> left_out;
+    // Stops: what brings the pictures to the screen.
+    double exposure = 0;
 };
 
 struct AccuracyOptions {
@@ -49,13 +58,17 @@ struct AccuracyOptions {
     // Timed renders of each rung, fewer where they take seconds. The first of each is not counted,
     // unless it is the only one or takes over half a second.
     int runs = 4;
-    int reference_side = 128;        // pixels of the reference's longer side, at most the scene's
-    std::uint32_t samples = 384;     // paths a pixel of the reference
-    std::vector<std::string> rungs;  // EMPTY: all but truth, which is the reference
+    // Pixels of the reference's longer side, at most the scene's.
+    int reference_side = 128;
+    // Paths a pixel of the reference.
+    std::uint32_t samples = 384;
+    // EMPTY: all but truth, which is the reference.
+    std::vector<std::string> rungs;
     // About how long all of it may take; 0: as long as it takes. Half of it goes to the reference,
     // which gets as many of the samples, and then of the pixels, as fit; rungs that are then too slow are left out.
     double time_ms = 0;
-    std::function<void(const std::string&)> on_step;  // told what is done now; may be empty
+    // Told what is done now; may be empty.
+    std::function<void(const std::string&)> on_step;
 };
 
 // Renders a scene as it says, nothing kept from an earlier render; the caller has the renderer. Is

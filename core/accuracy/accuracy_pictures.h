@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/draw/image.h"
+#include "core/base/image.h"
 #include "core/light/ground_light.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"

@@ -18,9 +18,12 @@ PictureError picture_error(const Image& x, const TruthImage& truth) {
     for (std::size_t i = 0; i < all; ++i) most_alpha = std::max(most_alpha, at(a, i, 3));
     if (!(most_alpha > 0)) return error;
 
-    // Of a pixel, means over r g b. With halves a = t + na and b = t + nb of one truth t and independent noises, x - t = e:
-    // (x - a)(x - b) has the mean e^2 and the variance e^2 (va + vb) + va vb; of that, (a - b)^2 (x - (a + b)/2)^2 is an
-    // unbiased estimate for normal noise. The channels share their paths, so they are summed before squaring.
+    // The truth t of a pixel is known from two halves with independent noises na and nb, of variances va and vb:
+    //   a = t + na,  b = t + nb,  and the picture's error is e = x - t.
+    // Then (x - a)(x - b) has the mean e^2, without any noise in it, and the variance e^2 (va + vb) + va vb, of which
+    //   (a - b)^2 (x - (a + b) / 2)^2
+    // is an unbiased estimate where the noise is normal. The three channels share their paths, so that their noises
+    // are not independent: they are summed before squaring.
     double sum_x = 0, sum_truth = 0, square = 0, square_variance = 0, mean_variance = 0,
            noise_square = 0;
     for (std::size_t i = 0; i < all; ++i) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/draw/image.h"
+#include "core/base/image.h"
 #include "core/truth/path_tracer.h"
 
 namespace awan {
@@ -12,14 +12,17 @@ namespace awan {
 // Over cloud pixels: those whose true alpha is at least 5% of the largest. All three channels count.
 // The pictures are premultiplied cloud radiance over nothing (background "transparent").
 struct PictureError {
-    double nrmse =
-        0;  // sqrt(max(0, mean (x - a)(x - b))) / mean truth: noise of the truth does not inflate it
-    double nrmse_noise =
-        0;  // one standard error of nrmse, from the spread over pixels and the halves' difference
-    double bias = 0;         // (mean x - mean truth) / mean truth
-    double bias_noise = 0;   // one standard error of bias
-    double truth_noise = 0;  // rms noise of a pixel of (a + b) / 2, relative to the mean truth
-    std::size_t pixels = 0;  // cloud pixels; 0: no cloud in the picture, all else 0
+    // sqrt(max(0, mean (x - a)(x - b))) / mean truth: noise of the truth does not inflate it.
+    double nrmse = 0;
+    // One standard error of nrmse, from the spread over pixels and the halves' difference.
+    double nrmse_noise = 0;
+    // (mean x - mean truth) / mean truth.
+    double bias = 0;
+    double bias_noise = 0;  // one standard error of bias
+    // Rms noise of a pixel of (a + b) / 2, relative to the mean truth.
+    double truth_noise = 0;
+    // Cloud pixels; 0: no cloud in the picture, all else 0.
+    std::size_t pixels = 0;
 };
 
 // Pictures of one size. Relative to the truth's mean over cloud pixels; 0 when that is 0 and x is too,

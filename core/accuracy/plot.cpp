@@ -14,10 +14,12 @@ namespace {
 // Pixels, before the scale.
 constexpr double kWidth = 1120;
 constexpr double kMargin = 28;
-constexpr double kAxisWidth = 58;  // numbers and title of the error axis
+// Numbers and title of the error axis.
+constexpr double kAxisWidth = 58;
 constexpr double kHeaderHeight = 66;
 constexpr double kChartHeight = 380, kChartHeightOfMany = 300;
-constexpr double kAxisHeight = 46;  // numbers and title of the time axis
+// Numbers and title of the time axis.
+constexpr double kAxisHeight = 46;
 constexpr double kStripGap = 14;
 constexpr double kCaptionHeight = 34;
 constexpr double kLeastDifferenceHeight = 54;  // the scale's words
@@ -313,7 +315,8 @@ void Block::marks() const {
     for (const RungCost& rung : report_.rungs) {
         const PlotPoint point = mark_of(rung);
         canvas_.color(rung.pareto ? colors_.accent : colors_.quiet);
-        if (in_noise(rung)) {  // "at most": an arrow to where the error may be
+        // "at most": an arrow to where the error may be.
+        if (in_noise(rung)) {
             canvas_.line(point, {point.x, point.y + 16}, 1.5);
             canvas_.line({point.x - 3.5, point.y + 12}, {point.x, point.y + 16}, 1.5);
             canvas_.line({point.x + 3.5, point.y + 12}, {point.x, point.y + 16}, 1.5);

@@ -12,7 +12,8 @@ namespace awan {
 enum class PlotTheme { kLight, kDark };
 
 struct AccuracyPlot {
-    std::string title;  // the scene's name; may be empty
+    // The scene's name; may be empty.
+    std::string title;
     const AccuracyReport* report = nullptr;
 };
 

@@ -10,7 +10,7 @@
 
 #include "core/accuracy/plot.h"
 #include "core/accuracy/plot_layout.h"
-#include "core/draw/image.h"
+#include "core/base/image.h"
 
 namespace awan {
 
@@ -20,7 +20,8 @@ struct PlotColor {
 
 struct PlotColors {
     PlotColor ground, panel, ink, quiet, line, faint, accent;
-    PlotColor below, neutral, above;  // of a difference to the truth: darker, none, brighter
+    // Of a difference to the truth: darker, none, brighter.
+    PlotColor below, neutral, above;
 };
 const PlotColors& plot_colors(PlotTheme theme);
 

@@ -68,7 +68,8 @@ class Placing {
                 const double side = 1 - std::cos(angle) + 0.5 * std::max(0.0, std::sin(angle));
                 consider(box_at(i, angle, distance), distance + corner + 2 * side);
             }
-        if (!best) {  // crowded: the nearest free place there is
+        // Crowded: the nearest free place there is.
+        if (!best) {
             const LabelWish& wish = wishes_[i];
             constexpr double kStep = 4;
             for (double y = around_.area.y; y <= around_.area.bottom(); y += kStep)

@@ -30,7 +30,8 @@ struct PlotBox {
 // A logarithmic axis over [low, high], both > 0.
 struct LogAxis {
     double low = 1, high = 10;
-    double share(double value) const;  // 0 at low, 1 at high; may leave both
+    // 0 at low, 1 at high; may leave both.
+    double share(double value) const;
 };
 
 // Holds every finite value > 0, with room at both ends, and at least a decade. 1..10 of nothing.
@@ -49,9 +50,10 @@ struct LabelWish {
     double width = 0, height = 0;  // of the label
 };
 struct LabelSurroundings {
-    PlotBox area;                  // labels stay in it
-    double marker = 6;             // no label covers the square of this half side around any point
-    std::vector<PlotBox> avoided;  // better not covered
+    PlotBox area;  // labels stay in it
+    // No label covers the square of this half side around any point.
+    double marker = 6;
+    std::vector<PlotBox> avoided;                        // better not covered
     std::vector<std::pair<PlotPoint, PlotPoint>> lines;  // better not crossed
 };
 // One box a wish, as near to its point as there is room; nothing where there is none at all. Boxes

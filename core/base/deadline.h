@@ -11,11 +11,14 @@
 
 namespace awan {
 
+// A moment after which the answer is of no use, and whether anybody still waits for it.
 struct Deadline {
     using Clock = std::chrono::steady_clock;
 
-    Clock::time_point until = Clock::time_point::max();  // default: for ever
-    std::shared_ptr<const std::atomic<bool>> cancelled;  // may be null; true: nobody waits any more
+    // By default there is none.
+    Clock::time_point until = Clock::time_point::max();
+    // True as soon as nobody waits for the answer any more. May be null.
+    std::shared_ptr<const std::atomic<bool>> cancelled;
 
     // The error to return when there is no point in going on, else nothing.
     std::optional<Error> over() const {

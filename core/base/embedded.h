@@ -7,11 +7,14 @@
 namespace awan {
 
 struct EmbeddedFile {
-    std::string_view name;  // relative to the folder, e.g. "presets/cumulus.json"
+    // Relative to the folder that was embedded, e.g. "presets/cumulus.json".
+    std::string_view name;
     std::string_view text;
 };
 
-std::span<const EmbeddedFile> shader_files();  // core/shaders, in awan_core
-std::span<const EmbeddedFile> web_files();     // web, in awan_server
+// The files of core/shaders; part of the library awan_core.
+std::span<const EmbeddedFile> shader_files();
+// The files of web; part of the library awan_server.
+std::span<const EmbeddedFile> web_files();
 
 }  // namespace awan

@@ -6,11 +6,12 @@
 namespace awan {
 namespace {
 
-// Taylor series by Horner's rule. On |x| <= pi/2 the first term left out is below 5e-14 (sin), and
-// on |x| <= pi/4 below 1e-19 (both).
+// Taylor series by Horner's rule, from the highest term down. On |x| <= pi/2 the first term left out is below 5e-14
+// (sin), and on |x| <= pi/4 below 1e-19 (both).
 double sin_series(double x) {
     const double y = x * x;
-    double p = 1.0 / 355687428096000.0;  // 1/17!
+    // The term of x^17, 1/17!.
+    double p = 1.0 / 355687428096000.0;
     p = -1.0 / 1307674368000.0 + y * p;
     p = 1.0 / 6227020800.0 + y * p;
     p = -1.0 / 39916800.0 + y * p;
@@ -23,7 +24,8 @@ double sin_series(double x) {
 
 double cos_series(double x) {
     const double y = x * x;
-    double p = 1.0 / 20922789888000.0;  // 1/16!
+    // The term of x^16, 1/16!.
+    double p = 1.0 / 20922789888000.0;
     p = -1.0 / 87178291200.0 + y * p;
     p = 1.0 / 479001600.0 + y * p;
     p = -1.0 / 3628800.0 + y * p;
@@ -38,7 +40,8 @@ double cos_series(double x) {
 
 double exact_sin(double x) {
     using std::numbers::pi;
-    double r = std::fmod(x, 2 * pi);  // exact by IEEE 754
+    // The remainder itself is exact by IEEE 754; only 2 pi is rounded.
+    double r = std::fmod(x, 2 * pi);
     if (r > pi) r -= 2 * pi;
     if (r < -pi) r += 2 * pi;
     if (r > pi / 2) r = pi - r;
@@ -49,7 +52,8 @@ double exact_sin(double x) {
 SinCos exact_sincos_degrees(double degrees) {
     double r = std::fmod(degrees, 360.0);
     if (r < 0) r += 360.0;
-    const int quarter = static_cast<int>(std::floor(r / 90.0 + 0.5));  // 0..4
+    // The nearest multiple of a right angle, 0..4.
+    const int quarter = static_cast<int>(std::floor(r / 90.0 + 0.5));
     const double x = (r - 90.0 * quarter) * (std::numbers::pi / 180.0);
     const double s = sin_series(x), c = cos_series(x);
     switch (quarter & 3) {

@@ -1,6 +1,5 @@
-// Sines whose last bit is ours. A library's sin may round differently from one machine to the next;
-// these are polynomials in plain IEEE double arithmetic (no contraction, see CMakeLists.txt), the
-// same everywhere.
+// Sines that are the same to the last bit everywhere. A library's sin may round differently from one machine to the
+// next; these are polynomials in plain IEEE double arithmetic (the compiler may not contract it, see CMakeLists.txt).
 #pragma once
 
 namespace awan {
@@ -13,7 +12,7 @@ double exact_sin(double x);
 struct SinCos {
     double sin, cos;
 };
-// Of an angle in degrees; multiples of 90 give exactly 0 and +-1. Absolute error < 1e-15.
+// Sine and cosine of an angle in degrees; multiples of 90 give exactly 0 and +-1. Absolute error < 1e-15.
 SinCos exact_sincos_degrees(double degrees);
 
 }  // namespace awan

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <cstring>
 
+#include "core/base/instruction_sets.h"
+
 // Vectors are only ever passed between inlined functions: no ABI to worry about.
 #pragma GCC diagnostic ignored "-Wpsabi"
-
-#define AWAN_INLINE [[gnu::always_inline]] inline
 
 namespace awan::simd {
 
@@ -18,6 +18,7 @@ using Floats = float __attribute__((vector_size(64)));
 using Ints = std::int32_t __attribute__((vector_size(64)));
 using Bits = std::uint32_t __attribute__((vector_size(64)));
 
+// The same number in every lane.
 AWAN_INLINE Floats all(float x) {
     return Floats{} + x;
 }

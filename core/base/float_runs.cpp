@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cstring>
 
-namespace awan {
+#include "core/base/instruction_sets.h"
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) double dot_product(const float* a,
-                                                                                const float* b,
-                                                                                std::size_t count) {
+namespace awan {
+namespace {
+
+AWAN_INLINE double dot_product_body(const float* a, const float* b, std::size_t count) {
     using Lanes = float __attribute__((vector_size(64)));
     constexpr std::size_t kLanes = 16, kRun = 1024;
     double sum = 0;
     for (std::size_t run = 0; run < count; run += kRun) {
         const std::size_t end = std::min(run + kRun, count);
-        Lanes parts[2] = {};  // two chains of additions
+        // Two sums that do not wait for each other.
+        Lanes parts[2] = {};
         std::size_t i = run;
         for (; i + 2 * kLanes <= end; i += 2 * kLanes) {
             Lanes x[2], y[2];
@@ -29,9 +31,16 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) double dot_product(
     return sum;
 }
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void add_scaled(
-    float* __restrict to, const float* __restrict from, float scale, std::size_t count) {
+AWAN_INLINE void add_scaled_body(float* __restrict to, const float* __restrict from, float scale,
+                                 std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) to[i] += scale * from[i];
 }
+
+}  // namespace
+
+AWAN_KERNEL(double, dot_product, (const float* a, const float* b, std::size_t count), (a, b, count))
+AWAN_KERNEL(void, add_scaled,
+            (float* __restrict to, const float* __restrict from, float scale, std::size_t count),
+            (to, from, scale, count))
 
 }  // namespace awan

@@ -5,8 +5,8 @@
 
 namespace awan {
 
-// Sum of a[i] b[i]. float32 within runs of 1024, double between them: relative error < 1e-5 of the sum of sizes. The order is
-// fixed: the same bytes on every machine.
+// Sum of a[i] b[i]. float32 within runs of 1024, double between them: relative error < 1e-5 of the sum of sizes. The
+// order is fixed: the same bytes on every machine.
 double dot_product(const float* a, const float* b, std::size_t count);
 
 // to[i] += scale * from[i]; the two do not overlap.

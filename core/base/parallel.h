@@ -1,25 +1,20 @@
 // Splits independent work over threads. Which thread does which item never shows in the result.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
-#include <thread>
-#include <vector>
 
 namespace awan {
 
-// Calls work(i) once for every i in 0..count-1, on at most `threads` threads (the caller's is one
-// of them). work must not throw and items must not touch each other's data.
+// Calls work(what, i) once for every i in 0..count-1, on at most `threads` threads (the caller's is one of them). work
+// must not throw and items must not touch each other's data.
+void run_in_parallel(int threads, std::size_t count, void (*work)(const void* what, std::size_t i),
+                     const void* what);
+
+// The same of anything that can be called as work(i).
 template <typename Work>
 void parallel_for(int threads, std::size_t count, const Work& work) {
-    std::atomic<std::size_t> next{0};
-    const auto run = [&] {
-        for (std::size_t i = next++; i < count; i = next++) work(i);
-    };
-    std::vector<std::jthread> helpers;
-    for (std::size_t t = 1; t < static_cast<std::size_t>(threads) && t < count; ++t)
-        helpers.emplace_back(run);
-    run();
+    const auto call = [](const void* what, std::size_t i) { (*static_cast<const Work*>(what))(i); };
+    run_in_parallel(threads, count, call, &work);
 }
 
 }  // namespace awan

@@ -5,51 +5,62 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 
 namespace awan {
 
+// What kind of thing went wrong; it decides the HTTP status and the exit code.
 enum class ErrorCode {
-    kMalformed,     // the text is not JSON / not a layout at all            (HTTP 400, exit 3)
-    kInvalidScene,  // it parses, but no scene can be made of it             (HTTP 422, exit 3)
-    kUnsupported,   // a valid part of the contract that this version lacks  (HTTP 422, exit 3)
-    kTooLarge,      // over a limit on size                                  (HTTP 413, exit 3)
-    kNoRenderer,    // no EGL / OpenGL 4.5 here                              (HTTP 503, exit 4)
-    kOverDeadline,  // the time allowed ran out                              (HTTP 504, exit 4)
-    kCancelled,     // nobody waits for the answer any more                  (no answer, exit 4)
-    kIo,            // a file could not be read or written                   (exit 5)
-    kInternal,      // a bug                                                 (HTTP 500, exit 4)
+    // HTTP 400, exit code 3: the text is no JSON, or no layout at all.
+    kMalformed,
+    // HTTP 422, exit code 3: it parses, but no scene can be made of it.
+    kInvalidScene,
+    // HTTP 422, exit code 3: a valid part of the contract that this version lacks.
+    kUnsupported,
+    // HTTP 413, exit code 3: over a limit on size.
+    kTooLarge,
+    // HTTP 503, exit code 4: no EGL or no OpenGL 4.5 here.
+    kNoRenderer,
+    // HTTP 504, exit code 4: the time allowed ran out.
+    kOverDeadline,
+    // No answer, exit code 4: nobody waits for it any more.
+    kCancelled,
+    // Exit code 5: a file could not be read or written.
+    kIo,
+    // HTTP 500, exit code 4: a bug.
+    kInternal,
 };
 
+// What went wrong, and where.
 struct Error {
     ErrorCode code = ErrorCode::kInternal;
     // JSON pointer (RFC 6901) to the offending value, e.g. "/cubes/3/size/1"; "" is the whole
     // document. For a layout that is not JSON: "line 14".
     std::string pointer;
-    std::string message;  // what is wrong and what was allowed; one sentence, no newline
+    // What is wrong and what was allowed; one sentence, no newline.
+    std::string message;
 };
 
 // Either a value or an Error. Precondition of value()/operator*/operator->: ok().
 template <typename T>
 class [[nodiscard]] Result {
   public:
-    Result(T value) : state_(std::move(value)) {}      // NOLINT(google-explicit-constructor)
-    Result(Error error) : state_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
+    Result(T value) : value_(std::move(value)) {}      // NOLINT(google-explicit-constructor)
+    Result(Error error) : error_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
 
-    bool ok() const { return state_.index() == 0; }
+    bool ok() const { return value_.has_value(); }
     explicit operator bool() const { return ok(); }
 
     T& value() & {
         assert(ok());
-        return std::get<0>(state_);
+        return *value_;
     }
     const T& value() const& {
         assert(ok());
-        return std::get<0>(state_);
+        return *value_;
     }
     T&& value() && {
         assert(ok());
-        return std::get<0>(std::move(state_));
+        return *std::move(value_);
     }
     T& operator*() & { return value(); }
     const T& operator*() const& { return value(); }
@@ -59,11 +70,13 @@ class [[nodiscard]] Result {
 
     const Error& error() const {
         assert(!ok());
-        return std::get<1>(state_);
+        return error_;
     }
 
   private:
-    std::variant<T, Error> state_;
+    // Not a std::variant, which takes a compiler far longer, in every file.
+    std::optional<T> value_;
+    Error error_;  // that of a Result without a value
 };
 
 // The outcome of something that gives no value: nothing, or an Error.

@@ -11,7 +11,7 @@ void see_through_air(const Air& air, const View& view, const glm::dvec3& q, Spla
     const glm::dvec3 d = distance > 0
                              ? (q.x * view.right + q.y * view.up + q.z * view.forward) / distance
                              : view.forward;
-    // Behind the eye: as in the picture's middle.
+    // A splat behind the eye (its far side may be seen) is taken to be in the picture's middle.
     double x = 0.5 * air.picture.width, y = 0.5 * air.picture.height;
     if (q.z > 1e-9 * distance) {
         x *= 1 + q.x / (q.z * view.tan_half_fov * view.aspect);
@@ -25,7 +25,7 @@ void see_through_air(const Air& air, const View& view, const glm::dvec3& q, Spla
         splat.matter[c] *= clear;
         splat.other[c] *= clear;
     }
-    // All of `other` has one factor, a mean of its own and the veil's, which is 1.
+    // A splat has one factor for all of `other`: the mean of its own and of 1, the veil's, weighted by their light.
     const float own = splat.other.x + splat.other.y + splat.other.z;
     const auto veiled = static_cast<float>(veil.x + veil.y + veil.z);
     if (!(veiled > 0)) return;

@@ -13,7 +13,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMostSlices = 64;
-constexpr double kSliceCells = 2;  // a slice's length; half of it changes table 4.4's light by 1e-4
+// Cells of the sun's depth in a slice. With half as many, the light over the cloud of Rekawan's table 4.4 changes by
+// 1e-4.
+constexpr double kSliceCells = 2;
 // Pictures up to this many pixels have rays 2, 4 pixels apart, larger ones 8.
 constexpr int kSmall = 160 * 120, kMiddling = 400 * 300;
 
@@ -22,7 +24,7 @@ int spacing_for(int width, int height) {
     return pixels <= kSmall ? 2 : pixels <= kMiddling ? 4 : 8;
 }
 
-// The part of a line at + t by that is in low..high; cuts from..to.
+// Cuts from..to down to those t for which at + t * by lies in low..high.
 void clip(double at, double by, double low, double high, double& from, double& to) {
     if (by == 0) {
         if (at < low || at > high) to = from;
@@ -39,8 +41,8 @@ std::uint32_t slices(double length, double per_unit) {
         std::clamp(std::ceil(length * per_unit / kSliceCells), 1.0, kMostSlices));
 }
 
-// Where the ray may meet shadow: in the prism that the lattice of the sun's depth sweeps along the light. In the lattice
-// shadow changes over a cell, behind it only as the ray crosses the light.
+// Where the ray may meet shadow: in the prism that the lattice of the sun's depth fills when it is moved along the
+// light. Within the lattice shadow changes from cell to cell; behind it only as far as the ray crosses the light.
 AirShadows::Ray place(const SunDepth& sun, const glm::dvec3& eye, const glm::dvec3& direction,
                       double end) {
     AirShadows::Ray ray;
@@ -67,7 +69,7 @@ AirShadows::Ray place(const SunDepth& sun, const glm::dvec3& eye, const glm::dve
     return ray;
 }
 
-// Depth from the sun along a ray, as depth_at (core/light/sun_depth.h) has it.
+// Depth from the sun along a ray, as depth_at (core/light/sun_depth.h) has it, with what the points share done once.
 class DepthAlong {
   public:
     DepthAlong(const SunDepth& sun, const glm::dvec3& eye, const glm::dvec3& direction)
@@ -99,7 +101,7 @@ class DepthAlong {
     glm::dvec3 last_, from_, step_;
 };
 
-// Fills the ray's nodes.
+// Fills the ray's nodes, and its `whole`.
 void integrate(const HazeRay& haze, const SunDepth& sun, const glm::dvec3& eye,
                const glm::dvec3& direction, AirShadows::Ray& ray, float* lost) {
     if (ray.first + ray.second == 0) {
@@ -115,7 +117,7 @@ void integrate(const HazeRay& haze, const SunDepth& sun, const glm::dvec3& eye,
     *lost = ray.from > 0 ? 0 : static_cast<float>(shade(0));
     const auto part = [&](double from, double to, std::uint32_t count) {
         for (std::uint32_t i = 0; i < count; ++i) {
-            // A part without end runs along the light: its shade is the same everywhere.
+            // A part without end runs along the light, or it would leave the prism: its shade is the same everywhere.
             const bool endless = std::isinf(to);
             const double share = (i + 1.0) / count, half = (i + 0.5) / count;
             const double end = i + 1 == count ? to : from + share * (to - from);
@@ -169,7 +171,7 @@ AirShadows air_shadows(const PictureRays& picture, const Haze& haze, double grou
     AirShadows shadows;
     if (sun.depth.empty() || !(sun.cell > 0) || !(haze.extinction > 0)) return shadows;
     shadows.spacing = spacing_for(picture.width, picture.height);
-    // A block of pixels may look up to its corner beyond the picture's edge.
+    // Blocks at the picture's edges look up light at their outer corners, beyond the picture.
     constexpr int kWhole = 16;
     const int per_block = kWhole / shadows.spacing;
     shadows.across = (picture.width + kWhole - 1) / kWhole * per_block + 1;

@@ -10,19 +10,21 @@
 
 namespace awan {
 
-// Of the sunlight that the haze would scatter to the eye between it and a point, the share that clouds keep away:
-//     lost(t) = integral of (1 - V) dO / O(t),  O = 1 - exp(-haze depth from the eye to t),
-// V the sun's transmittance through the clouds. Tabulated on rays of a lattice of the picture's pixels, by slices of about two
-// cells of the sun's depth, so that no slice is spent where there is no shadow. In a slice V is its value in the middle, and
-// dO is exact.
+// The haze between the eye and a point at distance t would scatter so much sunlight to the eye; clouds keep this share
+// of it away:
+//     lost(t) = integral from 0 to t of (1 - V) dO / O(t),     O = 1 - exp(-depth of the haze from the eye to t),
+// V the sun's transmittance through the clouds. It is tabulated along rays that are `spacing` pixels apart, at the ends
+// of slices about two cells of the sun's depth long; slices lie only where there can be shadow. In a slice dO is exact
+// and V is taken from its middle.
 struct AirShadows {
     struct Ray {
-        double from = 0, mid = 0, to = 0;  // shadows lie between: in the matter's box and beside it
-        double per_first = 0, per_second = 0;  // slices a unit in from..mid and mid..to
-        std::uint32_t first = 0, second = 0;   // how many
-        std::uint32_t at = 0;                  // of the ray's first node in `lost`
-        double whole =
-            0;  // integral of (1 - V) dO over all of the ray, to the ground or without end
+        // Shadows lie between `from` and `to`; at `mid` the ray enters or leaves the box of the matter.
+        double from = 0, mid = 0, to = 0;
+        double per_first = 0, per_second = 0;  // slices per unit of length in from..mid and mid..to
+        std::uint32_t first = 0, second = 0;   // how many slices
+        std::uint32_t at = 0;                  // index of the ray's first node in `lost`
+        // Integral of (1 - V) dO over all of the ray, to the ground or without end.
+        double whole = 0;
     };
     int spacing = 0;           // pixels between rays; a power of two <= 16; 0: nothing is shaded
     int across = 0, down = 0;  // rays; ray (i, j) is through the pixel corner (i, j) * spacing
@@ -41,7 +43,7 @@ struct PictureRays {
 AirShadows air_shadows(const PictureRays& picture, const Haze& haze, double ground,
                        const SunDepth& sun, int threads);
 
-// Share lost before distance t on the ray through a pixel coordinate: bilinear between rays.
+// The share lost before distance t on the ray through a pixel coordinate, bilinear between rays. opacity: O(t).
 double lost_at(const AirShadows& shadows, double x, double y, double t, double opacity);
 // Integral of (1 - V) dO over all of that ray.
 double whole_lost(const AirShadows& shadows, double x, double y);

@@ -1,16 +1,16 @@
-// Pass 2, from the eye.
+// Pass 2 of the classic rungs, from the eye: particles as splats.
 #pragma once
 
-#include "core/draw/image.h"
+#include "core/base/image.h"
 #include "core/light/light.h"
 #include "core/plan/effect_times.h"
 
 namespace awan {
 
-// Particles blended per pixel by the compute pass splat.glsl, in float32, over the sky or over
-// nothing; the same picture again for the same input on one renderer. Time and memory between two
-// looks at the deadline are bounded. times: what it took is added to them; may be null. Errors: kOverDeadline, kCancelled, kInternal; kTooLarge when
-// the renderer has no memory.
+// Blends the particles pixel by pixel, in float32, by the compute pass splat.glsl, over the sky or over nothing. One
+// renderer gives the same picture for the same input. Time and memory between two looks at the deadline are bounded.
+// times: what it took is added to them; may be null. Errors: kOverDeadline, kCancelled, kInternal; kTooLarge where the
+// renderer has no memory.
 Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View& view,
                    const Plan& plan, const Lighting& lighting, Device& device,
                    const Deadline& deadline, EffectTimes* times = nullptr);

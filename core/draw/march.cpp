@@ -8,15 +8,17 @@
 
 #include "core/base/parallel.h"
 #include "core/draw/march_block.h"
+#include "core/draw/march_scene.h"
 #include "core/generate/detail.h"
 #include "core/scene/outside.h"
 
 namespace awan {
 namespace {
 
-constexpr double kStepDepth = 0.5;  // scaled optical depth of a step that costs 1% (march_test)
-
-constexpr double kDetailStep = 0.2;  // longest step, in bumps of detail
+// Scaled optical depth of a step that costs 1% (march_test).
+constexpr double kStepDepth = 0.5;
+// The longest step in matter with detail, in bumps of it: samples see the smaller ones.
+constexpr double kDetailStep = 0.2;
 
 // Rooms for blocks: as many as threads ask for at a time.
 class Rooms {
@@ -38,7 +40,7 @@ class Rooms {
     std::vector<BlockRoomPtr> free_;
 };
 
-// Lengths of steps and distances of looked up rays; `longer`: of what is usual.
+// Sets the lengths of steps and the gaps between looked up rays. `longer`: factor of the usual lengths.
 void set_fineness(const TransportLight& light, const std::vector<SeenParticle>& seen, double longer,
                   MarchScene& march) {
     double sum = 0;
@@ -48,14 +50,13 @@ void set_fineness(const TransportLight& light, const std::vector<SeenParticle>& 
         least = std::min(least, one.s);
     }
     const double mean = sum / static_cast<double>(seen.size());
-    // Samples that see the smaller bumps.
     const double most = march.detail != nullptr ? kDetailStep * march.detail->bump : INFINITY;
     const auto step_in = [&](const TransportLight& own, double mean_s, double least_s) {
         return std::min(longest_step(own, mean_s, least_s), most) * longer;
     };
     march.apart = most_apart(light);
     march.step = step_in(light, mean, static_cast<double>(least));
-    // Steps are halves of each other, so that blocks sample at the same distances.
+    // All steps are the longest one, halved some number of times, so that blocks sample at the same distances.
     for (const LightIsland& island : light.islands)
         if (island.lit)
             march.step = std::max(march.step, step_in(island.light, island.mean_s, island.mean_s));
@@ -74,28 +75,108 @@ void set_fineness(const TransportLight& light, const std::vector<SeenParticle>& 
     }
 }
 
-// Chords between the sun's direction and those of the picture: least and most, over its blocks' corners, less what lies between.
-void chords_of(const MarchScene& scene, double& least, double& most) {
-    least = 2;
-    most = 0;
+// The least and the most of the chords between the sun's direction and those of the picture's rays.
+struct ChordRange {
+    double least = 2, most = 0;
+};
+
+// From the rays of a grid over the picture. Between two neighbours a chord differs from theirs by less than the rays
+// do.
+ChordRange chords_of(const MarchScene& scene) {
+    ChordRange range;
     const auto across = static_cast<double>(scene.width), down = static_cast<double>(scene.height);
     constexpr int kGrid = 16;
+    const auto direction = [&](int i, int j) {
+        return pixel_direction(scene, across * i / kGrid, down * j / kGrid);
+    };
     double gap = 0;
     for (int j = 0; j <= kGrid; ++j)
         for (int i = 0; i <= kGrid; ++i) {
-            const glm::dvec3 d = pixel_direction(scene, across * i / kGrid, down * j / kGrid);
+            const glm::dvec3 d = direction(i, j);
             const double chord = glm::length(d - scene.to_sun);
-            least = std::min(least, chord);
-            most = std::max(most, chord);
-            if (i > 0)
-                gap = std::max(gap, glm::length(d - pixel_direction(scene, across * (i - 1) / kGrid,
-                                                                    down * j / kGrid)));
-            if (j > 0)
-                gap = std::max(gap, glm::length(d - pixel_direction(scene, across * i / kGrid,
-                                                                    down * (j - 1) / kGrid)));
+            range.least = std::min(range.least, chord);
+            range.most = std::max(range.most, chord);
+            if (i > 0) gap = std::max(gap, glm::length(d - direction(i - 1, j)));
+            if (j > 0) gap = std::max(gap, glm::length(d - direction(i, j - 1)));
         }
-    least = std::max(0.0, least - gap);
-    most = std::min(2.0, most + gap);
+    range.least = std::max(0.0, range.least - gap);
+    range.most = std::min(2.0, range.most + gap);
+    return range;
+}
+
+// What the picture is marched through. It refers to all that it is made from.
+MarchScene scene_of(const Scene& scene, const View& view, const TransportLight& light,
+                    const ParticleSet& particles, const std::vector<SeenParticle>& seen,
+                    double step_error, int threads) {
+    MarchScene march;
+    march.view = view;
+    march.width = scene->image.width;
+    march.height = scene->image.height;
+    march.seen = &seen;
+    march.light = source_towards(light, view.eye, threads);
+    march.medium = scene->medium;
+    if (light.cell > 0) march.peak = {light.peak_from, light.peak_share};
+    const Outside outside = outside_of(scene);
+    march.to_sun = outside.to_sun;
+    march.sun = glm::vec3(outside.sun);
+    march.scaled = static_cast<float>(1 - scene->medium.albedo * march.peak.share);
+    march.rest = rest_of(march.medium, march.peak);
+    march.detail = particles.detail.get();
+    march.cut = matter_below_ground(scene, view, particles);
+    // The error of steps goes with the square of their length.
+    const double finer = std::sqrt(std::clamp(step_error, 1e-5, 0.1) / 0.01);
+    march.step_depth = static_cast<float>(kStepDepth * finer);
+    if (seen.empty()) return march;
+    set_fineness(light, seen, std::min(finer, 1.5), march);
+    const ChordRange chords = chords_of(march);
+    march.table = peak_table(march.medium, march.peak, chords.least, chords.most);
+    return march;
+}
+
+// The sky behind the cloud, as its gradient.
+SkyBehind gradient_behind(const Scene& scene, const TransportLight& light, bool has_peak) {
+    SkyBehind sky;
+    const SkyDome dome = outside_of(scene).sky;
+    if (dome.shines && !dome.physical) {
+        for (int c = 0; c < 3; ++c) {
+            sky.zenith[c] = static_cast<float>(dome.zenith[c]);
+            sky.horizon[c] = static_cast<float>(dome.horizon[c]);
+        }
+        sky.peak = light.sky && has_peak;
+    }
+    sky.behind = scene->image.background == Background::kSky;
+    return sky;
+}
+
+// The haze with the clouds' shadows in it, as the settings ask.
+std::optional<Air> air_of(const Scene& scene, const View& view, const TransportLight& light,
+                          const MarchSettings& settings, int threads, EffectTimes& took) {
+    if (!settings.eye_effects.aerial_perspective) return std::nullopt;
+    auto start = Deadline::Clock::now();
+    std::optional<Air> air = make_air(scene, view);
+    took.of(Effect::kAerialPerspective) = ms_since(start);
+    if (!air || !settings.eye_effects.light_shafts) return air;
+    start = Deadline::Clock::now();
+    shade_air(light.sun, threads, *air);
+    took.of(Effect::kLightShafts) = ms_since(start);
+    return air;
+}
+
+// Marches all blocks; false: the deadline passed.
+bool march_blocks(const MarchScene& scene, int threads, const Deadline& deadline, Image& image) {
+    Rooms rooms;
+    std::atomic<bool> late = false;
+    for_each_block(*scene.seen, image.width, image.height, threads,
+                   [&](int x, int y, const std::vector<std::uint32_t>& items) {
+                       if (late || deadline.over()) {
+                           late = true;
+                           return;
+                       }
+                       BlockRoomPtr room = rooms.take();
+                       march_block(scene, x, y, items, *room, image);
+                       rooms.give(std::move(room));
+                   });
+    return !late;
 }
 
 }  // namespace
@@ -110,74 +191,21 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     image.pixels.resize(4 * image.pixel_count());
     const std::vector<SeenParticle> seen =
         see_particles(particles, view, image.width, image.height, threads);
-
-    MarchScene march;
-    march.view = view;
-    march.width = image.width;
-    march.height = image.height;
-    march.seen = &seen;
-    march.light = source_towards(light, view.eye, threads);
-    march.medium = scene->medium;
-    if (light.cell > 0) march.peak = {light.peak_from, light.peak_share};
-    const Outside outside = outside_of(scene);
-    march.to_sun = outside.to_sun;
-    march.sun = glm::vec3(outside.sun);
-    march.scaled = static_cast<float>(1 - scene->medium.albedo * march.peak.share);
-    march.rest = rest_of(march.medium, march.peak);
-    // Steps cost about the square of their length.
-    const double finer = std::sqrt(std::clamp(settings.step_error, 1e-5, 0.1) / 0.01);
-    march.detail = particles.detail.get();
-    if (!seen.empty()) set_fineness(light, seen, std::min(finer, 1.5), march);
-    march.step_depth = static_cast<float>(kStepDepth * finer);
-    double least = 0, most = 2;
-    chords_of(march, least, most);
-    if (!seen.empty()) march.table = peak_table(march.medium, march.peak, least, most);
-
-    SkyBehind& sky = march.sky;
-    if (outside.sky.shines && !outside.sky.physical) {
-        for (int c = 0; c < 3; ++c) {
-            sky.zenith[c] = static_cast<float>(outside.sky.zenith[c]);
-            sky.horizon[c] = static_cast<float>(outside.sky.horizon[c]);
-        }
-        sky.peak = light.sky && march.peak.share != 0;
-    }
-    sky.behind = behind;
-    march.cut = matter_below_ground(scene, view, particles);
+    MarchScene march = scene_of(scene, view, light, particles, seen, settings.step_error, threads);
+    const bool has_peak = march.peak.share != 0;
+    march.sky = gradient_behind(scene, light, has_peak);
     Backdrop backdrop;
-    if ((behind || march.peak.share != 0 || march.cut) && wants_backdrop(scene, view)) {
+    if ((behind || has_peak || march.cut) && wants_backdrop(scene, view)) {
         backdrop = make_backdrop(scene, view, image.width, image.height, light.ground, threads);
-        sky.backdrop = &backdrop;
-        sky.peak = march.peak.share != 0;
-        sky.sky_peak = light.sky;
-        sky.ground_peak = light.ground.into_cloud;
+        march.sky.backdrop = &backdrop;
+        march.sky.peak = has_peak;
+        march.sky.sky_peak = light.sky;
+        march.sky.ground_peak = light.ground.into_cloud;
     }
-
-    std::optional<Air> air;
-    if (settings.aerial_perspective) {
-        auto start = Deadline::Clock::now();
-        air = make_air(scene, view);
-        took.of(Effect::kAerialPerspective) = ms_since(start);
-        start = Deadline::Clock::now();
-        if (air && settings.light_shafts) {
-            shade_air(light.sun, threads, *air);
-            took.of(Effect::kLightShafts) = ms_since(start);
-        }
-    }
+    const std::optional<Air> air = air_of(scene, view, light, settings, threads, took);
     if (air) march.air = &*air;
 
-    Rooms rooms;
-    std::atomic<bool> late = false;
-    for_each_block(seen, image.width, image.height, threads,
-                   [&](int x, int y, const std::vector<std::uint32_t>& items) {
-                       if (late || deadline.over()) {
-                           late = true;
-                           return;
-                       }
-                       BlockRoomPtr room = rooms.take();
-                       march_block(march, x, y, items, *room, image);
-                       rooms.give(std::move(room));
-                   });
-    if (late)
+    if (!march_blocks(march, threads, deadline, image))
         if (auto error = deadline.over()) return *error;
     if (times != nullptr) times->add(took);
     return image;

@@ -2,10 +2,13 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/draw/march_tile.h"
+
 namespace awan {
 namespace {
 
-constexpr double kApart = 0.3;  // scale heights
+// Most difference of heights between rays that the haze is interpolated between, in scale heights.
+constexpr double kApart = 0.3;
 
 }  // namespace
 

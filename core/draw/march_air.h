@@ -1,80 +1,28 @@
-// The haze (air.h) in the march: looked up with the light, put over a tile's pixels at their end.
+// The haze (air.h) in the march: looked up together with the light.
 #pragma once
 
+#include "core/base/float_lanes.h"
 #include "core/draw/air.h"
-#include "core/draw/march_rays.h"
+#include "core/draw/march_light.h"
 
 namespace awan {
 
-// Fills `air` and `lost` of points at distances first, first + step, ... from the eye, on the ray through pixel coordinates
-// (x, y). count <= kChunk.
+// Fills `air` and `lost` of points at distances first, first + step, ... from the eye, on the ray through pixel
+// coordinates (x, y). count <= kChunk (march_tile.h).
 void air_along(const Air& air, double x, double y, double first, double step, int count,
                LightAt* out);
 
-// Distance up to which rays `apart` (difference of directions) are near enough for linear interpolation of the haze between
-// them: heights differ by no more than 0.3 scale heights, error < 0.5% of the transmittance.
+// The distance up to which the haze may be interpolated linearly between rays whose unit directions differ by `apart`:
+// up to there their heights differ by no more than 0.3 scale heights, and the error is below 0.5% of the transmittance.
 double farthest_for_air(const Air& air, double apart);
 
-// What of the haze is the same for a picture, in the march's floats.
+// The haze over a tile's pixels, in floats.
 struct AirTile {
-    float up, down;  // Air's
-    float sun[3], ambient[3];
-    simd::Floats lost;  // of the whole rays
+    float up, down;            // depth to the end of a vertical ray, as in Air
+    float sun[3], ambient[3];  // as in Air
+    simd::Floats lost;         // L of the whole rays
 };
-AirTile air_tile(const Air& air, double x, double y);  // pixel coordinates of the tile's corner
-
-// What the march found in a tile: sums over samples of alpha weight * O and * L.
-struct AirSeen {
-    simd::Floats air, lost;
-};
-
-// As finish() of march_rays.h, through haze. `radiance` is dimmed already. Light that comes through the clouds' forward peak
-// met the cloud undimmed: it is dimmed as the cloud's own light is in the mean.
-AWAN_INLINE void finish_in_air(const SkyBehind& sky, const simd::Floats* backdrop,
-                               const RestOfPhase& phase, const AirTile& tile, const AirSeen& seen,
-                               const Chords& c, float scaled, const simd::Floats& up,
-                               const simd::Floats& depth, const simd::Floats radiance[3],
-                               float (*to)[4]) {
-    const simd::Floats e = simd::exp(-depth), opaque = simd::one_minus(e, depth);
-    const simd::Floats rise = simd::max(simd::abs(up), simd::all(1e-30f));
-    const simd::Floats whole =
-        (up < 0.0f ? simd::all(tile.down) : simd::all(tile.up)) / rise;  // may be infinite
-    const simd::Floats whole_clear = simd::exp(-whole);
-    const simd::Floats whole_air = simd::one_minus(whole_clear, simd::min(whole, simd::all(86.0f)));
-    simd::Floats behind{};
-    if (sky.behind) behind = e * whole_clear;
-    if (sky.peak) {
-        const simd::Floats rest = (1.0f - scaled) * depth;
-        const simd::Floats clear =
-            1.0f - simd::min(seen.air / simd::max(opaque, simd::all(1e-30f)), simd::all(1.0f));
-        const simd::Floats through =
-            simd::exp(-scaled * depth) * simd::one_minus(simd::exp(-rest), rest) * clear;
-        behind += backdrop != nullptr ? through * backdrop[3] : through;
-    }
-    const simd::Floats air = seen.air + e * whole_air;
-    const simd::Floats lit =
-        rest_of_phase(phase, c) * simd::max(air - seen.lost - e * tile.lost, simd::Floats{});
-    float share[simd::kLanes];  // of the zenith's colour
-    std::memcpy(share, &up, sizeof share);
-    for (float& one : share)
-        one = shader::sky_radiance(one, shader::vec3(1.0f), shader::vec3(0.0f)).x;
-    simd::Floats high;
-    std::memcpy(&high, share, sizeof high);
-    simd::Floats alpha = simd::all(1.0f);
-    if (!sky.behind) alpha -= e * whole_clear;
-    float light[4][simd::kLanes];
-    for (int channel = 0; channel < 3; ++channel) {
-        const simd::Floats sum =
-            radiance[channel] + air * tile.ambient[channel] + lit * tile.sun[channel] +
-            behind *
-                (backdrop != nullptr
-                     ? backdrop[channel]
-                     : sky.horizon[channel] + (sky.zenith[channel] - sky.horizon[channel]) * high);
-        std::memcpy(light[channel], &sum, sizeof sum);
-    }
-    std::memcpy(light[3], &alpha, sizeof alpha);
-    for (int lane = 0; lane < simd::kLanes; ++lane)
-        for (int channel = 0; channel < 4; ++channel) to[lane][channel] = light[channel][lane];
-}
+// x, y: pixel coordinates of the tile's top left corner.
+AirTile air_tile(const Air& air, double x, double y);
 
 }  // namespace awan

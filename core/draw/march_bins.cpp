@@ -11,10 +11,11 @@
 namespace awan {
 namespace {
 
+// Where a Gaussian is cut off: at this optical depth of lines through it, within these limits in standard deviations.
 constexpr double kFaintDepth = 3e-5;
-constexpr double kLeastCut = 3.8, kMostCut = 9;  // of s
-constexpr std::size_t kMaxEntries = 1u << 23;    // of the lists, 4 bytes each
-constexpr std::size_t kShare = 4096;             // particles that a thread takes at a time
+constexpr double kLeastCut = 3.8, kMostCut = 9;
+constexpr std::size_t kMaxEntries = 1u << 23;  // of the lists, 4 bytes each
+constexpr std::size_t kShare = 4096;           // particles that a thread takes at a time
 
 // Blocks whose pixels' centres see slopes low..high.
 bool blocks_along(Interval slopes, double tangent, int pixels, bool up, std::int16_t& first,
@@ -41,7 +42,7 @@ bool see(const ParticleSet& particles, std::size_t i, const View& view, int widt
     seen.s = static_cast<float>(s);
     seen.reach = static_cast<float>(s * cut);
     seen.nearest = glm::length(seen.q) - s * cut;
-    // Across a line exp(-cut^2 / 2) of the mass lies beyond.
+    // On a line through the centre exp(-cut^2 / 2) of the mass beside it lies beyond the cut.
     seen.extinction = static_cast<float>(static_cast<double>(particles.density[i]) * thinned *
                                          (own_s / s) / -std::expm1(-cut * cut / 2));
     const Interval x = disc_slopes(seen.q.x, seen.q.z, s * cut);

@@ -23,19 +23,20 @@ struct BlockBox {
 struct SeenParticle {
     glm::dvec3 q;
     double nearest;    // no matter of it lies closer to the eye than this
-    float s;           // widened to kMinWidthPixels
-    float extinction;  // at its centre; what lies beyond `reach` is put back in
-    float reach;       // matter beyond is left out; scene units
+    float s;           // standard deviation, scene units; widened to kMinWidthPixels
+    float extinction;  // at its centre, 1/unit; what lies beyond `reach` is put back in
+    float reach;       // where it is cut off, scene units
     BlockBox blocks;
 };
 
-// Those in the picture, nearest first (ties: the set's order). A Gaussian is cut where the optical depth across it falls
-// below 3e-5, but neither within 3.8 s nor beyond 9, and scaled so that its mass stays whole; one with s below .6 pixels is widened to
-// that, its optical depth times area kept.
+// The particles in the picture, nearest first (ties: in the set's order). A Gaussian is cut off where the optical depth
+// of lines through it falls below 3e-5, but at no less than 3.8 s and no more than 9 s, and scaled so that its mass
+// stays whole. One whose s is below 0.6 pixels is widened to that, its optical depth times area kept.
 std::vector<SeenParticle> see_particles(const ParticleSet& particles, const View& view, int width,
                                         int height, int threads);
 
-// Calls work(block x, block y, indices into `seen`) for every block of pixels, in no order, on several threads. Lists are made for a few rows of blocks at a time: memory is bounded by kMaxEntries or the particles of one row.
+// Calls work(block x, block y, indices into `seen`) for every block of pixels, in no order, on several threads. Lists
+// are made for a few rows of blocks at a time: they hold at most 2^23 entries, or those of one row.
 using BlockWork = std::function<void(int, int, const std::vector<std::uint32_t>& items)>;
 void for_each_block(const std::vector<SeenParticle>& seen, int width, int height, int threads,
                     const BlockWork& work);

@@ -1,27 +1,34 @@
-// Detail (core/generate/detail.h) in a tile's depth profile, sixteen pixels at a time. Bodies are inlined into one function
-// a target in march_block.cpp.
+// Detail (core/generate/detail.h) in a tile's depth profile, sixteen pixels at a time. Bodies are inlined into one
+// function a target in march_targets.cpp.
 #pragma once
 
 #include <cstdint>
 #include <cstring>
 #include <glm/vec3.hpp>
 
-#include "core/draw/march_kernels.h"
+#include "core/draw/march_simd.h"
+#include "core/draw/march_tile.h"
 #include "core/generate/detail.h"
 
 namespace awan {
 
-// A block's rays in the detail's tile, voxels: at distance t the ray of direction middle + x right + y up + z middle is at
-// start + (t - reference) middle + t (x right + y up + z middle).
+using simd::Floats;
+using simd::Ints;
+using simd::kLanes;
+
+// A block's rays in the tile of noise that detail repeats over space, in voxels. The block's axes are right, up and
+// middle (its middle ray). At distance t from the eye the ray of direction middle + x right + y up + z middle is at
+//     start + (t - reference) middle + t (x right + y up + z middle).
 struct DetailRays {
     const DetailField* field = nullptr;  // null: there is no detail
-    float start[3] = {};                 // in 0..kDetailSide
-    float right[3] = {}, up[3] = {}, middle[3] = {};
-    float reference = 0;  // distance of the block's reference
-    float far = 1e30f;    // distance at which the largest bumps are a pixel wide
+    float start[3] = {};                 // of the middle ray at the reference, 0..kDetailSide
+    float right[3] = {}, up[3] = {}, middle[3] = {};  // voxels per scene unit
+    float reference = 0;                              // distance from the eye, scene units
+    float far = 1e30f;  // distance from the eye at which the largest bumps are a pixel wide
 };
 
-// n at voxels p.
+// The noise n at places p (voxels), trilinear. A word of the tile holds four neighbours, a byte each: those at (x, y),
+// (x + 1, y), (x, y + 1) and (x + 1, y + 1).
 AWAN_INLINE Floats bumps_at(const std::uint32_t* words, const Floats p[3]) {
     constexpr auto side = static_cast<float>(kDetailSide);
     Ints low[3];
@@ -29,7 +36,8 @@ AWAN_INLINE Floats bumps_at(const std::uint32_t* words, const Floats p[3]) {
     for (int axis = 0; axis < 3; ++axis) {
         const Floats turns = p[axis] * (1 / side);
         Ints whole = __builtin_convertvector(turns, Ints);
-        whole += turns < __builtin_convertvector(whole, Floats);  // a mask is -1
+        // Rounded towards 0, whole is one too many where turns < 0; the mask of a true comparison is -1.
+        whole += turns < __builtin_convertvector(whole, Floats);
         const Floats in = p[axis] - __builtin_convertvector(whole, Floats) * side;
         const Floats kept = simd::min(simd::max(in, Floats{}), simd::all(side * 0.9999999f));
         low[axis] = __builtin_convertvector(kept, Ints);
@@ -57,7 +65,12 @@ AWAN_INLINE Floats bumps_at(const std::uint32_t* words, const Floats p[3]) {
     return (a + part[2] * (b - a) + 0.5f) * (1.0f / 256);
 }
 
-// detailed() of core/generate/detail.h for u in 0..1, without keep * edge.
+// detailed() of core/generate/detail.h, divided by keep * edge, for u in 0..1: min(u / E(u), kMostGathered) * ramp(n;
+// u). With w the softness and a = 1 - u (1 + w) the noise at which the ramp begins, E(u) is the mean of the ramp over n
+// in 0..1:
+//     (1 - a)^2 / (2 w)              where a >= 1 - w: the ramp is cut off at its upper end,
+//     (1 - a) - w / 2                where 0 <= a < 1 - w,
+//     1 - (a + w)^2 / (2 w)          where a < 0: it is cut off at its lower end.
 AWAN_INLINE Floats lumps(const Floats& u, const Floats& n) {
     constexpr float w = kSoftness;
     const Floats ramp =
@@ -72,10 +85,11 @@ AWAN_INLINE Floats lumps(const Floats& u, const Floats& n) {
     return lump * ramp;
 }
 
-// Every sample of the tile: from the smooth depth to the detailed one.
+// Turns the smooth depth of each sample of the tile into the detailed one.
 AWAN_INLINE void add_detail(const DetailRays& rays, const Chunk& chunk, Tile& tile) {
     const DetailField& field = *rays.field;
-    const float whole = field.edge * chunk.step;  // depth of a sample at the edge
+    // Depth of a sample whose smooth extinction is `edge`.
+    const float whole = field.edge * chunk.step;
     const float per_whole = 1 / whole;
     Floats slope[3], start[3];
     for (int axis = 0; axis < 3; ++axis) {
@@ -88,7 +102,8 @@ AWAN_INLINE void add_detail(const DetailRays& rays, const Chunk& chunk, Tile& ti
         const Floats u = tile.profile[k] * per_whole;
         const Ints thin = static_cast<Ints>(u < 1.0f) & static_cast<Ints>(1e-6f < u);
         const float t = chunk.from + (static_cast<float>(k) + 0.5f) * chunk.step;
-        // Bumps below a pixel would be seen as noise: from two pixels down to one they go over into smooth matter.
+        // Bumps smaller than a pixel would be seen as noise: as they shrink from two pixels to one, smooth matter takes
+        // over.
         const float seen = rays.far / (rays.reference + t) - 1.0f;
         const float sharp = seen < 0.0f ? 0.0f : seen > 1.0f ? 1.0f : seen;
         const float keep = 1.0f + sharp * (field.keep - 1.0f);

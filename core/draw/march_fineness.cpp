@@ -8,12 +8,14 @@
 namespace awan {
 namespace {
 
-// Least of the longest steps, in cells of the light. Matter that is smaller than a step is uneven within it: whole cells
-// took three times the error and were seen as edges between blocks that step differently, at no gain in time.
+// The longest step is never less than this, in cells of the light grid. It follows the particles, since matter that is
+// smaller than a step is uneven within it: steps of whole cells had three times the error, which was seen as edges
+// between blocks that step differently, and saved no time.
 constexpr double kLeastStepCells = 0.7;
 
-// Most distance of looked up rays, in cells of the light and of the sun's depth: linear interpolation between them. 1.5 of the
-// sun's made 4 times the error, .5% of a backlit picture, and edges where the spacing changes.
+// Widest gap between looked up rays, in cells of the light grid and of the sun's depth: between the rays light is
+// interpolated linearly. With 1.5 cells of the sun's depth the error was four times as large, 0.5% of a backlit
+// picture, and edges were seen where the gap changes.
 constexpr double kLightApart = 0.75, kSunApart = 0.75;
 
 }  // namespace

@@ -11,7 +11,8 @@
 namespace awan {
 namespace {
 
-constexpr double kCloseCells = 2;  // around the grid
+// An eye this near to the grid, in cells, is close to it.
+constexpr double kCloseCells = 2;
 
 Rgb4 rgb4(const glm::vec3& c) {
     return Rgb4{c.x, c.y, c.z, 0.0f};
@@ -19,13 +20,14 @@ Rgb4 rgb4(const glm::vec3& c) {
 
 using Int4 = int __attribute__((vector_size(16)));
 
-// The eight neighbours of a point of a lattice, and how far it is between them.
+// The eight neighbours of a point of a lattice: the index of the lowest and the offsets to the others, and how far the
+// point is between them (0..1).
 struct Corners {
     std::size_t at, dx, dy, dz;
     float x, y, z;
 };
 
-// A lattice, ready for looking up: three axes at a time.
+// A lattice's sizes, ready for finding the neighbours of points on all three axes at once.
 class Neighbours {
   public:
     explicit Neighbours(const glm::ivec3& n)
@@ -53,7 +55,7 @@ class Neighbours {
     std::size_t row_, layer_, dx_, dy_, dz_;
 };
 
-// value(i): that of lattice point i.
+// Trilinear between the neighbours; value(i): that of lattice point i.
 template <typename Value>
 auto between(const Corners& c, const Value& value) {
     const auto along = [&](std::size_t i) {
@@ -81,7 +83,7 @@ std::array<float, kHarmonics> harmonics_f(const glm::dvec3& d) {
     return y;
 }
 
-// From the moments, for the ray's own direction.
+// The source function from the moments, for the ray's own direction.
 Rgb4 along_ray(const TransportLight& light, const Corners& c, const LightRay& ray) {
     Rgb4 sum{};
     for (const LightBand& band : light.bands) {

@@ -12,10 +12,12 @@ namespace awan {
 namespace {
 
 constexpr double kPer4Pi = 1 / (4 * std::numbers::pi);
-constexpr int kMostTerms = 4096;      // of a Legendre sum
-constexpr double kRowStep = 0.012;    // of asinh: a steep phase function goes with exp(-3 of it)
-constexpr double kSeriesDepth = 32;   // up to here orders of scattering, beyond moments
-constexpr double kNegligible = 1e-6;  // of a term, relative to 1
+constexpr int kMostTerms = 4096;  // of a Legendre sum
+// Between rows, of asinh(chord / fold): a steep phase function falls as exp(-3 asinh).
+constexpr double kRowStep = 0.012;
+// Up to this depth G is summed over orders of scattering, beyond over Legendre moments.
+constexpr double kSeriesDepth = 32;
+constexpr double kNegligible = 1e-6;  // a term of a sum of about 1
 constexpr int kMostOctaves = 13;
 
 double pow_int(double x, int n) {
@@ -42,13 +44,17 @@ void legendre(double mu, std::vector<double>& p) {
     }
 }
 
-// What depends on the medium and not on the angle.
+// What of G depends on the medium and not on the angle.
+// Up to kSeriesDepth, n + 1 times scattered by the peak:
+//     G = low + sum over n of exp(-a f t) (a t)^n / n! * (sum over l > L of (2 l + 1) / 4 pi chi_l^(n+1) P_l),
+// low the sum over l <= L; beyond it the sum over moments as it stands in march_phase.h.
 struct Sums {
     std::vector<double> weight;               // (2l + 1) / 4 pi
     std::vector<double> chi;                  // moments, as many as matter
     std::vector<float> depths;                // t of the columns
-    std::vector<std::vector<double>> orders;  // [column][n]: exp(-a f t) (a t)^n / n!; or
-    std::vector<std::vector<double>> terms;   // [column][l]: weight chi exp(-a t (f - chi))
+    std::vector<std::vector<double>> orders;  // [column][n]: exp(-a f t) (a t)^n / n!
+    // [column][l]: weight chi exp(-a t (f - chi)), in columns beyond kSeriesDepth; EMPTY in the others.
+    std::vector<std::vector<double>> terms;
     std::size_t most_orders = 0;
 };
 
@@ -92,8 +98,8 @@ Sums sums_of(const Medium& medium, const Peak& peak, int columns) {
     return sums;
 }
 
-// Light that the peak has scattered n + 1 times: sum over l > L of weight chi^(n+1) P_l. Henyey-Greenstein's is closed: g^(n+1)
-// is again one's g.
+// Light that the peak has scattered n + 1 times: sum over l > L of weight chi^(n+1) P_l. For Henyey-Greenstein
+// chi_l^(n+1) is (g^(n+1))^l: the whole sum is the phase function with g^(n+1) for g, less the orders up to L.
 double peak_order(const Medium& medium, const Peak& peak, const Sums& sums,
                   const std::vector<double>& p, int n, double ahead, double behind) {
     const bool closed = n == 0 || medium.phase == PhaseFunction::kHenyeyGreenstein;

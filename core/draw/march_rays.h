@@ -1,5 +1,5 @@
-// What the march does once a pixel, sixteen pixels at a time: directions, phase functions, sky. Bodies are inlined into
-// one function a target in march_block.cpp.
+// What the march does once a pixel, sixteen pixels at a time: directions and phase functions. Bodies are inlined into
+// one function a target in march_targets.cpp.
 #pragma once
 
 #include <algorithm>
@@ -8,19 +8,22 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "core/draw/march_block.h"
-#include "core/shaders/shared.h"
+#include "core/draw/march_phase.h"
+#include "core/draw/march_simd.h"
 
 namespace awan {
 
-// The rays of a block: through slopes (u0 + du x, v0 + dv y) for pixel coordinates (x, y) from its corner. `right`, `up`
-// and `forward`, its middle ray, are unit, in the eye's frame.
+// The rays of a block. Pixel coordinates (x, y) from its top left corner are seen along slopes (u0 + du x, v0 + dv y):
+// the direction (slope, slope, 1) in the eye's frame (right, up, forward). `forward` is the block's middle ray, `right`
+// and `up` stand at right angles to it; all three are unit, in the eye's frame.
 struct BlockFrame {
     double u0, du, v0, dv;
     glm::dvec3 right{0}, up{0}, forward{0};
 };
 
-// Directions less the middle ray's, in the block's frame: small differences, hence in double.
+// Unit directions of sixteen rays less the middle ray's, in the block's frame. They are small differences of large
+// numbers, hence computed in double. With d = m + e, d and m unit: e . m = -|e|^2 / 2, so the third is had without
+// cancellation.
 AWAN_INLINE void directions(const BlockFrame& f, const float* x, const float* y,
                             simd::Floats to[3]) {
     float out[3][simd::kLanes];
@@ -33,17 +36,18 @@ AWAN_INLINE void directions(const BlockFrame& f, const float* x, const float* y,
         const double a = u * n - fx, b = v * n - fy, c = n - fz;
         out[0][i] = static_cast<float>(a * rx + b * ry + c * rz);
         out[1][i] = static_cast<float>(a * ux + b * uy + c * uz);
-        out[2][i] = static_cast<float>(-0.5 * (a * a + b * b + c * c));  // both are unit
+        out[2][i] = static_cast<float>(-0.5 * (a * a + b * b + c * c));
     }
     for (int axis = 0; axis < 3; ++axis) std::memcpy(&to[axis], out[axis], sizeof out[axis]);
 }
 
-// The sun's direction less the middle ray's, in the block's frame.
+// The sun's direction (unit) less the middle ray's, in the block's frame.
 struct SunInBlock {
     float x, y, z;
 };
 
-// Lengths of direction - sun and direction + sun.
+// The chords |d - s| and |d + s| between a ray's direction d and the sun's s, both unit. Phase functions take them
+// instead of the cosine 1 - |d - s|^2 / 2, which would lose its digits near the sun.
 struct Chords {
     simd::Floats ahead, behind;
 };
@@ -53,7 +57,11 @@ AWAN_INLINE Chords chords(const SunInBlock& sun, const simd::Floats ray[3]) {
     return {simd::sqrt(ax * ax + ay * ay + az * az), simd::sqrt(bx * bx + by * by + bz * bz)};
 }
 
-// rest_of_phase (march_phase.h).
+// p1, as rest_of_phase of march_phase.h. With moments, the Legendre sum of moment_l P_l(mu) by the recurrence
+//     (l + 1) P_(l+1) = (2 l + 1) mu P_l - l P_(l-1);
+// without, the phase function itself: Henyey-Greenstein's, with |g| and the chord c on its peak's side, is
+//     p / 4 pi = (1 - g^2) / (4 pi ((1 - g)^2 + g c^2)^(3/2)),
+// and Cornette & Shanks's (1992) is that times 3 (1 + mu^2) / (2 (2 + g^2)).
 AWAN_INLINE simd::Floats rest_of_phase(const RestOfPhase& rest, const Chords& c) {
     const simd::Floats mu = 1.0f - 0.5f * c.ahead * c.ahead;
     if (!rest.moments.empty()) {
@@ -78,12 +86,13 @@ AWAN_INLINE simd::Floats rest_of_phase(const RestOfPhase& rest, const Chords& c)
     return p;
 }
 
-// The peak table's rows at sixteen angles (row_at of march_phase.h): to[column], an angle a lane.
+// The peak table at sixteen angles, linear between its rows (row_at of march_phase.h): to[column], an angle a lane.
+// Row numbers go with asinh(u) = ln(u + sqrt(u^2 + 1)), u = chord / fold.
 AWAN_INLINE void rows_of(const PeakTable& table, const Chords& c, simd::Floats* to) {
     const simd::Floats u = simd::min(c.ahead, c.behind) * static_cast<float>(1 / table.fold);
     const auto most = static_cast<float>(2 * table.half);
     const simd::Floats fold =
-        simd::log(u + simd::sqrt(u * u + 1.0f)) * static_cast<float>(table.rows_per);  // asinh
+        simd::log(u + simd::sqrt(u * u + 1.0f)) * static_cast<float>(table.rows_per);
     const simd::Floats at = simd::min(
         simd::max(c.behind < c.ahead ? most - fold : fold, simd::Floats{}), simd::all(most));
     const int end = 2 * table.half - 1;
@@ -91,7 +100,8 @@ AWAN_INLINE void rows_of(const PeakTable& table, const Chords& c, simd::Floats* 
     const int high = std::min(static_cast<int>(simd::largest(at)), end);
     const auto columns = static_cast<std::size_t>(table.columns);
     const float* const values = table.values.data();
-    // A piecewise linear function is its first value and the sum of its pieces' rises, as far as each is climbed.
+    // A piecewise linear function is its first value plus the rises of its pieces, each as far as it is climbed. So
+    // lanes in different rows are done together.
     const float* const first = values + static_cast<std::size_t>(low) * columns;
     for (std::size_t k = 0; k < columns; ++k) to[k] = simd::all(first[k]);
     for (int row = low; row <= high; ++row) {
@@ -100,44 +110,6 @@ AWAN_INLINE void rows_of(const PeakTable& table, const Chords& c, simd::Floats* 
         const float* const a = values + static_cast<std::size_t>(row) * columns;
         const float* const b = a + columns;
         for (std::size_t k = 0; k < columns; ++k) to[k] += climbed * (b[k] - a[k]);
-    }
-}
-
-// How a tile's pixels end: what the march found, and what is behind: `backdrop` (three colours, and 1 or 0: whether the
-// forward peak brings them), or, where that is null, the sky's gradient. [lane][channel].
-AWAN_INLINE void finish(const SkyBehind& sky, const simd::Floats* backdrop, float scaled,
-                        const simd::Floats& up, const simd::Floats& depth,
-                        const simd::Floats radiance[3], float (*to)[4]) {
-    float alpha[simd::kLanes], light[3][simd::kLanes];
-    simd::Floats behind{};
-    const simd::Floats e = simd::exp(-depth);
-    const simd::Floats opaque = simd::one_minus(e, depth);
-    if (sky.behind) behind = e;
-    // exp(-k tau) - exp(-tau) without cancellation, k < 1.
-    if (sky.peak) {
-        const simd::Floats rest = (1.0f - scaled) * depth;
-        const simd::Floats through =
-            simd::exp(-scaled * depth) * simd::one_minus(simd::exp(-rest), rest);
-        behind += backdrop != nullptr ? through * backdrop[3] : through;
-    }
-    float share[simd::kLanes];  // of the zenith's colour
-    std::memcpy(share, &up, sizeof share);
-    if (backdrop == nullptr && (sky.behind || sky.peak))
-        for (float& one : share)
-            one = shader::sky_radiance(one, shader::vec3(1.0f), shader::vec3(0.0f)).x;
-    simd::Floats high;
-    std::memcpy(&high, share, sizeof high);
-    for (int c = 0; c < 3; ++c) {
-        const simd::Floats sum =
-            radiance[c] + behind * (backdrop != nullptr
-                                        ? backdrop[c]
-                                        : sky.horizon[c] + (sky.zenith[c] - sky.horizon[c]) * high);
-        std::memcpy(light[c], &sum, sizeof sum);
-    }
-    std::memcpy(alpha, &opaque, sizeof alpha);
-    for (int lane = 0; lane < simd::kLanes; ++lane) {
-        for (int c = 0; c < 3; ++c) to[lane][c] = light[c][lane];
-        to[lane][3] = sky.behind ? 1.0f : alpha[lane];
     }
 }
 

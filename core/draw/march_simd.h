@@ -5,28 +5,30 @@
 
 namespace awan::simd {
 
-// exp(x); relative error < 4e-7 for |x| < 86, constant beyond. 2^n by the exponent's bits, the rest (|r| < ln 2 / 2) by
-// its Taylor series (Cody & Waite's reduction).
+// exp(x); relative error < 4e-7 for |x| < 86, constant beyond. With x = n ln 2 + r, |r| <= ln 2 / 2 (Cody & Waite 1980,
+// ln 2 in two parts), it is 2^n, made from the exponent's bits, times the Taylor series of exp(r).
 AWAN_INLINE Floats exp(const Floats& at) {
-    constexpr float kShift = 12582912.0f;  // 1.5 * 2^23: sums are rounded to integers
+    // 1.5 * 2^23: a sum with it is rounded to an integer.
+    constexpr float kShift = 12582912.0f;
     const Floats x = min(max(at, all(-86.0f)), all(86.0f));
     const Floats shifted = x * 1.44269504f + kShift;
     const Floats n = shifted - kShift;
     const Floats r = (x - n * 0.693359375f) + n * 2.12194440e-4f;
-    const Floats rr = r * r;  // Estrin's scheme: a short chain
+    // Estrin's scheme: a shorter chain of dependent operations than Horner's.
+    const Floats rr = r * r;
     const Floats p = ((1.0f + r) + rr * (0.5f + r * (1.0f / 6))) +
                      (rr * rr) * (((1.0f / 24) + r * (1.0f / 120)) + rr * (1.0f / 720));
     return floats(bits(p) + (bits(shifted) << 23));
 }
 
-// 1 - e, e = exp(-x) of the same x >= 0: by series where the difference would lose its digits.
+// 1 - e for e = exp(-x), x >= 0: by the series of 1 - exp(-x) where the difference would lose its digits.
 AWAN_INLINE Floats one_minus(const Floats& e, const Floats& x) {
     const Floats series = x * (1.0f - x * (0.5f - x * ((1.0f / 6) - x * (1.0f / 24))));
     return x < 0.03125f ? series : 1.0f - e;
 }
 
-// ln x for normal x > 0; absolute error < 1e-6 for x < 1e6. x = 2^n m, m within a root of 2 of 1; ln m = 2 artanh of
-// (m - 1) / (m + 1).
+// ln x for normal x > 0; absolute error < 1e-6 for x < 1e6. With x = 2^n m, 1 / sqrt 2 <= m < sqrt 2, and
+// f = (m - 1) / (m + 1): ln x = n ln 2 + 2 artanh f, by the series of artanh.
 AWAN_INLINE Floats log(const Floats& x) {
     const Bits b = bits(x) - 0x3f3504f3u;
     const Floats n = __builtin_convertvector(reinterpret_cast<const Ints&>(b) >> 23, Floats);
@@ -55,7 +57,7 @@ AWAN_INLINE bool any(const Ints& mask) {
     for (const std::int64_t word : words) sum |= word;
     return sum != 0;
 }
-// By halves: a chain of four.
+// The largest of the sixteen, by halves: four comparisons after each other.
 using Eight = float __attribute__((vector_size(32)));
 using Four = float __attribute__((vector_size(16)));
 AWAN_INLINE float largest(const Floats& x) {

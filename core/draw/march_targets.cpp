@@ -2,6 +2,11 @@
 
 #include <algorithm>
 
+#include "core/base/instruction_sets.h"
+#include "core/draw/march_deposit.h"
+#include "core/draw/march_finish.h"
+#include "core/draw/march_spread.h"
+
 namespace awan {
 namespace {
 
@@ -36,7 +41,7 @@ AWAN_INLINE void ratio_body(const BlockParticles& p, float step,
     }
 }
 
-// Where light is scattered to sixteen pixels.
+// The phase functions towards sixteen pixels.
 AWAN_INLINE void phases_body(const MarchScene& scene, const SunInBlock& sun, Tile& tile,
                              Floats* rows) {
     const Floats ray[3] = {tile.x, tile.y, tile.z};
@@ -47,22 +52,19 @@ AWAN_INLINE void phases_body(const MarchScene& scene, const SunInBlock& sun, Til
 AWAN_INLINE void rays_body(const BlockFrame& frame, const float* x, const float* y, Floats* to) {
     directions(frame, x, y, to);
 }
-// `up`: of the block's axes, along the scene's y.
+// `up`: components of the block's axes along the scene's y.
+AWAN_INLINE BehindTile behind_tile(const float* up, const Floats* backdrop, const Tile& tile) {
+    return {backdrop, up[0] * tile.x + up[1] * tile.y + up[2] * (1.0f + tile.z)};
+}
 AWAN_INLINE void finish_body(const MarchScene& scene, const float* up, const Floats* backdrop,
                              const Tile& tile, float (*to)[4]) {
-    const Floats high = up[0] * tile.x + up[1] * tile.y + up[2] * (1.0f + tile.z);
-    const Floats radiance[3] = {tile.red, tile.green, tile.blue};
-    finish(scene.sky, backdrop, scene.scaled, high, tile.depth, radiance, to);
+    finish(scene, behind_tile(up, backdrop, tile), tile, to);
 }
-
 AWAN_INLINE void finish_air_body(const MarchScene& scene, const AirTile& air, const SunInBlock& sun,
                                  const float* up, const Floats* backdrop, const Tile& tile,
                                  float (*to)[4]) {
-    const Floats high = up[0] * tile.x + up[1] * tile.y + up[2] * (1.0f + tile.z);
-    const Floats radiance[3] = {tile.red, tile.green, tile.blue};
     const Floats ray[3] = {tile.x, tile.y, tile.z};
-    finish_in_air(scene.sky, backdrop, scene.air->phase, air, {tile.seen_air, tile.seen_lost},
-                  chords(sun, ray), scene.scaled, high, tile.depth, radiance, to);
+    finish_in_air(scene, air, chords(sun, ray), behind_tile(up, backdrop, tile), tile, to);
 }
 
 #define AWAN_KERNELS(name, attribute)                                                              \
@@ -130,8 +132,14 @@ AWAN_KERNELS(avx512, [[gnu::target("avx512f")]])
 
 const MarchKernels& march_kernels() {
 #if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx512f")) return kKernels_avx512;
-    if (__builtin_cpu_supports("avx2")) return kKernels_avx2;
+    switch (instruction_set()) {
+        case InstructionSet::kAvx512:
+            return kKernels_avx512;
+        case InstructionSet::kAvx2:
+            return kKernels_avx2;
+        case InstructionSet::kPlain:
+            break;
+    }
 #endif
     return kKernels_plain;
 }

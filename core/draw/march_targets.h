@@ -1,12 +1,15 @@
-// The inner loops of march_block.cpp, compiled once a target (AVX-512, AVX2, any x86-64); the results are the same bit for bit.
+// The inner loops of the march, compiled once a target (AVX-512, AVX2, any x86-64). Results are the same on all of
+// them, bit for bit.
 #pragma once
 
 #include <vector>
 
 #include "core/draw/march_air.h"
 #include "core/draw/march_detail.h"
-#include "core/draw/march_kernels.h"
 #include "core/draw/march_rays.h"
+#include "core/draw/march_scene.h"
+#include "core/draw/march_shade.h"
+#include "core/draw/march_tile.h"
 
 namespace awan {
 

@@ -17,7 +17,8 @@
 namespace awan {
 namespace {
 
-constexpr double kMinReach = 3.5;     // of s; 0.2% of the mass lies beyond
+// Least reach of a particle, in standard deviations; 0.2% of the mass lies beyond.
+constexpr double kMinReach = 3.5;
 constexpr double kFaintDepth = 5e-4;  // optical depth at which a particle is cut
 
 // Radiance that a white, opaque particle in full light scatters, by where the light comes from.
@@ -45,7 +46,7 @@ LightSources light_sources(const Scene& scene, const Plan& plan) {
     return sources;
 }
 
-// Over a ground no sky shines from below.
+// Over a ground it is the ground that shines from below, not the sky.
 void light_from_ground(const Scene& scene, const ParticleSet& particles, const GroundLight& ground,
                        LightSources& sources) {
     if (particles.size() == 0) return;
@@ -67,8 +68,8 @@ struct Seen {
     gl::TileBox tiles;
 };
 
-// Pixels whose centres see slopes low..high, as tiles: first and last, and the ellipse's centre and
-// semi-axis.
+// Along one side of the picture, the tiles whose pixels see a ball, and the centre and half the width of what they see,
+// in tiles. first > last: none.
 struct Along {
     std::int32_t first = 0, last = -1;
     double center = 0, half = 0;
@@ -86,10 +87,10 @@ Along tiles_along(Interval slopes, double tangent, int pixels, int tile, bool up
     return along;
 }
 
-// The tiles of a ball: those of its bounding rectangle, without the corners where that is safe. A
-// ball is seen as an ellipse, longest away from the picture's middle; of all ellipses in a
-// rectangle whose axes differ by a factor e, none leaves the upright one by more than sqrt(2 / (1 +
-// 1 / e^2)), and e = 1 / cos of the angle to its far side.
+// The tiles that see a ball: those of its bounding rectangle, and without the corners where that is safe. A ball is
+// seen as an ellipse whose longer axis points away from the picture's middle and is e = 1 / cos(angle to the ball's far
+// side) times as long as the other, at most. It need not be the upright ellipse of the rectangle; but no ellipse in the
+// rectangle with such axes reaches beyond that one enlarged by sqrt(2 / (1 + 1 / e^2)).
 gl::TileBox tiles_of(const Seen& seen, const View& view, const ImageSettings& image) {
     const Along x = tiles_along(disc_slopes(seen.q.x, seen.q.z, seen.reach),
                                 view.tan_half_fov * view.aspect, image.width, kTileWidth, false);
@@ -97,12 +98,13 @@ gl::TileBox tiles_of(const Seen& seen, const View& view, const ImageSettings& im
                                 image.height, kTileHeight, true);
     gl::TileBox box{x.first, y.first, x.last, y.last};
     if (seen.distance <= seen.reach) return box;
-    // cos(a + b) of the angle a to the centre and b from there to the far side
+    // cos(a + b): a is the angle to the centre, b from there to the far side.
     const double cos_a = seen.q.z / seen.distance, sin_b = seen.reach / seen.distance;
     const double sin_a = std::sqrt(std::max(0.0, 1 - cos_a * cos_a)),
                  cos_b = std::sqrt(1 - sin_b * sin_b);
     const double cos_far = cos_a * cos_b - sin_a * sin_b;
-    if (cos_far < 0.54 || cos_a < 0) return box;  // e < 1.9
+    // Beyond e = 1.9 the corners are kept.
+    if (cos_far < 0.54 || cos_a < 0) return box;
     const double grow = std::sqrt(2 / (1 + cos_far * cos_far));
     box.center_x = static_cast<float>(x.center);
     box.center_y = static_cast<float>(y.center);
@@ -126,14 +128,14 @@ Seen see(const Scene& scene, const ParticleSet& particles, std::size_t i, const 
     const double cut =
         std::max(kMinReach, std::sqrt(2 * std::log(std::max(1.0, seen.tau / kFaintDepth))));
     seen.reach = seen.s * cut;
-    seen.tau /=
-        -std::expm1(-cut * cut / 2);  // of a Gaussian in the plane, exp(-cut^2 / 2) lies beyond
+    // In the picture's plane exp(-cut^2 / 2) of a Gaussian lies beyond the cut.
+    seen.tau /= -std::expm1(-cut * cut / 2);
     seen.tiles = tiles_of(seen, view, scene->image);
     return seen;
 }
 
-// A linear function of scene offsets as one of eye offsets, with its value at the eye instead of at
-// the centre.
+// A linear function f of a place relative to a particle's centre (gradient x y z per scene unit, value w) as one of the
+// place relative to the eye, in the eye's frame. q: the centre in that frame.
 glm::vec4 from_eye(glm::dvec4 f, const View& view, glm::dvec3 q) {
     const glm::dvec3 gradient(f);
     const glm::dvec3 turned(glm::dot(gradient, view.right), glm::dot(gradient, view.up),
@@ -141,7 +143,8 @@ glm::vec4 from_eye(glm::dvec4 f, const View& view, glm::dvec3 q) {
     return glm::vec4(glm::dvec4(turned, f.w - glm::dot(turned, q)));
 }
 
-// A speck, drawn wider than it is, has one light.
+// A particle's light as its splat has it. One that is drawn wider than it is has the same light all over: its gradient
+// would reach too far.
 glm::dvec4 over(glm::vec4 light, const Seen& seen) {
     return seen.widened ? glm::dvec4(0, 0, 0, light.w) : glm::dvec4(light);
 }
@@ -149,7 +152,8 @@ glm::dvec4 over(glm::vec4 light, const Seen& seen) {
 Splat make_splat(const Seen& seen, glm::dvec3 color, const ParticleLight* lit, const View& view,
                  const LightSources& sources) {
     Splat splat{};
-    // Straight above or below the eye a column of pixels has no nearest row; a hair beside it has.
+    // splat.glsl looks for the row of a column of pixels that is nearest to the particle. Straight above or below the
+    // eye there is none: the particle is moved a hair to the side.
     const bool vertical = seen.q.x * seen.q.x + seen.q.z * seen.q.z < 1e-10 * seen.q.y * seen.q.y;
     const glm::dvec3 place =
         vertical ? seen.q + glm::dvec3(1e-5 * std::abs(seen.q.y), 0, 0) : seen.q;
@@ -166,7 +170,7 @@ Splat make_splat(const Seen& seen, glm::dvec3 color, const ParticleLight* lit, c
     }
     splat.direct = from_eye(direct, view, seen.q);
 
-    // All other light has one gradient, that of its sum, in units of its value at the centre.
+    // All other light has one gradient between its parts, that of their sum, relative to the sum's value at the centre.
     const auto sum = [](glm::dvec3 c) { return c.x + c.y + c.z; };
     const glm::dvec4 other =
         sum(sources.sun) * scattered + sum(sources.above) * above + sum(sources.below) * below;
@@ -207,7 +211,7 @@ SplatList make_splats(const Scene& scene, const ParticleSet& particles, const Vi
                       const Plan& plan, const Lighting& lighting, const Air* air) {
     LightSources sources = light_sources(scene, plan);
     light_from_ground(scene, particles, lighting.ground, sources);
-    // A picture of splats cannot end its rays: of what the ground hides, it leaves out whole particles.
+    // A splat cannot end at the ground: of what the ground hides, whole particles are left out.
     const bool cut = scene->ground && view.eye.y > scene->ground->height;
     SplatList list;
     std::vector<Seen> seen(particles.size());

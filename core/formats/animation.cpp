@@ -14,7 +14,8 @@
 namespace awan {
 namespace {
 
-constexpr float kWebpQuality = 90;  // of 100: no blocks are seen in a smooth sky
+// Quality of lossy WebP, of 100. At 90 no blocks show in a smooth sky.
+constexpr float kWebpQuality = 90;
 
 Error failed(const std::string& what) {
     return {ErrorCode::kInternal, "", "the animation could not be encoded: " + what};
@@ -24,7 +25,7 @@ struct DeleteEncoder {
     void operator()(WebPAnimEncoder* encoder) const { WebPAnimEncoderDelete(encoder); }
 };
 
-// A frame as libwebp takes it; gives its memory back.
+// A frame as libwebp takes it. Frees its memory.
 class Picture {
   public:
     Picture() { ok_ = WebPPictureInit(&picture_) != 0; }

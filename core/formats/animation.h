@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "core/base/image.h"
 #include "core/base/result.h"
-#include "core/draw/image.h"
 
 namespace awan {
 
@@ -22,7 +22,7 @@ class Animation {
     Animation& operator=(Animation&& other) noexcept;
     ~Animation();
 
-    // As encode_png makes it: exposure in stops.
+    // The picture goes through the same curve as in encode_png; exposure in stops.
     Status add(const Image& image, double exposure_stops);
     // The file, once all frames were added.
     Result<std::string> end();

@@ -57,18 +57,22 @@ Status ApngWriter::add(std::string_view png) {
             chunk(type, data);
             std::string control;
             append_u32(frames_, control);
-            append_u32(0, control);  // for ever
+            // How often it plays; 0 is for ever.
+            append_u32(0, control);
             chunk("acTL", control);
         } else if (type == "IDAT") {
             if (!began) {
                 std::string control;
                 append_u32(sequence_++, control);
-                control += header_.substr(0, 8);  // width and height
+                // Width and height, as in the first frame's header.
+                control += header_.substr(0, 8);
                 append_u32(0, control);
-                append_u32(0, control);  // at the corner
+                // Its place in the picture: x and y are 0.
+                append_u32(0, control);
                 append_u16(delay_ms_, control);
                 append_u16(1000, control);
-                control += std::string(2, '\0');  // left as it is, and written over
+                // The frame is left as it is, and the next one is written over it.
+                control += std::string(2, '\0');
                 chunk("fcTL", control);
                 began = true;
             }

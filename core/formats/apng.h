@@ -1,5 +1,5 @@
-// PNG files -> one animated PNG (https://wiki.mozilla.org/APNG_Specification, PNG third edition 11.3.6): the chunks of pixels of every
-// frame are kept as they are, under other names.
+// PNG files -> one animated PNG (https://wiki.mozilla.org/APNG_Specification, PNG third edition 11.3.6): the chunks of
+// pixels of every frame are kept as they are, under other names.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,12 @@
 
 namespace awan {
 
+// Makes an animated PNG of PNG files, frame by frame.
 class ApngWriter {
   public:
     // delay_ms: how long a frame is shown, 1..65535; frames: how many will come, >= 1.
     ApngWriter(std::uint16_t delay_ms, std::uint32_t frames);
-    // A whole PNG file. All are of one size and kind.
+    // png: a whole PNG file. All are of one size and kind.
     Status add(std::string_view png);
     std::string end();
 
@@ -23,7 +24,8 @@ class ApngWriter {
     std::uint16_t delay_ms_;
     std::uint32_t frames_;
     std::uint32_t sequence_ = 0;
-    std::string header_;  // IHDR of the first frame
+    // The chunk IHDR of the first frame.
+    std::string header_;
     std::string out_;
 };
 

@@ -29,7 +29,8 @@ class Tokens {
         rest_ = trim(rest_.substr(length));
         if (!rest_.empty() && rest_.front() == ',') {
             rest_ = trim(rest_.substr(1));
-            if (rest_.empty()) rest_ = ",";  // nothing follows: the next token is empty
+            // A comma with nothing behind it: the next token is empty.
+            if (rest_.empty()) rest_ = ",";
         }
         return token;
     }

@@ -1,7 +1,8 @@
-// Rekawan's layout file, `.awn`: total particles, number of cubes, then a line a cube:
+// The layout file of Rekawan (Sunar et al. 2005, section 4.3), `.awn`: total particles, number of cubes, then a line
+// a cube:
 //   particles, x-length, y-length, z-length, cx, cy, cz, max radius
-// (document 000, section 4.3). Separators are commas and/or white space; numbers like 6.12438e-007
-// are read; totals that do not match the lines are an error that names both numbers.
+// Separators are commas and/or white space; numbers like 6.12438e-007 are read; totals that do not match the lines
+// are an error that names both numbers.
 #pragma once
 
 #include <string>

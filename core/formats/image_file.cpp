@@ -50,7 +50,7 @@ Error encoder_error(const std::string& what) {
     return {ErrorCode::kInternal, "", "the image could not be encoded: " + what};
 }
 
-// Opens an encoder, lets `rows` feed it, closes it.
+// Opens an encoder, lets `rows` feed it, and closes it.
 template <typename Rows>
 Result<std::string> encode(const char* format, const OIIO::ImageSpec& spec, const Image& image,
                            Rows rows) {
@@ -91,7 +91,8 @@ void opaque_row(const float* from, int width, float gain, const DisplayTable& ta
 void transparent_row(const float* from, int width, float gain, const DisplayTable& table,
                      std::uint8_t* to) {
     for (int x = 0; x < width; ++x, from += 4, to += 4) {
-        const float alpha = from[3] > 0 ? std::min(from[3], 1.0f) : 0.0f;  // NaN is 0
+        // NaN becomes 0.
+        const float alpha = from[3] > 0 ? std::min(from[3], 1.0f) : 0.0f;
         to[3] = static_cast<std::uint8_t>(alpha * 255.0f + 0.5f);
         // Where alpha rounds to 0 nothing shows; black packs better than the noise of 0 / 0.
         const float scale = to[3] == 0 ? 0.0f : gain / alpha;
@@ -122,13 +123,15 @@ Result<std::string> encode_png(const Image& image, double exposure_stops) {
     const int channels = image.opaque ? 3 : 4;
     OIIO::ImageSpec spec = spec_of(image, channels, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("oiio:UnassociatedAlpha", 1);  // ours is straight already
-    // Milliseconds and kB of 800 x 600 (a smooth sky behind a smooth cloud, opaque, one core):
-    // level 1 with libpng's adaptive filters (the default) 33, 148; level 6 with them 80, 97; with
-    // the filter "up" alone level 1 12, 151; 2 16, 144; 4 19, 112; 6 70, 99. Of the 12, 4 are the
-    // tone curve.
+    // The colour that we hand over is straight already.
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    // zlib's fastest level with one fixed filter. Milliseconds and kB of 800 x 600 (a smooth sky behind a smooth
+    // cloud, opaque, one core): level 1 with libpng's adaptive filters (the default) 33, 148; level 6 with them 80,
+    // 97; with the filter "up" alone level 1 12, 151; 2 16, 144; 4 19, 112; 6 70, 99. Of the 12, 4 are the tone
+    // curve.
     spec.attribute("png:compressionLevel", 1);
-    spec.attribute("png:filter", 32);  // PNG_FILTER_UP
+    // libpng's PNG_FILTER_UP.
+    spec.attribute("png:filter", 32);
 
     const DisplayTable table;
     const auto gain = static_cast<float>(std::exp2(exposure_stops));
@@ -155,7 +158,8 @@ Result<std::string> encode_exr(const Image& image, Precision precision) {
     spec.attribute("DateTime", "");
 
     const float largest = half ? 65504.0f : std::numeric_limits<float>::max();
-    constexpr int kRows = 64;  // four of EXR's blocks of 16 lines
+    // Rows that are handed over at once: four of EXR's blocks of 16 lines.
+    constexpr int kRows = 64;
     std::vector<float> rows(4 * static_cast<std::size_t>(std::max(image.width, 0)) *
                             static_cast<std::size_t>(kRows));
     return encode("exr", spec, image, [&](OIIO::ImageOutput& output) {
@@ -171,8 +175,8 @@ Result<std::string> encode_exr(const Image& image, Precision precision) {
     });
 }
 
-// Of the sun's light on the lit side of a thick cloud, as the transport rungs and the truth have it: two streams through
-// an optical depth of 30 at g = .85 give .7, at 45 degrees.
+// The share of the sun's light that the lit side of a thick cloud reflects, as the transport rungs and the truth have
+// it. Two streams through an optical depth of 30 at g = .85 give .7, at 45 degrees.
 constexpr double kCloudReflectance = 0.5;
 
 double auto_exposure(const Scene& scene) {
@@ -186,7 +190,8 @@ double auto_exposure(const Scene& scene) {
                                 ? luminance(means_of(sky).irradiance_up) / std::numbers::pi
                                 : luminance(glm::mix(sky.horizon, sky.zenith, 0.845326504));
     const double cloud = kCloudReflectance * luminance(outside.sun) / std::numbers::pi + mean_sky;
-    if (!(cloud > 0)) return 0;  // no light: nothing to meter
+    // Without light there is nothing to meter.
+    if (!(cloud > 0)) return 0;
     return std::clamp(std::log2(static_cast<double>(metered_level()) / cloud),
                       -limits::kMaxExposure, limits::kMaxExposure);
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/draw/image.h"
+#include "core/base/image.h"
 #include "core/scene/scene.h"
 
 namespace awan {
@@ -21,10 +21,10 @@ std::vector<std::uint8_t> display_pixels(const Image& image, double exposure_sto
 // Linear radiance, premultiplied alpha, channels R G B A, no tone curve, ZIP compression.
 Result<std::string> encode_exr(const Image& image, Precision precision);
 
-// Exposure in stops for "auto": what a photographer would meter on the sunlit side of a thick
-// cloud: half of the sun's light, as from a white wall at 45 degrees, and the sky's mean radiance. It is
-// brought to kMeteredLevel before the tone curve. Depends on the lights only, so it does not
-// flicker as a camera moves; light of the sun that sets is made up for, whatever is left of it.
+// Exposure in stops for "auto": what a photographer would meter on the sunlit side of a thick cloud, which is half of
+// the sun's light, as from a white wall at 45 degrees, and the sky's mean radiance. It is brought to kMeteredLevel
+// before the tone curve. Depends on the lights only, so it does not flicker as a camera moves. A setting sun is made
+// up for, however little of its light is left.
 double auto_exposure(const Scene& scene);
 
 }  // namespace awan

@@ -44,13 +44,13 @@ inline std::string_view take_line(std::string_view& text) {
     return line;
 }
 
-// What editors on Windows put before UTF-8 text.
+// Takes off the byte order mark that editors on Windows put before UTF-8 text.
 inline std::string_view without_byte_order_mark(std::string_view text) {
     if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
     return text;
 }
 
-// Client text in a message: short, and printable ASCII only.
+// A client's text for a message: short, and printable ASCII only.
 inline std::string short_quote(std::string_view text) {
     constexpr std::size_t kLongest = 40;
     std::string out = "\"";

@@ -32,7 +32,8 @@ std::string_view without_quotes(std::string_view name) {
 }  // namespace
 
 Result<SceneDraft> read_particles_csv(std::string_view text) {
-    constexpr std::size_t kMaxColumns = 256;  // a table, not an attack
+    // More columns than any real table has.
+    constexpr std::size_t kMaxColumns = 256;
     text = without_byte_order_mark(text);
     ReadyColumns columns;
     std::vector<std::optional<Column>> layout;

@@ -10,7 +10,8 @@ namespace {
 
 template <typename T>
 void append_shortest(T value, std::string& out) {
-    std::array<char, 32> buffer;  // the longest double takes 24
+    // The longest double takes 24 characters.
+    std::array<char, 32> buffer;
     const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
     out.append(buffer.data(), end);
 }
@@ -21,7 +22,8 @@ glm::vec3 color_of(const ParticleSet& particles, std::size_t i) {
 
 template <typename T>
 void append_bytes(T value, std::string& out) {
-    std::array<char, sizeof(T)> bytes;  // x86-64 is little-endian, as the header says
+    // x86-64 is little-endian, as the header says.
+    std::array<char, sizeof(T)> bytes;
     std::memcpy(bytes.data(), &value, sizeof(T));
     out.append(bytes.data(), bytes.size());
 }

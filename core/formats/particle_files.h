@@ -1,7 +1,7 @@
 // Particles as files that other programs read.
 //
-// CSV: header `x,y,z,radius,density,r,g,b`, one particle a line, shortest numbers that read back
-// exactly. PLY: binary little-endian 1.0, one `vertex` element with properties
+// CSV: header `x,y,z,radius,density,r,g,b`, one particle a line, shortest numbers that read back exactly. PLY: binary
+// little-endian 1.0, one `vertex` element with properties
 //   double x, y, z; float radius, density, red, green, blue   (44 bytes a particle).
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace awan {
 
-// Appends to `out`. `first`..`last` (exclusive) lets a caller stream a million particles in pieces.
+// Append to `out`. first, last (exclusive): a caller can stream a million particles in pieces.
 void append_csv_header(std::string& out);
 void append_csv(const ParticleSet& particles, std::size_t first, std::size_t last,
                 std::string& out);
@@ -21,7 +21,7 @@ void append_ply_header(const ParticleSet& particles, std::string& out);
 void append_ply(const ParticleSet& particles, std::size_t first, std::size_t last,
                 std::string& out);
 
-// Shortest decimal that reads back to the same value. Finite values only.
+// Appends the shortest decimal that reads back to the same value. Finite values only.
 void append_number(double value, std::string& out);
 void append_number(float value, std::string& out);
 

@@ -23,7 +23,8 @@ Error at_line(std::size_t line, std::string message) {
 template <typename T>
 double from_bytes(const char* bytes) {
     T value;
-    std::memcpy(&value, bytes, sizeof value);  // x86-64 is little-endian too
+    // x86-64 is little-endian too.
+    std::memcpy(&value, bytes, sizeof value);
     return static_cast<double>(value);
 }
 
@@ -31,7 +32,8 @@ struct ScalarType {
     std::string_view name, other_name;
     std::size_t size;
     double (*read)(const char*);
-    double white;  // the value that means 1 when it is a colour
+    // As a colour, this value means 1.
+    double white;
 };
 
 constexpr ScalarType kTypes[] = {
@@ -54,7 +56,8 @@ struct Header {
     bool binary = false;
     std::uint64_t count = 0;
     std::vector<Property> properties;
-    bool other_elements = false;  // after the vertices
+    // Whether other elements follow the vertices.
+    bool other_elements = false;
     std::size_t lines = 0;
 };
 
@@ -69,7 +72,8 @@ std::string_view take_word(std::string_view& line) {
 }
 
 Status read_property(std::string_view line, Header& header, ReadyColumns& columns) {
-    constexpr std::size_t kMaxProperties = 256;  // a table, not an attack
+    // More properties than any real file has.
+    constexpr std::size_t kMaxProperties = 256;
     const std::string_view type_name = take_word(line), name = take_word(line);
     if (header.properties.size() == kMaxProperties)
         return at_line(header.lines,
@@ -99,7 +103,8 @@ Status read_format(std::string_view line, Header& header) {
 }
 
 Result<Header> read_header(std::string_view& bytes, ReadyColumns& columns) {
-    constexpr std::size_t kMaxLines = 1000;  // before the end of the header
+    // The most lines before the end of the header.
+    constexpr std::size_t kMaxLines = 1000;
     Header header;
     bool has_format = false, has_vertex = false;
     if (trim(take_line(bytes)) != "ply") return malformed("a PLY file begins with the line `ply`");

@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<const char*, kColumnCount> kColumnNames = {"x",       "y",   "z",     "radius",
                                                                 "density", "red", "green", "blue"};
 
-// Out of float32's range becomes infinite, which validate() refuses.
+// What is out of float32's range becomes infinite, which validate() refuses.
 float to_float(double value) {
     constexpr double kLargest = std::numeric_limits<float>::max();
     if (std::isfinite(value) && std::abs(value) > kLargest)
@@ -72,12 +72,14 @@ void ReadyColumns::add(const std::array<double, kColumnCount>& values) {
 }
 
 SceneDraft ReadyColumns::take() {
-    if (all_white_) ready_.colors.clear();  // the default, as our own answers write it out
+    // White is the default, though our own answers write it out.
+    if (all_white_) ready_.colors.clear();
     SceneDraft draft;
     draft.top_level_cubes = false;
     Cloud& cloud = draft.clouds.emplace_back();
     cloud.model = CloudModel::kParticles;
-    if (has(Column::kDensity)) cloud.density = 1.0;  // the column holds extinction itself
+    // The column holds extinction itself.
+    if (has(Column::kDensity)) cloud.density = 1.0;
     cloud.ready = std::move(ready_);
     return draft;
 }

@@ -19,6 +19,7 @@ inline constexpr std::size_t kColumnCount = 8;
 std::optional<Column> column_from_name(std::string_view name);
 const char* column_name(Column column);
 
+// Gathers the particles of a file, whatever columns it has.
 class ReadyColumns {
   public:
     // Declares that the file has this column; false when it has had it before.

@@ -36,8 +36,8 @@ float metered_level() {
 }
 
 DisplayTable::DisplayTable() {
-    // first_of[k]: the smallest radiance with code k. Positive floats order as their bits do:
-    // bisect on the bits.
+    // first_of[k]: the smallest radiance with code k. Positive floats have the order of their bits, so it is found by
+    // bisection on the bits.
     std::array<float, 257> first_of{};
     first_of[256] = std::numeric_limits<float>::infinity();
     const auto white = std::bit_cast<std::uint32_t>(glsl::kToneWhite);

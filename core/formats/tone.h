@@ -11,7 +11,7 @@ namespace awan {
 // The curve of tone.glsl, compiled as C++.
 float tone_curve(float exposed_radiance);
 
-// Its kMeteredLevel.
+// kMeteredLevel of tone.glsl.
 float metered_level();
 
 // round(255 * sRGB(tone_curve(x))), exactly, without a power function a sample. The 255 radiances
@@ -31,14 +31,17 @@ class DisplayTable {
     }
 
   private:
-    // Of the radiances with the same sign, exponent and first 7 bits of mantissa.
+    // The radiances with the same sign, exponent and first 7 bits of mantissa.
     struct Cell {
-        float next;          // from here on the code is one more
-        std::uint32_t code;  // of the smallest radiance in the cell
+        // The radiance from which on the code is one more.
+        float next;
+        // The code of the smallest radiance in the cell.
+        std::uint32_t code;
     };
     static std::uint32_t cell_index(float x) { return std::bit_cast<std::uint32_t>(x) >> 16; }
 
-    float darkest_ = 0, brightest_ = 0;  // the ends of the cells; codes 0 and 255
+    // Where the cells begin and end; below and above, the codes are 0 and 255.
+    float darkest_ = 0, brightest_ = 0;
     std::uint32_t first_cell_ = 0;
     std::vector<Cell> cells_;
 };

@@ -35,7 +35,7 @@ FilledParticle gardner_particle(const Cube& cube, const std::array<double, 4>& u
     return {cube.center + moved, cube.radius * u[3]};
 }
 
-// By offsets: `center +- size / 2` may round to `center` far from the origin.
+// By offsets from the centre: far from the origin, `center +- size / 2` may round to `center`.
 bool inside(const Cube& cube, glm::dvec3 p) {
     const glm::dvec3 d = p - cube.center;
     return std::abs(d.x) <= cube.size.x / 2 && std::abs(d.y) <= cube.size.y / 2 &&
@@ -71,20 +71,27 @@ FilledParticle printed_particle(const Cube& cube, std::uint64_t key) {
 }  // namespace
 
 glm::dvec3 printed_position(const Cube& cube, glm::dvec3 random3) {
-    glm::dvec3 x = random3 * cube.size;  // (4.2)-(4.4): a large random number modulo L
+    // (4.2)-(4.4): for each axis, a large random number modulo the side.
+    glm::dvec3 x = random3 * cube.size;
     const glm::dvec3 half(x / 2.0);
-    double px = pi / 2 * exact_sin(half.y);  // (4.5)
+    // (4.5): the phases from across.
+    double px = pi / 2 * exact_sin(half.y);
     double py = pi / 2 * exact_sin(half.x);
     const double pz = pi / 2 * exact_sin(half.z);
-    px += pi * exact_sin(px * half.z);  // (4.6), the second line with the first line's result
+    // (4.6), the second line with the first line's result.
+    px += pi * exact_sin(px * half.z);
     py += pi * exact_sin(px * half.z);
-    x += glm::dvec3(px, py, pz);   // (4.7)
-    return cube.center + x / 2.0;  // (4.8)
+    // (4.7): the phases move the point.
+    x += glm::dvec3(px, py, pz);
+    // (4.8): half of it, from the centre.
+    return cube.center + x / 2.0;
 }
 
 double printed_radius(double max_radius, double random1) {
-    const double r = random1 * max_radius;  // (4.9)-(4.11)
-    return r + pi / 2 * exact_sin(r);       // (4.12)
+    // (4.9)-(4.11): a large random number modulo the largest radius.
+    const double r = random1 * max_radius;
+    // (4.12): its phase.
+    return r + pi / 2 * exact_sin(r);
 }
 
 void fill_cube(const Cube& cube, Fill fill, std::uint64_t key, std::uint64_t first,

@@ -13,9 +13,10 @@
 namespace awan {
 namespace {
 
-constexpr double kEdge = 1.4;  // `edge` of amount 1, in typical extinctions
+// `edge` at amount 1, in typical extinctions.
+constexpr double kEdge = 1.4;
 
-// Bumps along the tile and their share: each size sits on the one before.
+// One size of bumps: how many along the tile, and their share of n. Each size sits on the one before.
 struct Octave {
     int cells;
     float share;
@@ -23,12 +24,13 @@ struct Octave {
 constexpr std::array kOctaves = {Octave{kDetailBumps, 0.58F}, Octave{11, 0.28F}, Octave{23, 0.14F}};
 
 constexpr int kWaves = 10;
-constexpr double kWarp = 0.32;  // of a largest bump
+// How far the warp moves a point, in largest bumps.
+constexpr double kWarp = 0.32;
 
 constexpr auto kSide = static_cast<std::size_t>(kDetailSide);
 
-// A divergence-free displacement with the tile's period: the curl of a sum of waves, at the voxels. Waves fit the tile, so a
-// voxel's phase is the sum of three out of kSide.
+// A displacement without divergence and with the tile's period: the curl of a sum of waves, at the voxels. Every wave
+// fits the tile a whole number of times, so a voxel's phase is the sum of three out of kSide values.
 class Warp {
   public:
     explicit Warp(std::uint64_t key) {
@@ -52,13 +54,13 @@ class Warp {
             const double phase = number(6, 0, 2 * std::numbers::pi);
             wave.start = {static_cast<float>(std::cos(phase)), static_cast<float>(std::sin(phase))};
             const glm::dvec3 swing = glm::cross(k, a);
-            // Each the same in size: together about kWarp of a bump (rms).
+            // All waves are of one strength; together they move a point by about kWarp of a bump (rms).
             const double length = std::max(glm::length(swing), 1e-9);
             wave.swing =
                 glm::vec3(swing / length * (kWarp / kDetailBumps * std::sqrt(2.0 / kWaves)));
         }
     }
-    // At the voxels of a row along x, in tiles.
+    // The displacements at the voxels of a row along x, in tiles.
     void row(std::size_t y, std::size_t z, std::array<glm::vec3, kSide>& out) const {
         out.fill(glm::vec3(0));
         for (const Wave& wave : waves_) {
@@ -75,12 +77,13 @@ class Warp {
     struct Wave {
         glm::ivec3 k{0};
         glm::vec3 swing{0};
-        Turn start;  // its phase
+        // The wave's phase at the tile's corner.
+        Turn start;
     };
     static Turn both(const Turn& a, const Turn& b) {
         return {a.cos * b.cos - a.sin * b.sin, a.sin * b.cos + a.cos * b.sin};
     }
-    // Of wave number k at voxel i.
+    // The phase of wave number k at voxel i along an axis.
     const Turn& turn(int k, std::size_t i) const {
         return turn_[static_cast<std::size_t>(k + 8 * kDetailSide) * i % kSide];
     }
@@ -110,7 +113,7 @@ class Bumps {
                     }
         }
     }
-    // 1 at a point, down by the square of the distance (in cells) to the nearest.
+    // 1 at a cell's point, falling with the square of the distance to the nearest point, in cells.
     float operator()(const glm::vec3& p) const {
         const glm::vec3 at = p * static_cast<float>(cells_);
         const glm::vec3 floor = glm::vec3(std::floor(at.x), std::floor(at.y), std::floor(at.z));
@@ -121,7 +124,7 @@ class Bumps {
         };
         const std::size_t corner =
             (wrapped(floor.z) * row_ + wrapped(floor.y)) * row_ + wrapped(floor.x);
-        // Three neighbours along x at a time; the fourth is too far away to count.
+        // Three neighbours along x at a time; the fourth lane is put too far away to count.
         const Float4 aside = Float4{-1, 0, 1, 9} - in.x;
         Float4 nearest = {4, 4, 4, 4};
         for (std::size_t k = 0; k < 3; ++k)
@@ -143,11 +146,12 @@ class Bumps {
         return values;
     }
     int cells_;
-    std::size_t row_;  // with one more cell on each side
+    // Cells along a row, with one more on each side; the points' coordinates.
+    std::size_t row_;
     std::array<std::vector<float>, 3> points_;
 };
 
-// By rank: the bytes are uniform, which makes the shares of space exact.
+// Values replaced by their ranks: the bytes are then uniform, which makes the shares of space exact.
 std::vector<std::uint8_t> ranks(const std::vector<float>& values) {
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     constexpr std::size_t kBins = 1u << 16;
@@ -183,7 +187,7 @@ std::vector<std::uint32_t> packed(const std::vector<std::uint8_t>& bytes) {
     return words;
 }
 
-// No axis of the tile along one of the scene: its repetition would show on flat bases.
+// A rotation that lays no axis of the tile along one of the scene, since its repetition would show on flat bases.
 glm::dmat3 turned() {
     const glm::dvec3 x = glm::normalize(glm::dvec3(0.78, 0.41, -0.47));
     const glm::dvec3 y = glm::normalize(glm::cross(glm::dvec3(0.31, -0.62, 0.72), x));
@@ -194,7 +198,8 @@ glm::dmat3 turned() {
 
 float gathered_share(float u) {
     constexpr float w = kSoftness;
-    const float a = 1 - u * (1 + w);  // where the ramp begins
+    // The n at which the ramp begins.
+    const float a = 1 - u * (1 + w);
     if (a >= 1 - w) return (1 - a) * (1 - a) / (2 * w);
     if (a >= 0) return 1 - a - 0.5F * w;
     return 1 - (a + w) * (a + w) / (2 * w);
@@ -233,7 +238,7 @@ DetailTile DetailTiles::of(std::uint64_t seed, int threads) {
             return at->tile;
         }
     }
-    // Two at once may make the same: it is the same.
+    // Outside the lock: two threads may make the same tile at once, and it is the same.
     DetailTile tile = make_detail_tile(seed, threads);
     const std::lock_guard lock(mutex_);
     entries_.push_front({seed, tile});
@@ -257,7 +262,8 @@ float bumps_at(const DetailField& field, const glm::dvec3& point) {
     float part[3];
     for (int axis = 0; axis < 3; ++axis) {
         double p = at[axis] - kDetailSide * std::floor(at[axis] / kDetailSide);
-        if (!(p >= 0 && p < kDetailSide)) p = 0;  // rounding; or too far away to have digits
+        // p is out of its range by rounding, or where the point is so far away that no digits are left.
+        if (!(p >= 0 && p < kDetailSide)) p = 0;
         low[axis] = static_cast<std::size_t>(p);
         part[axis] = static_cast<float>(p - std::floor(p));
     }
@@ -283,7 +289,7 @@ double kept_by_detail(const DetailField& field, double extinction) {
 
 double most_detailed(const DetailField& field, double extinction) {
     const double u = extinction / static_cast<double>(field.edge);
-    // Below 1 a lump is at most kMostGathered * edge, and the ramp at most u (1 + w) / w.
+    // Below u = 1 a lump is at most kMostGathered * edge, and the ramp at most u (1 + w) / w.
     const double most = static_cast<double>(kMostGathered);
     const double lumps =
         static_cast<double>(field.edge) *

@@ -1,12 +1,13 @@
 // Structure finer than the particles: where matter is thin, it is gathered into lumps with gaps between them.
 //
-// A field n(x), uniform in 0..1 and made of rounded bumps in three sizes (inverted cells: Worley 1996; lumps on lumps as
-// in the clouds of Ebert et al. and of Schneider & Vos 2015), folded by a curl-like warp, says where. Where the smooth
-// extinction sigma is below `edge`, a share E(u) of space, u = sigma / edge, holds it: there it is about `edge`, between the lumps it is nothing.
-// So silhouettes follow the bumps, the inside stays as it was, and the mean over realisations is sigma itself:
-//     sigma' = keep * edge * min(u / E(u), kMostGathered) * ramp(n; u),    E(u) = mean of ramp(n; u) over n,
-//     ramp(n; u) = clamp((n - 1 + u (1 + w)) / w, 0, 1),    w = kSoftness;    sigma' = keep * sigma where u >= 1.
-// Only tails, u < .2 or so, lose by the bound kMostGathered; `keep` puts their mass back everywhere.
+// A field n(x) says where. It is uniform in 0..1, made of rounded bumps in three sizes (inverted cells of Worley
+// 1996, lumps on lumps as in the clouds of Schneider & Vos 2015) and folded by a warp without divergence. Where the
+// smooth extinction sigma is below `edge`, the matter is put into a share E(u) of space, u = sigma / edge; there its
+// extinction is about `edge`, and between the lumps it is nothing. So silhouettes follow the bumps, the inside stays
+// as it was, and the mean over realisations is sigma itself:
+//   sigma' = keep * edge * min(u / E(u), kMostGathered) * ramp(n; u),    E(u) = mean of ramp(n; u) over n,
+//   ramp(n; u) = clamp((n - 1 + u (1 + w)) / w, 0, 1),    w = kSoftness;    sigma' = keep * sigma where u >= 1.
+// Only where u < .2 or so does the bound kMostGathered lose mass; `keep` puts it back everywhere.
 #pragma once
 
 #include <cstdint>
@@ -19,36 +20,48 @@
 
 namespace awan {
 
-inline constexpr int kDetailSide = 96;        // voxels along the tile, which repeats
-inline constexpr int kDetailBumps = 5;        // of the largest, along the tile
-inline constexpr float kSoftness = 0.3f;      // w: of the lumps' edges, 0 would be hard
-inline constexpr float kMostGathered = 1.5f;  // extinction of a lump, in units of `edge`
+// Voxels along a side of the cube in which n is tabled. Space is tiled with it.
+inline constexpr int kDetailSide = 96;
+// The largest bumps along a side of the tile.
+inline constexpr int kDetailBumps = 5;
+// w, how soft the edges of lumps are; at 0 they would be hard.
+inline constexpr float kSoftness = 0.3f;
+// The largest extinction of a lump, in units of `edge`.
+inline constexpr float kMostGathered = 1.5f;
 
-// Voxel (x, y, z)'s byte and those of its neighbours at x + 1, y + 1 and both (lowest byte first), x fastest; one more
-// layer than kDetailSide. A byte b stands for n = (b + 1/2) / 256. Never changed once made: 3.6 MB, shared.
+// The field n, tabled. The word of voxel (x, y, z) holds its own byte and those of its neighbours at x + 1, y + 1 and
+// both (lowest byte first); x fastest; one more layer than kDetailSide along z. A byte b stands for n = (b + 1/2) /
+// 256. Never changed once made, and shared: 3.6 MB.
 using DetailTile = std::shared_ptr<const std::vector<std::uint32_t>>;
 
+// The field n, fitted to a cloud: what detailed() needs to turn a smooth extinction into a detailed one.
 struct DetailField {
     DetailTile tile;
-    glm::dmat3 to_tile{
-        1};                // voxels per scene unit, turned: no axis of the tile is one of the scene
-    glm::dvec3 origin{0};  // scene units: voxel (0, 0, 0)
-    double bump = 1;       // size of the largest bumps, scene units
-    float edge = 1;        // extinction, 1/unit; > 0
+    // From scene units to voxels, turned so that no axis of the tile is one of the scene.
+    glm::dmat3 to_tile{1};
+    // Where voxel (0, 0, 0) lies, scene units.
+    glm::dvec3 origin{0};
+    // Size of the largest bumps, scene units.
+    double bump = 1;
+    // The extinction below which matter is gathered, 1/unit; > 0. `keep`: see above.
+    float edge = 1;
     float keep = 1;
 };
 
-// What the field is made for.
+// What of the matter the field is fitted to.
 struct DetailFigures {
-    double extinction = 0;  // a typical one inside of the matter, 1/unit
-    double radius = 0;      // mean of particles, by mass
-    glm::dvec3 origin{0};   // anywhere in the matter
+    // A typical extinction inside the matter, 1/unit.
+    double extinction = 0;
+    // The mean radius of its particles, weighted by mass, scene units.
+    double radius = 0;
+    // A point anywhere in the matter, scene units.
+    glm::dvec3 origin{0};
 };
 
-// Of the seed alone. About 200 ms of one core.
+// The tile of a seed, of nothing else. Takes about 200 ms of one core.
 DetailTile make_detail_tile(std::uint64_t seed, int threads);
 
-// The tiles of the last few seeds, for other times and cameras of the same clouds. Thread-safe.
+// Keeps the tiles of the last few seeds, for other times and cameras of the same clouds. Thread-safe.
 class DetailTiles {
   public:
     DetailTile of(std::uint64_t seed, int threads);
@@ -60,19 +73,21 @@ class DetailTiles {
         DetailTile tile;
     };
     std::mutex mutex_;
-    std::list<Entry> entries_;  // most recently used first
+    // Most recently used first.
+    std::list<Entry> entries_;
 };
 
-// amount: 0..1, of edge / extinction; size: of bumps / radius. keep is 1.
+// amount: 0..1, `edge` over the typical extinction, up to a constant. size: the largest bumps over the mean radius.
+// `keep` is left at 1.
 DetailField make_detail(const DetailFigures& figures, double amount, double size, DetailTile tile);
 
 // n at a point, trilinear between voxels.
 float bumps_at(const DetailField& field, const glm::dvec3& point);
 
-// E(u) above.
+// E(u), see above: the share of space that lumps take.
 float gathered_share(float u);
 
-// sigma' of the smooth extinction and n. Continuous in both; 0 for 0.
+// sigma' of a smooth extinction and n. Continuous in both; 0 for 0.
 inline float detailed(const DetailField& field, float extinction, float n) {
     const float u = extinction / field.edge;
     if (!(u < 1)) return field.keep * extinction;
@@ -83,10 +98,10 @@ inline float detailed(const DetailField& field, float extinction, float n) {
     return field.keep * field.edge * lump * (ramp < 1 ? ramp : 1);
 }
 
-// Its mean over n, without keep, relative to the smooth extinction: 1 but for tails.
+// The mean of sigma' over n, without `keep`, relative to the smooth extinction: 1 but where matter is very thin.
 double kept_by_detail(const DetailField& field, double extinction);
 
-// No sigma' of a smooth extinction up to this one is above.
+// A bound: no smooth extinction up to this one has a larger sigma'.
 double most_detailed(const DetailField& field, double extinction);
 
 }  // namespace awan

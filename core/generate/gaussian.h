@@ -9,7 +9,7 @@
 
 namespace awan {
 
-// Its s, scene units.
+// The particle's s, scene units: its extinction falls off as exp(-d^2 / (2 s^2)).
 inline double gaussian_s(const ParticleSet& particles, std::size_t i) {
     return 0.5 * static_cast<double>(particles.radius[i]);
 }
@@ -20,7 +20,7 @@ inline double central_depth(const ParticleSet& particles, std::size_t i) {
            std::sqrt(2 * std::numbers::pi);
 }
 
-// Integral of its extinction over space, unit^2.
+// The integral of its extinction over space, unit^2.
 inline double gaussian_mass(const ParticleSet& particles, std::size_t i) {
     const double s = gaussian_s(particles, i);
     return static_cast<double>(particles.density[i]) * std::pow(2 * std::numbers::pi, 1.5) * s * s *

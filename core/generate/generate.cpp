@@ -20,15 +20,20 @@ namespace {
 // A run of particles of one cube, or of one list of ready particles: a piece of work for one thread.
 struct Piece {
     const Cloud* cloud;
-    const Cube* cube;             // null: ready particles
-    const ReadyParticles* ready;  // null: a cube
+    // Null where `ready` is not.
+    const Cube* cube;
+    // Null where `cube` is not.
+    const ReadyParticles* ready;
     std::uint64_t key;
-    std::uint64_t first, last;  // within the cube or the ready lists
-    std::size_t out;            // where the first goes
+    // Which particles of the cube, or of the ready lists: first .. last - 1.
+    std::uint64_t first, last;
+    // Where in the set its first particle goes.
+    std::size_t out;
     double density;
     Fill fill;
 };
-constexpr std::uint64_t kPieceSize = 8192;  // about half a millisecond of work
+// Particles of a piece: about half a millisecond of work.
+constexpr std::uint64_t kPieceSize = 8192;
 
 void add_pieces(std::vector<Piece>& pieces, Piece whole, std::uint64_t count, std::size_t& total) {
     for (std::uint64_t first = 0; first < count; first += kPieceSize) {
@@ -40,7 +45,7 @@ void add_pieces(std::vector<Piece>& pieces, Piece whole, std::uint64_t count, st
     }
 }
 
-// `made`: of clouds that are procedural.
+// made: the particles of the clouds that are procedural, by the cloud's number.
 std::vector<Piece> cut_into_pieces(const Scene& scene, const std::vector<ModelParticles>& made,
                                    std::size_t& total) {
     std::vector<Piece> pieces;
@@ -74,7 +79,8 @@ void fill_piece(const Piece& piece, double time, ParticleSet& set) {
     const Cloud& cloud = *piece.cloud;
     const Motion motion = motion_of(cloud, time);
     const auto density = static_cast<float>(piece.density * piece.cube->density);
-    std::array<FilledParticle, 256> filled;  // stays in the first cache
+    // So few at a time that they stay in the processor's first cache.
+    std::array<FilledParticle, 256> filled;
     std::size_t out = piece.out;
     for (std::uint64_t first = piece.first; first < piece.last; first += filled.size()) {
         const std::uint64_t last = std::min(piece.last, first + filled.size());
@@ -104,8 +110,9 @@ void copy_piece(const Piece& piece, double time, ParticleSet& set) {
     }
 }
 
-// What no document of a procedural cloud can show by itself: that its particles are within the scene's limits once they are
-// scaled and moved. What is finer than the smallest radius becomes as wide as that, its mass kept: no picture tells.
+// Holds what a document of a procedural cloud cannot show by itself: that its particles are within the scene's limits
+// once they are scaled and moved. What is narrower than the smallest radius is made as wide as that, with its mass
+// kept, which no picture shows.
 Status bring_within_limits(ReadyParticles& made, const Motion& motion, double density,
                            const std::string& at) {
     const auto outside = [&](const char* field, const std::string& what) {
@@ -116,7 +123,7 @@ Status bring_within_limits(ReadyParticles& made, const Motion& motion, double de
         const double scaled = static_cast<double>(radius) * motion.scale;
         if (scaled < limits::kMinRadius) {
             const double narrower = scaled / limits::kMinRadius;
-            // A little more, so that rounding does not undo it.
+            // A little above the limit, so that rounding does not fall below it.
             radius = static_cast<float>(limits::kMinRadius * (1 + 1e-6) / motion.scale);
             made.densities[i] *= static_cast<float>(narrower * narrower * narrower);
         } else if (scaled > limits::kMaxRadius * (1 + 1e-6)) {
@@ -134,7 +141,7 @@ Status bring_within_limits(ReadyParticles& made, const Motion& motion, double de
     return std::nullopt;
 }
 
-// The procedural clouds, one after the other: each uses all threads.
+// Runs the procedural clouds one after the other; each uses all threads.
 Status run_models(const Scene& scene, int threads, const Deadline& deadline, bool coarse,
                   std::vector<ModelParticles>& made, ParticleSet& set) {
     std::uint64_t total = 0;

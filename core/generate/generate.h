@@ -8,8 +8,8 @@
 
 namespace awan {
 
-// threads >= 1; coarse: only where clouds lie matters (models.h). Fails when the deadline is over, and with kInvalidScene when
-// procedural clouds come to more particles than a scene may have.
+// threads >= 1. coarse: only where clouds lie matters (models.h). Errors: kOverDeadline, kCancelled; kInvalidScene
+// when procedural clouds come to more particles than a scene may have.
 Result<ParticleSet> generate(const Scene& scene, int threads, const Deadline& deadline,
                              bool coarse = false);
 

@@ -6,7 +6,7 @@
 namespace awan {
 namespace {
 
-// For one word or for a vector of them.
+// Words: one 32-bit word, or a vector of them.
 template <typename Words>
 constexpr Words reverse_bits(Words x) {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
@@ -16,7 +16,8 @@ constexpr Words reverse_bits(Words x) {
     return (x >> 16) | (x << 16);
 }
 
-// Owen scrambling of bit-reversed x: every bit is flipped by a hash of the bits above it (below it, reversed).
+// Owen's scrambling: every bit is flipped by a hash of the bits above it. x has its bits reversed, so these lie
+// below.
 template <typename Words>
 Words laine_karras(Words x, Words seed) {
     x ^= x * 0x3d20adeau;
@@ -27,12 +28,13 @@ Words laine_karras(Words x, Words seed) {
     return x;
 }
 
-using Directions = std::array<std::array<std::uint32_t, 4>, 32>;  // of 32 bits, four dimensions
+// Direction numbers: of each of 32 bits, in four dimensions.
+using Directions = std::array<std::array<std::uint32_t, 4>, 32>;
 
-// Direction numbers, bit-reversed: v_k of dimension d has its leading bit at position k.
+// Bit-reversed: v_k of dimension d has its leading bit at position k.
 constexpr Directions make_directions() {
-    // Degree s, coefficients a and initial m of the primitive polynomials of dimensions 2-4 (Joe &
-    // Kuo, new-joe-kuo-6.21201); dimension 1 is van der Corput's.
+    // Degree s, coefficients a and initial m of the primitive polynomials of dimensions 2-4 (the table
+    // new-joe-kuo-6.21201 of Joe & Kuo 2008). Dimension 1 is van der Corput's sequence.
     struct Polynomial {
         int s;
         std::uint32_t a;

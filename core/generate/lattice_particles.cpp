@@ -9,10 +9,11 @@
 namespace awan {
 namespace {
 
-// What a layer of cells comes to; layers are summed in their order, whoever made them.
+// What a layer of cells comes to. Layers are summed in their order, whichever thread made them.
 struct Layer {
     std::size_t kept = 0;
-    double sum = 0;  // of the kept cells' values, sharpened
+    // The sum of the values of the cells that stay, sharpened if asked for.
+    double sum = 0;
 };
 
 class Cells {
@@ -90,7 +91,7 @@ ReadyParticles lattice_particles(const LatticeField& field, const LatticeOptions
     const auto radius = static_cast<float>(2 * kLatticeS * field.cell);
     const double s = static_cast<double>(radius) / 2;
     const double mass_of_one = std::pow(2 * std::numbers::pi, 1.5) * s * s * s;
-    // Of a cell's value; the quotient of the sums is 1 where nothing was left out.
+    // From a cell's value to a particle's density. The quotient of the sums is 1 where nothing was left out.
     const double scale = lattice_mass(field) / (sum * mass_of_one);
     particles.positions.resize(count);
     particles.radii.assign(count, radius);

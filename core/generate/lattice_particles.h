@@ -9,12 +9,16 @@
 
 namespace awan {
 
-// Samples at origin + cell * (i, j, k), each the mean of the cell around it; outside it is 0. At values[(k * ny + j) * nx + i].
+// Samples at origin + cell * (i, j, k), each the mean over the cell around it; outside, the field is 0. Sample (i, j,
+// k) is values[(k * ny + j) * nx + i].
 struct LatticeField {
-    glm::dvec3 origin{0};  // of sample (0, 0, 0), units
-    double cell = 1;       // the side of a cell, units, > 0
+    // Where sample (0, 0, 0) lies, units.
+    glm::dvec3 origin{0};
+    // The side of a cell, units, > 0.
+    double cell = 1;
     int nx = 0, ny = 0, nz = 0;
-    std::vector<float> values;  // nx * ny * nz, finite, >= 0
+    // nx * ny * nz values, finite, >= 0.
+    std::vector<float> values;
 
     std::size_t index(int i, int j, int k) const {
         return (static_cast<std::size_t>(k) * static_cast<std::size_t>(ny) +
@@ -24,25 +28,28 @@ struct LatticeField {
     }
 };
 
-// A Gaussian's s, in cells. Wider, and the field blurs; narrower, and the lattice shows: the sum over a constant field is
-// constant within 2 exp(-2 pi^2 s^2) an axis, 4.8e-4 at .65 and 3.9e-3 at .55.
+// The s of a particle, in cells. If it were wider, the field would blur; if narrower, the lattice would show. The sum
+// over a constant field is constant within 2 exp(-2 pi^2 s^2) an axis: 4.8e-4 at .65, 3.9e-3 at .55.
 inline constexpr double kLatticeS = 0.65;
 
+// How cells become particles.
 struct LatticeOptions {
-    // Cells at or below this are left out; what they had the others share in proportion, so that the mass stays.
+    // Cells at or below this are left out. What they had is shared by the others in proportion, so that the mass
+    // stays.
     float threshold = 0;
-    // A sum of Gaussians is the field blurred by s. This takes most of the blur back: f - (s^2 / 2) laplace(f) in the place
-    // of f, at least 0. A wave of 4 cells keeps 84% of its height instead of 59%, one of 8 cells 98% instead of 88%.
+    // A sum of Gaussians is the field blurred by s. This takes most of the blur back: f - (s^2 / 2) laplace(f) in the
+    // place of f, at least 0. A wave of 4 cells then keeps 84% of its height instead of 59%, one of 8 cells 98%
+    // instead of 88%.
     bool sharpen = false;
 };
 
-// In the order of the samples; radii are 2 s = 1.3 cells, as float32. The integral of the Gaussians is the integral of the
-// field, lattice_mass(), but for the rounding of floats (relative 1e-7), unless every cell is left out. The same for every
-// number of threads (>= 1).
+// Particles in the order of the samples, one for each cell that stays; their radii are 2 s = 1.3 cells, as float32.
+// The integral of the Gaussians is that of the field, lattice_mass(), but for the rounding of floats (relative 1e-7),
+// unless every cell is left out. The same for every number of threads (>= 1).
 ReadyParticles lattice_particles(const LatticeField& field, const LatticeOptions& options,
                                  int threads);
 
-// Integral of the field over space: the sum of its values times cell^3.
+// The integral of the field over space: the sum of its values times cell^3.
 double lattice_mass(const LatticeField& field);
 
 }  // namespace awan

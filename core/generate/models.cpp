@@ -6,13 +6,13 @@ Result<ModelParticles> model_particles(const Cloud& cloud, const ModelRequest& r
                                        const Deadline& deadline) {
     switch (cloud.model) {
         case CloudModel::kAutomaton:
-            return automaton_particles(*cloud.automaton, request, deadline);
+            return automaton::make_particles(*cloud.automaton, request, deadline);
         case CloudModel::kSpheres:
-            return spheres_particles(*cloud.spheres, request, deadline);
+            return spheres::make_particles(*cloud.spheres, request, deadline);
         case CloudModel::kImplicit:
-            return implicit_particles(*cloud.implicit, request, deadline);
+            return implicit::make_particles(*cloud.implicit, request, deadline);
         case CloudModel::kEllipsoids:
-            return ellipsoids_particles(*cloud.ellipsoids, request, deadline);
+            return ellipsoids::make_particles(*cloud.ellipsoids, request, deadline);
         case CloudModel::kCubes:
         case CloudModel::kParticles:
             break;

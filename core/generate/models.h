@@ -1,6 +1,6 @@
-// The models that make particles by a procedure of their own: from a cloud's description to Gaussians (particle_set.h) in
-// the cloud's own coordinates, before its scale, rotate_y, translate and velocity. Pure, seeded, the same for every number of threads.
-// Each bounds its own work and particles by the limits on its fields (core/scene/limits.h).
+// The models that make particles by a procedure of their own: from a cloud's description to Gaussians (particle_set.h)
+// in the cloud's own coordinates, before its scale, rotate_y, translate and velocity. Pure, seeded, the same for every
+// number of threads. Each bounds its own work and particles by the limits on its fields (core/scene/limits.h).
 #pragma once
 
 #include <cstdint>
@@ -13,39 +13,59 @@
 
 namespace awan {
 
+// What a model needs to know beside the cloud's description.
 struct ModelRequest {
-    std::uint64_t key = 1;  // of all that is random in it: keyed(seed, place in the scene)
-    double time = 0;        // seconds, any finite number
+    // The key of all that is random in the cloud: keyed(seed, place in the scene).
+    std::uint64_t key = 1;
+    // Seconds, any finite number.
+    double time = 0;
     int threads = 1;
     // Only where the cloud lies matters, not how it looks: some hundred particles of the right bounds will do.
     bool coarse = false;
-    // How finely it will be seen: the angle of a pixel, radians (0: as finely as can be), from the eye, in the cloud's own
-    // coordinates; none: from where the automatic camera will stand (core/survey/survey.h), the whole cloud in the picture.
+    // How finely the cloud will be seen: the angle of a pixel, radians (0: as finely as can be), and the eye, in the
+    // cloud's own coordinates. Without an eye: from where the automatic camera will stand (core/survey/survey.h), the
+    // whole cloud in the picture.
     double pixel_angle = 0;
     std::optional<glm::dvec3> eye;
-    std::uint64_t place = 0;  // the cloud's number in the scene
-    double density = 1;       // the cloud's or else the scene's: extinction, 1/unit
+    // The cloud's number in the scene.
+    std::uint64_t place = 0;
+    // The cloud's density or else the scene's: extinction, 1/unit.
+    double density = 1;
 };
 
+// What a model makes.
 struct ModelParticles {
-    ReadyParticles particles;  // densities multiply the cloud's density; colours are empty
-    bool extinctions = false;  // densities are extinctions, 1/unit, whatever the cloud's density is
-    // Relative error, rms over rms of a picture, of what was left out or made coarser than the description says; 0: none.
+    // Their densities multiply the cloud's density; their colours are empty.
+    ReadyParticles particles;
+    // Whether their densities are extinctions instead, 1/unit, whatever the cloud's density is.
+    bool extinctions = false;
+    // The error of what was left out or made coarser than the description says, as root mean square of a picture over
+    // that of the picture; 0: nothing was.
     double error = 0;
-    // Not 0 where the particles depend on the eye: tells such sets apart.
+    // Not 0 where the particles depend on the eye. It tells such sets apart from those of other eyes.
     std::uint64_t variant = 0;
 };
 
-Result<ModelParticles> automaton_particles(const AutomatonCloud& cloud, const ModelRequest& request,
-                                           const Deadline& deadline);
-Result<ModelParticles> spheres_particles(const SpheresCloud& cloud, const ModelRequest& request,
-                                         const Deadline& deadline);
-Result<ModelParticles> implicit_particles(const ImplicitCloud& cloud, const ModelRequest& request,
-                                          const Deadline& deadline);
-Result<ModelParticles> ellipsoids_particles(const EllipsoidsCloud& cloud,
-                                            const ModelRequest& request, const Deadline& deadline);
+// One function a model, in its own folder. Errors: kOverDeadline, kCancelled; of an automaton also kInvalidScene, when
+// it is to go on from the state of another cloud.
+namespace automaton {
+Result<ModelParticles> make_particles(const AutomatonCloud& cloud, const ModelRequest& request,
+                                      const Deadline& deadline);
+}
+namespace spheres {
+Result<ModelParticles> make_particles(const SpheresCloud& cloud, const ModelRequest& request,
+                                      const Deadline& deadline);
+}
+namespace implicit {
+Result<ModelParticles> make_particles(const ImplicitCloud& cloud, const ModelRequest& request,
+                                      const Deadline& deadline);
+}
+namespace ellipsoids {
+Result<ModelParticles> make_particles(const EllipsoidsCloud& cloud, const ModelRequest& request,
+                                      const Deadline& deadline);
+}
 
-// Of a cloud that is_procedural().
+// cloud: one that is_procedural().
 Result<ModelParticles> model_particles(const Cloud& cloud, const ModelRequest& request,
                                        const Deadline& deadline);
 

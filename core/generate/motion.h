@@ -8,6 +8,7 @@
 
 namespace awan {
 
+// A point p of the cloud stands at translate + rotate_y(scale * p) in the scene.
 struct Motion {
     glm::dvec3 translate;
     double scale;

@@ -10,28 +10,33 @@ namespace awan {
 
 struct DetailField;
 
-// Gaussian blobs of extinction: density * exp(-d^2 / (2 s^2)) per unit, s = radius / 2.
-// Structure of arrays, all of one length; clouds and cubes in the document's order.
+// Gaussian blobs of extinction: density * exp(-d^2 / (2 s^2)) per unit at distance d from the centre, s = radius / 2.
+// A structure of arrays, all of one length; clouds and cubes in the order of the scene.
 struct ParticleSet {
-    std::vector<glm::dvec3> center;  // scene units, double: a cloud may stand 1e9 from the origin
-    std::vector<float> radius;       // scene units, > 0
-    std::vector<float> density;      // peak extinction, 1/unit, >= 0
-    std::vector<glm::vec3>
-        color;  // 0..1, multiplies the albedo; EMPTY when every particle is white
-    // Structure finer than the particles (detail.h), for all rooms that see matter; null: there is none, and the
-    // extinction is the sum of the Gaussians.
+    // Scene units. In double, since a cloud may stand 1e9 units from the origin.
+    std::vector<glm::dvec3> center;
+    // Scene units, > 0.
+    std::vector<float> radius;
+    // Peak extinction, 1/unit, >= 0.
+    std::vector<float> density;
+    // 0..1, each multiplies the albedo. EMPTY when every particle is white.
+    std::vector<glm::vec3> color;
+    // Structure finer than the particles (detail.h), for all rooms that see matter. Null where there is none: the
+    // extinction is then the sum of the Gaussians.
     std::shared_ptr<const DetailField> detail;
 
-    // Of procedural clouds (models.h): error of what was made coarser than described, the largest of all clouds'; and what
-    // tells sets apart that depend on the eye.
+    // Of procedural clouds (ModelParticles in models.h): the largest of their errors, and what tells sets apart that
+    // depend on the eye.
     double error = 0;
     std::uint64_t variant = 0;
 
     std::size_t size() const { return center.size(); }
 };
 
+// An axis-aligned box.
 struct Bounds {
-    glm::dvec3 min{0}, max{0};  // both 0 for an empty set
+    // Scene units; both 0 for an empty set.
+    glm::dvec3 min{0}, max{0};
 };
 
 // The box around all centres, each widened by its radius (= 2 s, 95% of a particle's mass lies

@@ -8,7 +8,8 @@
 namespace awan {
 
 struct Device::State {
-    gl::EglContext context;  // first in, last out
+    // Declared first, so destroyed last: the programs need it.
+    gl::EglContext context;
     DeviceInfo info;
     Device::Programs programs;
 };

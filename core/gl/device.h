@@ -9,15 +9,21 @@
 
 namespace awan {
 
+// What draws, for people.
 struct DeviceInfo {
-    std::string renderer;  // GL_RENDERER, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"
-    std::string version;   // GL_VERSION
-    std::string platform;  // "device" (a GPU) or "surfaceless" (Mesa, software)
+    // GL_RENDERER, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)".
+    std::string renderer;
+    // GL_VERSION, e.g. "4.5 (Core Profile) Mesa 22.3.6".
+    std::string version;
+    // "device" (a GPU) or "surfaceless" (Mesa, software).
+    std::string platform;
     bool software = true;
 };
 
-enum class DeviceChoice { kAuto, kSoftware };  // kAuto: a GPU if there is one, else Mesa's llvmpipe
+// kAuto: a GPU if there is one, else Mesa's llvmpipe.
+enum class DeviceChoice { kAuto, kSoftware };
 
+// The context and its programs. Move-only.
 class Device {
   public:
     // Fails with kNoRenderer and the EGL step and code that failed.
@@ -28,7 +34,8 @@ class Device {
 
     const DeviceInfo& info() const;
 
-    struct Programs;  // core/gl/programs.h
+    // The compiled shaders, see core/gl/programs.h.
+    struct Programs;
     Programs& programs();
 
   private:

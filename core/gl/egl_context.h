@@ -10,6 +10,7 @@
 
 namespace awan::gl {
 
+// The context; move-only, closed when it is destroyed.
 class EglContext {
   public:
     // kAuto: first a hardware EGL device (EGL_EXT_platform_device, one with a DRM node), then

@@ -27,8 +27,10 @@ class Buffer {
     Buffer& operator=(const Buffer&) = delete;
     ~Buffer();
 
-    void bind(GLuint binding) const;  // to layout(binding = ...) buffer
-    void clear();                     // to zeros
+    // Makes it the buffer of `layout(binding = ...) buffer` in the shader.
+    void bind(GLuint binding) const;
+    // Sets every byte to zero.
+    void clear();
     GLuint name() const { return name_; }
     // Copies bytes from the start; waits for the shaders that write them.
     void read(void* to, std::size_t bytes) const;
@@ -51,7 +53,8 @@ class TexelBuffer {
     TexelBuffer& operator=(const TexelBuffer&) = delete;
     ~TexelBuffer();
 
-    void bind(GLuint binding) const;  // to layout(binding = ...) uniform samplerBuffer
+    // Makes it the sampler of `layout(binding = ...) uniform samplerBuffer` in the shader.
+    void bind(GLuint binding) const;
 
   private:
     Buffer buffer_;

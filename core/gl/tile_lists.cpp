@@ -18,7 +18,8 @@ TileBox clip(TileBox box, const Rectangle& to) {
     return box;
 }
 
-// How far a tile from `tile` to tile + 1 stays away from `center`, in units of 1 / per, squared.
+// The square of the distance from `center` to the nearest point of the tile that spans tile .. tile + 1, along one
+// axis, in units of 1 / per.
 float apart2(std::int32_t tile, float center, float per) {
     const auto low = static_cast<float>(tile);
     const float d = std::max({0.F, low - center, center - low - 1.F}) * per;
@@ -69,7 +70,7 @@ struct Cutter {
     const Deadline& deadline;
     const std::function<Status(const TileRegion&)>& visit;
 
-    // Depth is at most log2 of the number of tiles.
+    // Halves the area until its lists are short enough. It calls itself at most log2(number of tiles) deep.
     Status cut(const Rectangle& area, const std::vector<std::uint32_t>& candidates) const {
         if (auto error = deadline.over()) return error;
         std::vector<std::uint32_t> inside;
@@ -84,7 +85,7 @@ struct Cutter {
         if (tiles == 1 || (entries <= max_entries && tiles <= max_tiles))
             return visit(make_lists(boxes, inside, area, layers));
         Rectangle first = area, second = area;
-        // Across first, so that regions stay whole rows of the raster as long as they can.
+        // Halves the height first, so that regions stay whole rows of the raster as long as they can.
         if (area.height > 1) {
             first.height = area.height / 2;
             second.y += first.height;

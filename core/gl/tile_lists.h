@@ -11,10 +11,9 @@
 
 namespace awan::gl {
 
-// Tiles an item may touch, inclusive; nothing when last < first. z: for rasters of several layers.
-// Of these it touches those that reach into an ellipse: ((x - center_x) per_x)^2 + ((y - center_y)
-// per_y)^2 <= 1 at some point of the tile, which spans x .. x + 1. With the default every tile of
-// the box.
+// The tiles that an item may touch, both ends included; none when last < first. z: for rasters of several layers. Of
+// these it touches those that reach into an ellipse: ((x - center_x) per_x)^2 + ((y - center_y) per_y)^2 <= 1 at some
+// point of the tile, which spans x .. x + 1. By default the ellipse is infinite: every tile of the box.
 struct TileBox {
     std::int32_t first_x = 0, first_y = 0, last_x = -1, last_y = -1;
     std::int32_t first_z = 0, last_z = 0;
@@ -29,11 +28,12 @@ struct TileRegion {
     std::vector<std::uint32_t> items;
 
     std::uint32_t longest_list() const;
-    std::vector<std::uint32_t> filled_tiles() const;  // those whose list is not empty
+    // The tiles whose list is not empty, by their index t.
+    std::vector<std::uint32_t> filled_tiles() const;
 };
 
-// A shader may walk so many entries of a list in one dispatch; the rest wants another. llvmpipe
-// ends every loop after 65,535 rounds, without a word.
+// So many entries of a list a shader may walk in one dispatch; the rest wants another. llvmpipe silently ends every
+// loop after 65,535 rounds.
 inline constexpr std::uint32_t kMaxRun = 60'000;
 
 // Cuts a raster of width x height x layers tiles into regions with at most max_entries list entries

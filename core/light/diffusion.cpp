@@ -4,20 +4,21 @@
 #include <cmath>
 
 #include "core/base/float_runs.h"
+#include "core/base/instruction_sets.h"
 
 namespace awan {
 namespace {
 
-// Cells without matter do not conduct without limit: over one of them light streams.
+// Keeps the conductance of empty cells finite: over so few cells light does not diffuse but streams.
 constexpr float kStreaming = 0.75F;
 
 using Vector = std::vector<float>;
 
 // to = operator from. The vectors have one layer of zeros before and after, so that no neighbour is out of bounds;
 // conductances are 0 across the sides.
-__attribute__((target_clones("avx512f", "avx2", "default"))) void apply(
-    const float* diagonal, const float* gx, const float* gy, const float* gz, std::size_t row,
-    std::size_t layer, const float* from, std::size_t count, float* to) {
+AWAN_INLINE void apply_body(const float* diagonal, const float* gx, const float* gy,
+                            const float* gz, std::size_t row, std::size_t layer, const float* from,
+                            std::size_t count, float* to) {
     for (std::size_t i = 0; i < count; ++i)
         to[i] = diagonal[i] * from[i] - gx[i] * from[i + 1] - gy[i] * from[i + row] -
                 gz[i] * from[i + layer];
@@ -25,29 +26,32 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) void apply(
     for (std::size_t i = row; i < count; ++i) to[i] -= gy[i - row] * from[i - row];
     for (std::size_t i = layer; i < count; ++i) to[i] -= gz[i - layer] * from[i - layer];
 }
+AWAN_KERNEL(void, apply,
+            (const float* diagonal, const float* gx, const float* gy, const float* gz,
+             std::size_t row, std::size_t layer, const float* from, std::size_t count, float* to),
+            (diagonal, gx, gy, gz, row, layer, from, count, to))
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void step(float a, const float* p,
-                                                                       const float* q, float* x,
-                                                                       float* r,
-                                                                       std::size_t count) {
+AWAN_INLINE void step_body(float a, const float* p, const float* q, float* x, float* r,
+                           std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         x[i] += a * p[i];
         r[i] -= a * q[i];
     }
 }
+AWAN_KERNEL(void, step,
+            (float a, const float* p, const float* q, float* x, float* r, std::size_t count),
+            (a, p, q, x, r, count))
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void turn(float b, const float* z,
-                                                                       float* p,
-                                                                       std::size_t count) {
+AWAN_INLINE void turn_body(float b, const float* z, float* p, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) p[i] = z[i] + b * p[i];
 }
+AWAN_KERNEL(void, turn, (float b, const float* z, float* p, std::size_t count), (b, z, p, count))
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void multiply(const float* a,
-                                                                           const float* b,
-                                                                           float* to,
-                                                                           std::size_t count) {
+AWAN_INLINE void multiply_body(const float* a, const float* b, float* to, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) to[i] = a[i] * b[i];
 }
+AWAN_KERNEL(void, multiply, (const float* a, const float* b, float* to, std::size_t count),
+            (a, b, to, count))
 
 }  // namespace
 
@@ -70,7 +74,7 @@ Diffusion make_diffusion(const glm::ivec3& cells, std::span<const float> depth,
         across.assign(depth.size(), 0.F);
         for (std::size_t i = 0; i < depth.size(); ++i) {
             const std::size_t at = i / stride[axis] % count[axis];
-            // Marshak's condition: half a cell, then half of the radiance leaves.
+            // An outer face, by Marshak's condition: half a cell's way, and behind it only what leaves.
             const float out = 1 / (1.5F * transport[i] + 2);
             if (at == 0) diffusion.diagonal[i] += out;
             if (at + 1 == count[axis]) {

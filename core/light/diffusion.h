@@ -1,6 +1,6 @@
-// The diffusion limit of transport, as a preconditioner: sweeps settle what happens over a few mean free
-// paths, diffusion what happens over many ("diffusion synthetic acceleration", Alcouffe 1977; inside a Krylov
-// solver it need not be consistent with the sweep: Warsa, Wareing & Morel 2004).
+// The diffusion limit of transport, as a preconditioner. Sweeps settle what happens over a few mean free paths,
+// diffusion what happens over many: "diffusion synthetic acceleration" (Alcouffe 1977). Within a Krylov solver such as
+// GMRES its discretisation need not be consistent with the sweep's (Warsa, Wareing & Morel 2004).
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,16 +9,18 @@
 
 namespace awan {
 
-// Seven-point operator on cubic cells, in units of the cell's side: sum over faces of conductance x difference, plus
-// absorption; light leaves through the sides of the grid.
+// The seven-point operator on cubic cells, in units of the cell's side: to each cell
+//     sum over faces of conductance * (own value - neighbour's) + absorption * own value,
+// where light leaves through the outer faces of the grid.
 struct Diffusion {
     glm::ivec3 cells{0};
     std::vector<float> across[3];  // conductance to the next cell along x, y, z (0 after the last)
     std::vector<float> diagonal;   // sum of conductances, absorption and what leaves the grid
 };
 
-// depth: of each cell, extinction x side; scattered: the part of it that is scattered; forward: mean
-// cosine of that scattering.
+// depth: of each cell, extinction x side; scattered: the part of it that is scattered; forward: the mean cosine of that
+// scattering. With the transport depth t = depth - forward * scattered, a face between cells conducts
+//     1 / (3/2 (t + t') + kStreaming).
 Diffusion make_diffusion(const glm::ivec3& cells, std::span<const float> depth,
                          std::span<const float> scattered, double forward);
 

@@ -9,7 +9,8 @@
 namespace awan {
 namespace {
 
-constexpr std::size_t kBlock = 4096;  // floats: one block of every vector stays in the first cache
+// Floats of a block: one block of every vector of the basis stays in a processor's near cache.
+constexpr std::size_t kBlock = 4096;
 
 using Vector = std::vector<float>;
 
@@ -64,6 +65,86 @@ Rotation rotation_that_clears(double a, double b) {
     return length > 0 ? Rotation{a / length, b / length} : Rotation{};
 }
 
+void divide(Vector& vector, double by) {
+    for (float& value : vector) value = static_cast<float>(static_cast<double>(value) / by);
+}
+
+// The vectors that x is sought among since the last restart, and what A makes of them: with V the basis and P the
+// preconditioner, A P V = V H, and H is kept as Q R, Q made of rotations and R triangular.
+struct KrylovSpace {
+    std::vector<Vector> basis;                 // orthonormal; one more than columns
+    std::vector<Vector> additions;             // what the preconditioner adds to each but the last
+    std::vector<std::vector<double>> columns;  // of R
+    std::vector<Rotation> rotations;           // Q
+    std::vector<double> right;                 // the residual in this basis, turned by Q
+};
+
+KrylovSpace space_from(const Vector& residual, double length) {
+    KrylovSpace space;
+    space.basis.push_back(residual);
+    divide(space.basis.front(), length);
+    space.right.push_back(length);
+    return space;
+}
+
+// The last vector of the basis with the preconditioner's addition, which is kept.
+Vector preconditioned(const Preconditioner& preconditioner, KrylovSpace& space) {
+    Vector changed = space.basis.back();
+    if (!preconditioner.add) return changed;
+    const std::size_t every = preconditioner.every;
+    Vector& addition = space.additions.emplace_back(changed.size() / every);
+    preconditioner.add(space.basis.back(), addition);
+    for (std::size_t i = 0; i < addition.size(); ++i) changed[i * every] += addition[i];
+    return changed;
+}
+
+// One more vector, by one product with A. False: it lies in the space already, which can grow no further.
+Result<bool> grow(const Product& product, const Preconditioner& preconditioner, int threads,
+                  KrylovSpace& space) {
+    const std::size_t k = space.columns.size();
+    const Vector from = preconditioned(preconditioner, space);
+    Vector& w = space.basis.emplace_back(from.size());
+    if (auto error = product(from, w)) return *error;
+    // Classical Gram-Schmidt: one pass over memory. With so few vectors there is no need for a second.
+    std::vector<double> column = dots(space.basis, k + 1, w, threads);
+    const double before = std::sqrt(column.back());
+    column.pop_back();
+    std::vector<double> minus(column);
+    for (double& value : minus) value = -value;
+    add(space.basis, minus, threads, w);
+    const double length = norm(w, threads);
+    column.push_back(length);
+    if (length > 0) divide(w, length);
+    for (std::size_t i = 0; i < k; ++i) space.rotations[i].turn(column[i], column[i + 1]);
+    space.rotations.push_back(rotation_that_clears(column[k], column[k + 1]));
+    space.rotations[k].turn(column[k], column[k + 1]);
+    space.right.push_back(0);
+    space.rotations[k].turn(space.right[k], space.right[k + 1]);
+    space.columns.push_back(std::move(column));
+    return length > 1e-6 * before;
+}
+
+// Solves R y = right from the bottom up.
+std::vector<double> solve_triangle(const KrylovSpace& space) {
+    std::vector<double> y(space.columns.size());
+    for (std::size_t i = space.columns.size(); i-- > 0;) {
+        double value = space.right[i];
+        for (std::size_t j = i + 1; j < space.columns.size(); ++j)
+            value -= space.columns[j][i] * y[j];
+        y[i] = space.columns[i][i] != 0 ? value / space.columns[i][i] : 0;
+    }
+    return y;
+}
+
+// x += P V y: the best that the space holds.
+void take_best(const KrylovSpace& space, std::size_t every, int threads, std::span<float> x) {
+    const std::vector<double> y = solve_triangle(space);
+    add(space.basis, y, threads, x);
+    for (std::size_t v = 0; v < space.additions.size() && v < y.size(); ++v)
+        for (std::size_t i = 0; i < space.additions[v].size(); ++i)
+            x[i * every] += static_cast<float>(y[v]) * space.additions[v][i];
+}
+
 }  // namespace
 
 Result<GmresOutcome> gmres(const Product& product, const Preconditioner& preconditioner,
@@ -76,72 +157,29 @@ Result<GmresOutcome> gmres(const Product& product, const Preconditioner& precond
     double left = whole;
     if (!(whole > 0) || !std::isfinite(whole)) return outcome;
     const auto most = static_cast<std::size_t>(std::max(settings.restart, 1));
-    std::vector<Vector> basis, additions;
-    const std::size_t every = preconditioner.every;
-    Vector changed;
-    while (left > settings.tolerance * whole && outcome.products < settings.max_products) {
-        basis.assign(1, residual);
-        additions.clear();
-        for (float& value : basis[0]) value = static_cast<float>(static_cast<double>(value) / left);
-        std::vector<std::vector<double>> columns;  // of the triangular factor
-        std::vector<Rotation> rotations;
-        std::vector<double> right{left};
+    const auto goes_on = [&] {
+        return left > settings.tolerance * whole && outcome.products < settings.max_products;
+    };
+    while (goes_on()) {
         const double at_start = left;
-        while (columns.size() < most && left > settings.tolerance * whole &&
-               outcome.products < settings.max_products) {
-            const std::size_t k = columns.size();
-            basis.emplace_back(b.size());
-            Vector& w = basis.back();
-            std::span<const float> from = basis[k];
-            if (preconditioner.add) {
-                additions.emplace_back(b.size() / every);
-                preconditioner.add(basis[k], additions[k]);
-                changed = basis[k];
-                for (std::size_t i = 0; i < additions[k].size(); ++i)
-                    changed[i * every] += additions[k][i];
-                from = changed;
-            }
-            if (auto error = product(from, w)) return *error;
+        KrylovSpace space = space_from(residual, left);
+        for (bool grows = true; grows && space.columns.size() < most && goes_on();) {
+            const auto grown = grow(product, preconditioner, threads, space);
+            if (!grown.ok()) return grown.error();
             ++outcome.products;
-            // Classical Gram-Schmidt: one pass over memory; 16 vectors do not ask for a second.
-            std::vector<double> column = dots(basis, k + 1, w, threads);
-            const double before = std::sqrt(column.back());
-            column.pop_back();
-            std::vector<double> minus(column);
-            for (double& value : minus) value = -value;
-            add(basis, minus, threads, w);
-            const double length = norm(w, threads);
-            column.push_back(length);
-            if (length > 0)
-                for (float& value : w)
-                    value = static_cast<float>(static_cast<double>(value) / length);
-            for (std::size_t i = 0; i < k; ++i) rotations[i].turn(column[i], column[i + 1]);
-            rotations.push_back(rotation_that_clears(column[k], column[k + 1]));
-            rotations[k].turn(column[k], column[k + 1]);
-            right.push_back(0);
-            rotations[k].turn(right[k], right[k + 1]);
-            columns.push_back(column);
-            left = std::abs(right[k + 1]);
-            if (!(length > 1e-6 * before)) break;  // the space is exhausted
+            grows = *grown;
+            left = std::abs(space.right.back());
         }
-        std::vector<double> y(columns.size());
-        for (std::size_t i = columns.size(); i-- > 0;) {
-            double value = right[i];
-            for (std::size_t j = i + 1; j < columns.size(); ++j) value -= columns[j][i] * y[j];
-            y[i] = columns[i][i] != 0 ? value / columns[i][i] : 0;
-        }
-        add(basis, y, threads, x);
-        for (std::size_t v = 0; v < additions.size() && v < y.size(); ++v)
-            for (std::size_t i = 0; i < additions[v].size(); ++i)
-                x[i * every] += static_cast<float>(y[v]) * additions[v][i];
-        if (left <= settings.tolerance * whole || outcome.products >= settings.max_products) break;
-        // The true residual, not the recurrence's: float32 vectors are not quite orthogonal.
+        take_best(space, preconditioner.every, threads, x);
+        if (!goes_on()) break;
+        // The true residual before a restart, not the recurrence's: float32 vectors are not quite orthogonal.
         Vector product_of_x(b.size());
         if (auto error = product(x, product_of_x)) return *error;
         ++outcome.products;
         for (std::size_t i = 0; i < b.size(); ++i) residual[i] = b[i] - product_of_x[i];
         left = norm(residual, threads);
-        if (!(left < 0.999 * at_start)) break;  // rounding is all that is left
+        // Less than a thousandth was gained: rounding is all that is left.
+        if (!(left < 0.999 * at_start)) break;
     }
     outcome.residual = left / whole;
     return outcome;

@@ -24,17 +24,18 @@ struct GmresOutcome {
 // A: to = A from. May fail (deadline); the failure is passed on.
 using Product = std::function<Status(std::span<const float> from, std::span<float> to)>;
 
-// What a preconditioner adds to a vector: one number for every `every` floats, to the first of each group. It may
-// differ from call to call (an inner iteration): it is kept, as flexible GMRES does (Saad 1993).
+// A preconditioner that changes a vector by adding to it: one number for every `every` floats, to the first of each
+// group. It may differ from call to call, as an inner iteration does: what it added is kept ("flexible" GMRES, Saad
+// 1993).
 struct Preconditioner {
     std::size_t every = 1;
-    std::function<void(std::span<const float> vector, std::span<float> addition)>
-        add;  // empty: none
+    // Empty: nothing is added.
+    std::function<void(std::span<const float> vector, std::span<float> addition)> add;
 };
 
-// Solves A x = b from x = 0. The residual never grows from product to product, so whatever stops it leaves the best x so
-// far. Sums are made in blocks of fixed size: the same bytes for every number of threads.
-// Memory: (restart + 3) vectors and as many additions.
+// Solves A x = b from x = 0. The residual never grows from product to product: when a limit ends the solve, x is the
+// best so far. Sums are made in blocks of fixed size: the same bytes for every number of threads. Memory: (restart + 4)
+// vectors and as many additions. Errors: those of A.
 Result<GmresOutcome> gmres(const Product& product, const Preconditioner& preconditioner,
                            std::span<const float> b, const GmresSettings& settings, int threads,
                            std::span<float> x);

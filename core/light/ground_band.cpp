@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <numbers>
 
 namespace awan {
 namespace {
 
-constexpr int kMostCells = 32;         // along a side of the cloud that light is gathered from
-constexpr double kLeastBounce = 2e-3;  // of the ground's irradiance: a weaker one is not followed
-constexpr double kMostRatio = 0.95;    // of one bounce to the one before
+constexpr int kMostCells = 32;  // along a side of the cloud that light is gathered from
+// Of the ground's irradiance: a weaker bounce is not followed.
+constexpr double kLeastBounce = 2e-3;
+constexpr double kMostRatio = 0.95;  // of one bounce to the one before
 
 // What a band of the ground's light takes of a colour: its luminance, or one channel of it.
 struct Part {
@@ -19,31 +21,42 @@ struct Part {
     double of(const glm::dvec3& rgb) const { return channel < 0 ? luminance(rgb) : rgb[channel]; }
 };
 
-InflowFromBelow inflow_from(const GroundLight& ground, const Part& part, const glm::dvec3& origin,
-                            double cell) {
-    return [&ground, part, origin, cell](const glm::dvec3& direction, const glm::dvec3& place) {
+glm::dvec3 rgb_of(const std::array<float, 3>& color) {
+    return {static_cast<double>(color[0]), static_cast<double>(color[1]),
+            static_cast<double>(color[2])};
+}
+
+InflowFromBelow inflow_from(const GroundLight& ground, const Part& part, const CloudGrid& grid) {
+    return [&ground, part, origin = grid.origin, cell = grid.cell](const glm::dvec3& direction,
+                                                                   const glm::dvec3& place) {
         const glm::dvec3 p = origin + cell * place;
         const double t = std::max(p.y - ground.height, 0.0) / direction.y;
         return part.of(radiance_at(ground, p.x - t * direction.x, p.z - t * direction.z));
     };
 }
 
-// The most that radiance_at may be, by its parts.
+// The most that radiance_at may be anywhere.
 double most_of(const GroundLight& ground, const Part& part) {
     glm::dvec3 change(0);
     for (const std::array<float, 3>& one : ground.change.irradiance)
-        for (std::size_t c = 0; c < 3; ++c)
-            change[static_cast<int>(c)] =
-                std::max(change[static_cast<int>(c)], static_cast<double>(one[c]));
+        change = glm::max(change, rgb_of(one));
     return part.of(ground.albedo * (ground.sun + ground.sky + change)) / std::numbers::pi;
 }
 
 glm::dvec3 sum_of(const GroundChange& change) {
     glm::dvec3 sum(0);
-    for (const std::array<float, 3>& one : change.irradiance)
-        sum += glm::dvec3(static_cast<double>(one[0]), static_cast<double>(one[1]),
-                          static_cast<double>(one[2]));
+    for (const std::array<float, 3>& one : change.irradiance) sum += rgb_of(one);
     return sum;
+}
+
+// The largest channel of any node, 0 if none is above it.
+double largest_of(const GroundChange& change) {
+    double most = 0;
+    for (const std::array<float, 3>& one : change.irradiance) {
+        const glm::dvec3 rgb = rgb_of(one);
+        most = std::max({most, rgb.x, rgb.y, rgb.z});
+    }
+    return most;
 }
 
 void add(GroundChange& to, const GroundChange& from, const glm::dvec3& times) {
@@ -59,123 +72,128 @@ void add(LightBand& to, const LightBand& from, double times) {
             to.moments[i][m] += static_cast<float>(times) * from.moments[i][m];
 }
 
-// All light of one pass through the ground: how the cloud is lit by `ground`, and what it sends back to it.
+// What a cloud sends down to the ground, less what it hides of `sky` (null: nothing).
+GroundChange sent_down(const GroundExchange& exchange, std::span<const LightBand> bands,
+                       const BeamSource& beam, const SkyDome* sky) {
+    const CloudAbove cloud = coarser(cloud_above(exchange.cloud, bands, beam), kMostCells);
+    GroundChange change = nodes_under(cloud, exchange.ground.height);
+    gather(cloud, sky, exchange.ground.height, exchange.threads, change);
+    return change;
+}
+
+// The bands that the ground's light is solved in. None: the cloud's middle sees a black ground.
+std::vector<Part> parts_of(const GroundLight& ground, const CloudGrid& grid, bool colored) {
+    if (colored) return {{0, {1, 0, 0}}, {1, {0, 1, 0}}, {2, {0, 0, 1}}};
+    const glm::dvec3 middle = grid.origin + 0.5 * grid.cell * glm::dvec3(grid.cells);
+    const glm::dvec3 seen = mean_radiance_below(
+        ground, {middle.x, std::max(middle.y, ground.height + 0.5 * grid.cell), middle.z});
+    if (!(luminance(seen) > 0)) return {};
+    return {{-1, seen / luminance(seen)}};
+}
+
+// One way up and back down: how the cloud is lit by a ground, and what of that it sends back.
 struct Bounce {
-    std::vector<LightBand> bands;  // as many as parts
-    GroundLight back;              // only `change`
+    std::vector<LightBand> bands;  // one for each part
+    GroundLight back;              // a ground lit by that alone; only with exchange.shadow
 };
+
+Result<Bounce> bounce(const GroundExchange& exchange, const GroundLight& from,
+                      const std::vector<Part>& parts, const SolveFromBelow& solve) {
+    Bounce made;
+    for (const Part& part : parts) {
+        auto band = solve(inflow_from(from, part, exchange.cloud), std::max(part.channel, 0));
+        if (!band.ok()) return band.error();
+        band->color = glm::vec3(part.color);
+        made.bands.push_back(*std::move(band));
+    }
+    if (exchange.shadow) {
+        made.back.present = true;
+        made.back.height = exchange.ground.height;
+        made.back.albedo = exchange.ground.albedo;
+        made.back.change = sent_down(exchange, made.bands, BeamSource{}, nullptr);
+    }
+    return made;
+}
+
+// Whether the ground shines on by what a bounce sent back to it.
+bool goes_on(const GroundLight& ground, const Bounce& bounce) {
+    const glm::dvec3 open = ground.sun + ground.sky, albedo = ground.albedo;
+    return largest_of(bounce.back.change) * std::max({albedo.x, albedo.y, albedo.z}) >
+           kLeastBounce * std::max({open.x, open.y, open.z});
+}
+
+// With r the ratio of the second bounce to the first, 1 + r + r^2 + ... = 1 / (1 - r), in each channel: by this the
+// second bounce stands for itself and all after it.
+glm::dvec3 series_of(const Bounce& first, const Bounce& second) {
+    const glm::dvec3 one = sum_of(first.back.change), two = sum_of(second.back.change);
+    glm::dvec3 series(1);
+    for (int c = 0; c < 3; ++c)
+        if (one[c] > 0) series[c] = 1 / (1 - std::clamp(two[c] / one[c], 0.0, kMostRatio));
+    return series;
+}
 
 }  // namespace
 
-CloudAbove cloud_above(const TransportLight& light, const std::vector<float>& depth, double scaled,
-                       std::size_t first_band, const BeamSource& beam) {
-    CloudAbove cloud{light.origin, light.cell, light.cells, depth, scaled, {}};
-    cloud.source.assign(depth.size(), {});
+CloudAbove cloud_above(const CloudGrid& grid, std::span<const LightBand> bands,
+                       const BeamSource& beam) {
+    CloudAbove cloud{grid.origin, grid.cell, grid.cells, {grid.depth.begin(), grid.depth.end()},
+                     grid.scaled, {}};
+    cloud.source.assign(grid.depth.size(), {});
     const std::array<double, kHarmonics> y = harmonics(beam.direction);
-    for (std::size_t i = 0; i < depth.size(); ++i) {
-        if (!(depth[i] > 0)) continue;
-        std::array<float, 48>& to = cloud.source[i];
-        for (std::size_t b = first_band; b < light.bands.size(); ++b)
+    for (std::size_t i = 0; i < grid.depth.size(); ++i) {
+        if (!(grid.depth[i] > 0)) continue;
+        std::array<float, 3 * kHarmonics>& to = cloud.source[i];
+        for (const LightBand& band : bands)
             for (std::size_t c = 0; c < 3; ++c)
                 for (std::size_t m = 0; m < kHarmonics; ++m)
-                    to[c * kHarmonics + m] +=
-                        light.bands[b].color[static_cast<int>(c)] * light.bands[b].moments[i][m];
-        if (beam.left == nullptr) continue;
-        const double left = static_cast<double>((*beam.left)[i]) / static_cast<double>(depth[i]);
+                    to[c * kHarmonics + m] += band.color[static_cast<int>(c)] * band.moments[i][m];
+        if (beam.left.empty()) continue;
+        const double left = static_cast<double>(beam.left[i]) / static_cast<double>(grid.depth[i]);
         for (std::size_t c = 0; c < 3; ++c) {
-            const double albedo = light.albedo.empty()
+            const auto channel = static_cast<int>(c);
+            const double albedo = beam.cell_albedo.empty()
                                       ? beam.albedo
-                                      : static_cast<double>(light.albedo[i][static_cast<int>(c)]);
-            for (std::size_t l = 0, m = 0; l < 4; ++l)
-                for (; m < (l + 1) * (l + 1); ++m)
-                    to[c * kHarmonics + m] += static_cast<float>(
-                        left * albedo * beam.sun[static_cast<int>(c)] * beam.moment[l] * y[m]);
+                                      : static_cast<double>(beam.cell_albedo[i][channel]);
+            for (std::size_t m = 0; m < kHarmonics; ++m)
+                to[c * kHarmonics + m] += static_cast<float>(left * albedo * beam.sun[channel] *
+                                                             beam.moment[kOrderOf[m]] * y[m]);
         }
     }
     return cloud;
 }
 
-Status ground_and_cloud(const SkyDome& sky, const std::vector<float>& depth, double scaled,
-                        const BeamSource& beam, bool colored, const TransportSettings& settings,
-                        const SolveFromBelow& solve, int threads, TransportLight& light) {
-    GroundLight& ground = light.ground;
-    if (settings.ground_shadow) {
-        const CloudAbove cloud = coarser(cloud_above(light, depth, scaled, 0, beam), kMostCells);
-        ground.change = nodes_under(cloud, ground.height);
-        gather(cloud, &sky, ground.height, threads, ground.change);
-    }
-    if (!settings.ground || ground.albedo == glm::dvec3(0)) return std::nullopt;
-
-    std::vector<Part> parts;
-    if (colored) {
-        for (int c = 0; c < 3; ++c) {
-            parts.push_back({c, glm::dvec3(0)});
-            parts.back().color[c] = 1;
-        }
-    } else {
-        // The colour that the middle of the cloud sees.
-        const glm::dvec3 middle = light.origin + 0.5 * light.cell * glm::dvec3(light.cells);
-        const glm::dvec3 seen = mean_radiance_below(
-            ground, {middle.x, std::max(middle.y, ground.height + 0.5 * light.cell), middle.z});
-        if (!(luminance(seen) > 0)) return std::nullopt;
-        parts.push_back({-1, seen / luminance(seen)});
-    }
-
-    const double kept = beam.albedo * beam.moment[0];
-    const std::size_t first_band = light.bands.size();
-    const auto bounce = [&](const GroundLight& from, Bounce& made) -> Status {
-        TransportLight own;  // only the bands
-        own.origin = light.origin;
-        own.cell = light.cell;
-        own.cells = light.cells;
-        for (const Part& part : parts) {
-            auto band =
-                solve(inflow_from(from, part, light.origin, light.cell), std::max(part.channel, 0));
-            if (!band.ok()) return band.error();
-            band->color = glm::vec3(part.color);
-            own.bands.push_back(*std::move(band));
-        }
-        if (settings.ground_shadow) {
-            const CloudAbove cloud =
-                coarser(cloud_above(own, depth, scaled, 0, BeamSource{}), kMostCells);
-            made.back.present = true;
-            made.back.height = ground.height;
-            made.back.albedo = ground.albedo;
-            made.back.change = nodes_under(cloud, ground.height);
-            gather(cloud, nullptr, ground.height, threads, made.back.change);
-        }
-        made.bands = std::move(own.bands);
-        return std::nullopt;
+Result<GroundAndCloud> ground_and_cloud(const GroundExchange& exchange,
+                                        const SolveFromBelow& solve) {
+    GroundAndCloud result;
+    GroundLight ground = exchange.ground;
+    const auto finished = [&] {
+        result.change = std::move(ground.change);
+        return std::move(result);
     };
+    if (exchange.shadow)
+        ground.change = sent_down(exchange, exchange.bands, exchange.beam, &exchange.sky);
+    if (!exchange.into_cloud || ground.albedo == glm::dvec3(0)) return finished();
+    const std::vector<Part> parts = parts_of(ground, exchange.cloud, exchange.colored);
+    if (parts.empty()) return finished();
 
-    Bounce first;
-    if (Status failed = bounce(ground, first)) return failed;
-    for (LightBand& band : first.bands) light.bands.push_back(std::move(band));
-    if (settings.ground_shadow) {
-        add(ground.change, first.back.change, glm::dvec3(1));
-        double most = 0;
-        for (const std::array<float, 3>& one : first.back.change.irradiance)
-            most = std::max({most, static_cast<double>(one[0]), static_cast<double>(one[1]),
-                             static_cast<double>(one[2])});
-        const glm::dvec3 open = ground.sun + ground.sky;
-        if (most * std::max({ground.albedo.x, ground.albedo.y, ground.albedo.z}) >
-            kLeastBounce * std::max({open.x, open.y, open.z})) {
-            Bounce second;
-            if (Status failed = bounce(first.back, second)) return failed;
-            const glm::dvec3 one = sum_of(first.back.change), two = sum_of(second.back.change);
-            glm::dvec3 series(1);
-            for (int c = 0; c < 3; ++c)
-                if (one[c] > 0) series[c] = 1 / (1 - std::clamp(two[c] / one[c], 0.0, kMostRatio));
-            add(ground.change, second.back.change, series);
-            for (std::size_t p = 0; p < parts.size(); ++p)
-                add(light.bands[first_band + p], second.bands[p],
-                    parts[p].channel < 0 ? luminance(series * parts[p].color)
-                                         : series[parts[p].channel]);
-        }
+    auto first = bounce(exchange, ground, parts, solve);
+    if (!first.ok()) return first.error();
+    result.into_cloud = std::move(first->bands);
+    if (exchange.shadow) add(ground.change, first->back.change, glm::dvec3(1));
+    if (exchange.shadow && goes_on(ground, *first)) {
+        auto second = bounce(exchange, first->back, parts, solve);
+        if (!second.ok()) return second.error();
+        const glm::dvec3 series = series_of(*first, *second);
+        add(ground.change, second->back.change, series);
+        for (std::size_t p = 0; p < parts.size(); ++p)
+            add(result.into_cloud[p], second->bands[p],
+                parts[p].channel < 0 ? luminance(series * parts[p].color)
+                                     : series[parts[p].channel]);
     }
+    const double scattered = exchange.beam.albedo * exchange.beam.moment[0];
     for (std::size_t p = 0; p < parts.size(); ++p)
-        light.bands[first_band + p].most = static_cast<float>(kept * most_of(ground, parts[p]));
-    return std::nullopt;
+        result.into_cloud[p].most = static_cast<float>(scattered * most_of(ground, parts[p]));
+    return finished();
 }
 
 }  // namespace awan

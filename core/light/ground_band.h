@@ -2,34 +2,66 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
+#include "core/base/result.h"
 #include "core/light/ground_gather.h"
 #include "core/light/sweep.h"
-#include "core/light/transport.h"
+#include "core/light/transport_light.h"
 
 namespace awan {
 
 // Solves for light that enters the grid from below, in the matter as `channel` (0 1 2; any for grey matter) has it.
 using SolveFromBelow = std::function<Result<LightBand>(const InflowFromBelow& inflow, int channel)>;
 
-// A cloud that shines as light.bands say, colours in, plus `beam`: what the sun's beam leaves in each cell
-// (extinction x side x irradiance 1; EMPTY: none), scattered by moments chi_l (0..3) without the peak and albedo.
-struct BeamSource {
-    const std::vector<float>* left = nullptr;  // null: none
-    glm::dvec3 sun{0};                         // irradiance
-    glm::dvec3 direction{0, -1, 0};            // the way the light goes
-    std::array<double, 4> moment{};            // times 1 - f
-    double albedo = 1;                         // where light.albedo is EMPTY
+// The grid of a cloud and its matter.
+struct CloudGrid {
+    glm::dvec3 origin{0};  // corner of cell 0, scene units
+    double cell = 0;       // side, scene units
+    glm::ivec3 cells{0};
+    std::span<const float> depth;  // of each cell: extinction (all of it) x side
+    double scaled = 1;             // share of it that dims light: what is not the forward peak's
 };
-CloudAbove cloud_above(const TransportLight& light, const std::vector<float>& depth, double scaled,
-                       std::size_t first_band, const BeamSource& beam);
 
-// Fills light.ground.change with what the cloud sends down and hides of the sky (settings.ground_shadow) and appends the
-// ground's light in the cloud to light.bands (settings.ground): one band in grey matter, of one colour, whose luminance
-// is right everywhere; else one a channel. Bounces between the two are followed once and summed as the geometric series that the
-// second and the third make. Preconditions: light.ground has its sun and sky, light has its bands.
-Status ground_and_cloud(const SkyDome& sky, const std::vector<float>& depth, double scaled,
-                        const BeamSource& beam, bool colored, const TransportSettings& settings,
-                        const SolveFromBelow& solve, int threads, TransportLight& light);
+// What the sun's beam leaves in a cloud, to be scattered once.
+struct BeamSource {
+    // Of each cell: extinction x side x irradiance 1 (beam_source of part_matter.h); EMPTY: there is no beam.
+    std::span<const float> left{};
+    glm::dvec3 sun{0};               // irradiance
+    glm::dvec3 direction{0, -1, 0};  // the way the light goes, unit
+    std::array<double, kOrders>
+        moment{};       // Legendre moments of scattering outside the peak, times 1 - f
+    double albedo = 1;  // where cell_albedo is EMPTY
+    std::span<const glm::vec3> cell_albedo{};
+};
+
+// A cloud that shines as `bands` say, their colours in, plus what it scatters of the beam.
+CloudAbove cloud_above(const CloudGrid& grid, std::span<const LightBand> bands,
+                       const BeamSource& beam);
+
+// A cloud over its ground, both lit from outside, with nothing between them yet.
+struct GroundExchange {
+    const CloudGrid& cloud;
+    std::span<const LightBand> bands;  // the cloud's light from outside
+    const BeamSource& beam;
+    const GroundLight& ground;  // with its sun, shadow and sky
+    const SkyDome& sky;
+    bool colored;     // whether the matter differs from channel to channel
+    bool into_cloud;  // whether the ground lights the cloud
+    bool shadow;      // whether the cloud shades and lights the ground
+    int threads;
+};
+
+struct GroundAndCloud {
+    GroundChange change;                // what the cloud sends down, less what it hides of the sky
+    std::vector<LightBand> into_cloud;  // the ground's light in the cloud
+};
+
+// In grey matter the ground's light is one band, of the colour that the cloud's middle sees; its luminance is right
+// everywhere. In coloured matter it is a band a channel.
+// Light that goes from the ground to the cloud and back does so again and again, each time weaker. The first and the
+// second such bounce are computed; the rest is taken as the geometric series that the two begin.
+Result<GroundAndCloud> ground_and_cloud(const GroundExchange& exchange,
+                                        const SolveFromBelow& solve);
 
 }  // namespace awan

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "core/base/parallel.h"
-#include "core/light/transport.h"
 #include "core/survey/projection.h"
 
 namespace awan {
@@ -16,9 +15,10 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kRays = 160;      // a node
-constexpr int kSide = 33;       // nodes
-constexpr double kOpaque = 12;  // scaled optical depth behind which nothing is seen
+constexpr int kRays = 160;           // a node
+constexpr int kSide = 33;            // nodes
+constexpr double kOpaque = 12;       // scaled optical depth behind which nothing is seen
+constexpr double kParallel = 1e-12;  // a direction's component that counts as 0
 
 std::size_t cell_index(const glm::ivec3& n, const glm::ivec3& c) {
     return (static_cast<std::size_t>(c.z) * static_cast<std::size_t>(n.y) +
@@ -27,7 +27,7 @@ std::size_t cell_index(const glm::ivec3& n, const glm::ivec3& c) {
            static_cast<std::size_t>(c.x);
 }
 
-// Golden-angle spiral: even in height and turn.
+// Point i of a golden-angle spiral: even in height and in turn. along: 0..1.
 struct Spiral {
     double along, turn;
 };
@@ -35,44 +35,80 @@ Spiral spiral(int i, int count) {
     return {(i + 0.5) / count, i * pi * (3 - std::sqrt(5.0))};
 }
 
-// Light that comes to p (cells) from direction d: what the cloud sends, and how much of what is behind it.
+// What is seen from a point in a direction: the cloud's light, and the share that comes through of what is behind it.
 struct Seen {
     glm::dvec3 light{0};
     double through = 1;
 };
-Seen look(const CloudAbove& cloud, const glm::dvec3& p, const glm::dvec3& d) {
-    Seen seen;
+
+// The part of the ray p + t d (cells) that lies in the cloud's box; enter >= leave: none.
+struct Crossing {
     double enter = 0, leave = std::numeric_limits<double>::infinity();
+};
+Crossing cross_box(const glm::ivec3& cells, const glm::dvec3& p, const glm::dvec3& d) {
+    Crossing crossing;
     for (int a = 0; a < 3; ++a) {
-        if (std::abs(d[a]) < 1e-12) {
-            if (p[a] < 0 || p[a] > cloud.cells[a]) return seen;
+        if (std::abs(d[a]) < kParallel) {
+            if (p[a] < 0 || p[a] > cells[a]) return {0, 0};
             continue;
         }
-        const double t0 = -p[a] / d[a], t1 = (cloud.cells[a] - p[a]) / d[a];
-        enter = std::max(enter, std::min(t0, t1));
-        leave = std::min(leave, std::max(t0, t1));
+        const double t0 = -p[a] / d[a], t1 = (cells[a] - p[a]) / d[a];
+        crossing.enter = std::max(crossing.enter, std::min(t0, t1));
+        crossing.leave = std::min(crossing.leave, std::max(t0, t1));
     }
-    if (!(enter < leave)) return seen;
+    return crossing;
+}
+
+// A walk from cell to cell along a ray (Amanatides & Woo 1987).
+class CellWalk {
+  public:
+    CellWalk(const glm::ivec3& cells, const glm::dvec3& p, const glm::dvec3& d, double enter)
+        : cells_(cells) {
+        constexpr double kNever = std::numeric_limits<double>::infinity();
+        for (int a = 0; a < 3; ++a) {
+            const bool parallel = std::abs(d[a]) < kParallel;
+            at_[a] = std::clamp(static_cast<int>(std::floor(p[a] + enter * d[a])), 0, cells[a] - 1);
+            way_[a] = d[a] > 0 ? 1 : -1;
+            per_[a] = parallel ? kNever : 1 / std::abs(d[a]);
+            next_[a] = parallel ? kNever : (at_[a] + (d[a] > 0 ? 1 : 0) - p[a]) / d[a];
+        }
+    }
+    std::size_t cell() const { return cell_index(cells_, at_); }
+    // Where the ray leaves the cell.
+    double until() const { return next_[axis()]; }
+    // On to the next cell; false: the ray leaves the box.
+    bool step() {
+        const int a = axis();
+        at_[a] += way_[a];
+        if (at_[a] < 0 || at_[a] >= cells_[a]) return false;
+        next_[a] += per_[a];
+        return true;
+    }
+
+  private:
+    // Across which the ray leaves the cell.
+    int axis() const {
+        return next_.x <= next_.y ? (next_.x <= next_.z ? 0 : 2) : (next_.y <= next_.z ? 1 : 2);
+    }
+    glm::ivec3 cells_, at_{0}, way_{0};
+    glm::dvec3 next_{0}, per_{0};
+};
+
+// From p (cells) in direction d. With x the scaled depth of the way through a cell and `scaled` k, the cell adds its
+// source times (1 - exp(-x)) / k, dimmed by the cells before it.
+Seen look(const CloudAbove& cloud, const glm::dvec3& p, const glm::dvec3& d) {
+    Seen seen;
+    const Crossing crossing = cross_box(cloud.cells, p, d);
+    if (!(crossing.enter < crossing.leave)) return seen;
     const std::array<double, kHarmonics> y = harmonics(-d);
     std::array<float, kHarmonics> towards{};
     for (std::size_t i = 0; i < kHarmonics; ++i) towards[i] = static_cast<float>(y[i]);
 
-    // From cell to cell (Amanatides & Woo 1987).
-    glm::ivec3 at;
-    glm::dvec3 next, per;
-    for (int a = 0; a < 3; ++a) {
-        const double place = p[a] + enter * d[a];
-        at[a] = std::clamp(static_cast<int>(std::floor(place)), 0, cloud.cells[a] - 1);
-        per[a] =
-            std::abs(d[a]) < 1e-12 ? std::numeric_limits<double>::infinity() : 1 / std::abs(d[a]);
-        next[a] = std::abs(d[a]) < 1e-12 ? std::numeric_limits<double>::infinity()
-                                         : (at[a] + (d[a] > 0 ? 1 : 0) - p[a]) / d[a];
-    }
+    CellWalk walk(cloud.cells, p, d, crossing.enter);
     double depth = 0;
-    for (double t = enter; t < leave && depth < kOpaque;) {
-        const int axis = next.x <= next.y ? (next.x <= next.z ? 0 : 2) : (next.y <= next.z ? 1 : 2);
-        const double until = std::min(next[axis], leave);
-        const std::size_t cell = cell_index(cloud.cells, at);
+    for (double t = crossing.enter; t < crossing.leave && depth < kOpaque;) {
+        const double until = std::min(walk.until(), crossing.leave);
+        const std::size_t cell = walk.cell();
         const double passed =
             std::max(until - t, 0.0) * static_cast<double>(cloud.depth[cell]) * cloud.scaled;
         if (passed > 0) {
@@ -87,18 +123,18 @@ Seen look(const CloudAbove& cloud, const glm::dvec3& p, const glm::dvec3& d) {
             depth += passed;
         }
         t = until;
-        at[axis] += d[axis] > 0 ? 1 : -1;
-        if (at[axis] < 0 || at[axis] >= cloud.cells[axis]) break;
-        next[axis] += per[axis];
+        if (!walk.step()) break;
     }
     seen.through = std::exp(-depth);
     return seen;
 }
 
-// At p (cells), one of the ground's.
+// The irradiance that the cloud adds at p, a place on the ground in cells, less what it hides of the sky. Rays are
+// spent where the cloud is. Divided by the half sides of its box, the cloud lies in a ball of radius sqrt(3), and rays
+// are spread evenly over the cone around that ball. Back in true proportions a direction d of the scaled space stands
+// for its solid angle times (product of the half sides) / |half sides * d|^3. From within or near the ball: over the
+// whole upper half of the sphere, by cosine.
 glm::dvec3 gathered(const CloudAbove& cloud, const SkyDome* sky, const glm::dvec3& p) {
-    // Scaled by the box's half sides, the cloud is within a ball of radius sqrt(3); a cone around it there is one around the
-    // cloud's ellipsoid here, with solid angles in the ratio det / |scaled d|^3.
     const glm::dvec3 half = 0.5 * glm::dvec3(cloud.cells);
     const glm::dvec3 to = (half - p) / half;
     const double distance = glm::length(to), radius = std::numbers::sqrt3;

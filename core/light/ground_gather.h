@@ -9,25 +9,25 @@
 
 namespace awan {
 
-// A cloud as the ground sees it: cells (x fastest, then y, then z) that dim and shine.
+// A cloud as the ground sees it: cells (x fastest, then y, then z) that dim what is behind them and shine.
 struct CloudAbove {
     glm::dvec3 origin{0};  // corner of cell 0, scene units
     double cell = 0;       // side, scene units
     glm::ivec3 cells{0};
     std::vector<float> depth;  // of each cell: extinction (all of it) x side
     double scaled = 1;         // share of it that dims light: what is not the forward peak's
-    // Source function, radiance per optical depth: toward direction o, sum_i source[cell][c * 16 + i] * Y_i(o).
-    std::vector<std::array<float, 48>> source;
+    // Source function, radiance per optical depth: toward direction o, sum_i source[cell][c * kHarmonics + i] * Y_i(o).
+    std::vector<std::array<float, 3 * kHarmonics>> source;
 };
 
-// The same with blocks of cells made one, so that none of its sides has more than `most`.
+// The same cloud with blocks of cells made one, so that no side of the grid has more than `most` cells.
 CloudAbove coarser(CloudAbove cloud, int most);
 
-// Where nodes lie, and 0 at all of them.
+// The nodes on the ground at which the cloud's light is gathered, with 0 at all of them.
 GroundChange nodes_under(const CloudAbove& cloud, double height);
 
-// Irradiance that the cloud's own light adds at each node, less what the cloud hides of `sky` (null: nothing). kRays rays
-// a node, spread over the cone that holds the cloud. Adds to `change`.
+// Adds to each node of `change` the irradiance of the cloud's own light, less what the cloud hides of `sky` (null: it
+// hides nothing), by 160 rays a node, spread over the cone that holds the cloud.
 void gather(const CloudAbove& cloud, const SkyDome* sky, double height, int threads,
             GroundChange& change);
 

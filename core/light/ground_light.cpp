@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/base/parallel.h"
+#include "core/light/harmonics.h"
 #include "core/light/sun_depth.h"
 
 namespace awan {
@@ -14,8 +15,9 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kSlabs =
-    4;  // a slab of a quarter of the cloud blurs its own width by 1e-3 of it at most
+// Slabs of the lattice in which tilted lines are taken as straight: over a quarter of the cloud the sun's disc blurs by
+// 1e-3 of the cloud's width at most.
+constexpr int kSlabs = 4;
 constexpr int kMostDirections = 96;  // in the disc
 constexpr int kMostNodes = 192;      // along the longer side of a raster
 constexpr double kNodesInBlur = 4;   // of a raster, in the radius of its widest blur
@@ -42,76 +44,114 @@ glm::dvec2 in_disc(int i, int count) {
     return {r * std::cos(turn), r * std::sin(turn)};
 }
 
-// The raster's share at each node: the mean of of_depth over lines towards directions within `radius` (radians) of the sun.
-template <typename OfDepth>
-SunRaster raster_of(const SunDepth& sun, double height, double radius, int threads,
-                    const OfDepth& of_depth) {
-    SunRaster raster;
-    raster.u = sun.u;
-    raster.v = sun.v;
-    const glm::dvec3 low = glm::dvec3(glm::dot(sun.origin, sun.u), glm::dot(sun.origin, sun.v),
-                                      glm::dot(sun.origin, sun.w));
-    const glm::dvec3 size = sun.cell * glm::dvec3(sun.nodes - 1);
-    // The point of the ground at (u, v) of the sun's frame: w from p.y = height.
-    const auto along = [&](double u, double v) {
-        return (height - u * sun.u.y - v * sun.v.y) / sun.w.y;
-    };
-    // The longest way from the matter's middle to the ground sets the widest blur.
-    double farthest = 0;
+// The lattice of the sun's depth over a level ground, in the sun's frame: places are (u, v, w), scene units.
+struct SunBox {
+    const SunDepth& sun;
+    double height;         // of the ground
+    glm::dvec3 low, size;  // of the lattice's nodes
+};
+
+SunBox sun_box(const SunDepth& sun, double height) {
+    const glm::dvec3 low(glm::dot(sun.origin, sun.u), glm::dot(sun.origin, sun.v),
+                         glm::dot(sun.origin, sun.w));
+    return {sun, height, low, sun.cell * glm::dvec3(sun.nodes - 1)};
+}
+
+// w of the ground's point at (u, v): where u sun.u.y + v sun.v.y + w sun.w.y = height.
+double ground_at(const SunBox& box, double u, double v) {
+    return (box.height - u * box.sun.u.y - v * box.sun.v.y) / box.sun.w.y;
+}
+
+// The longest way of light from the lattice's front to the ground; not > 0 where all of it is below the ground.
+double longest_way(const SunBox& box) {
+    double longest = 0;
     for (int corner = 0; corner < 4; ++corner)
-        farthest = std::max(
-            farthest,
-            along(low.x + (corner & 1 ? size.x : 0), low.y + (corner & 2 ? size.y : 0)) - low.z);
-    if (!(farthest > 0)) return raster;  // all of it is below the ground
-    const double slope = std::tan(radius), margin = farthest * slope + 1.5 * sun.cell;
+        longest = std::max(longest, ground_at(box, box.low.x + (corner & 1 ? box.size.x : 0),
+                                              box.low.y + (corner & 2 ? box.size.y : 0)) -
+                                        box.low.z);
+    return longest;
+}
+
+// Optical depth from the sun. Beside the lattice there is no matter, though its outermost nodes may hold a little:
+// there the depth falls off over a cell.
+double depth_in(const SunBox& box, double u, double v, double w) {
+    const SunDepth& sun = box.sun;
+    const glm::dvec2 off =
+        glm::max(glm::max(glm::dvec2(box.low.x - u, box.low.y - v),
+                          glm::dvec2(u - box.low.x - box.size.x, v - box.low.y - box.size.y)),
+                 glm::dvec2(0));
+    const double kept = std::max(0.0, 1 - off.x / sun.cell) * std::max(0.0, 1 - off.y / sun.cell);
+    return kept > 0 ? kept * depth_at(sun, u * sun.u + v * sun.v + w * sun.w) : 0.0;
+}
+
+// Depth of the whole line that ends at `at` on the ground, w away, and leans by `tilt` against the sun's direction. In
+// each slab it is that of a straight line through the point where the leaning one crosses the slab's middle.
+double depth_along(const SunBox& box, const glm::dvec2& at, double w, const glm::dvec2& tilt) {
+    const double deep = box.size.z / kSlabs;
+    double whole = 0;
+    for (int slab = 0; slab < kSlabs; ++slab) {
+        const double from = box.low.z + slab * deep, to = std::min(from + deep, w);
+        if (!(to > from)) break;
+        const glm::dvec2 place = at - (w - 0.5 * (from + to)) * tilt;
+        whole += depth_in(box, place.x, place.y, to) - depth_in(box, place.x, place.y, from);
+    }
+    return whole;
+}
+
+// A raster, all 0, that holds the lattice's shadow and the blur around it. slope: tangent of the blur's radius.
+SunRaster raster_around(const SunBox& box, double slope) {
+    SunRaster raster;
+    raster.u = box.sun.u;
+    raster.v = box.sun.v;
+    const glm::dvec2 size(box.size.x, box.size.y);
+    const double margin = longest_way(box) * slope + 1.5 * box.sun.cell;
     const double longer = std::max(size.x, size.y) + 2 * margin;
-    raster.cell = std::max({sun.cell, margin / kNodesInBlur, longer / (kMostNodes - 1)});
-    raster.nodes =
-        glm::ivec2(glm::ceil((glm::dvec2(size.x, size.y) + 2 * margin) / raster.cell)) + 1;
-    raster.origin = glm::dvec2(low.x, low.y) + 0.5 * glm::dvec2(size.x, size.y) -
+    raster.cell = std::max({box.sun.cell, margin / kNodesInBlur, longer / (kMostNodes - 1)});
+    raster.nodes = glm::ivec2(glm::ceil((size + 2 * margin) / raster.cell)) + 1;
+    raster.origin = glm::dvec2(box.low.x, box.low.y) + 0.5 * size -
                     0.5 * raster.cell * glm::dvec2(raster.nodes - 1);
     raster.share.resize(static_cast<std::size_t>(raster.nodes.x) *
                         static_cast<std::size_t>(raster.nodes.y));
-    const double deep = size.z / kSlabs;
-    // Beside the lattice there is no matter, though its outermost nodes may hold a little.
-    const auto depth = [&](double u, double v, double w) {
-        const glm::dvec2 off =
-            glm::max(glm::max(glm::dvec2(low.x - u, low.y - v),
-                              glm::dvec2(u - low.x - size.x, v - low.y - size.y)),
-                     glm::dvec2(0));
-        const double kept =
-            std::max(0.0, 1 - off.x / sun.cell) * std::max(0.0, 1 - off.y / sun.cell);
-        return kept > 0 ? kept * depth_at(sun, u * sun.u + v * sun.v + w * sun.w) : 0.0;
+    return raster;
+}
+
+// At each node the mean of of_depth over lines towards directions within `radius` (radians) of the sun; EMPTY where all
+// matter is below the ground.
+template <typename OfDepth>
+SunRaster raster_of(const SunBox& box, double radius, int threads, const OfDepth& of_depth) {
+    const double slope = std::tan(radius);
+    if (!(longest_way(box) > 0)) {
+        SunRaster none;
+        none.u = box.sun.u;
+        none.v = box.sun.v;
+        return none;
+    }
+    SunRaster raster = raster_around(box, slope);
+    const auto mean_at = [&](const glm::dvec2& at) {
+        const double w = ground_at(box, at.x, at.y);
+        // As many lines as the blur's disc has cells.
+        const double widest = std::max(0.0, w - box.low.z) * slope / box.sun.cell;
+        const int count =
+            std::clamp(static_cast<int>(std::ceil(pi * widest * widest)), 1, kMostDirections);
+        double sum = 0;
+        for (int n = 0; n < count; ++n) {
+            const glm::dvec2 tilt = count == 1 ? glm::dvec2(0) : slope * in_disc(n, count);
+            sum += of_depth(depth_along(box, at, w, tilt));
+        }
+        return static_cast<float>(sum / count);
     };
     parallel_for(threads, static_cast<std::size_t>(raster.nodes.y), [&](std::size_t row) {
-        for (int i = 0; i < raster.nodes.x; ++i) {
-            const glm::dvec2 at =
-                raster.origin + raster.cell * glm::dvec2(i, static_cast<double>(row));
-            const double w = along(at.x, at.y);
-            const double widest = std::max(0.0, w - low.z) * slope / sun.cell;
-            const int count =
-                std::clamp(static_cast<int>(std::ceil(pi * widest * widest)), 1, kMostDirections);
-            double sum = 0;
-            for (int n = 0; n < count; ++n) {
-                const glm::dvec2 tilt = count == 1 ? glm::dvec2(0) : slope * in_disc(n, count);
-                double whole = 0;
-                for (int slab = 0; slab < kSlabs; ++slab) {
-                    const double from = low.z + slab * deep, to = std::min(from + deep, w);
-                    if (!(to > from)) break;
-                    const glm::dvec2 place = at - (w - 0.5 * (from + to)) * tilt;
-                    whole += depth(place.x, place.y, to) - depth(place.x, place.y, from);
-                }
-                sum += of_depth(whole);
-            }
+        for (int i = 0; i < raster.nodes.x; ++i)
             raster.share[index(i, static_cast<int>(row), raster.nodes.x)] =
-                static_cast<float>(sum / count);
-        }
+                mean_at(raster.origin + raster.cell * glm::dvec2(i, static_cast<double>(row)));
     });
     return raster;
 }
 
-// Radians, root mean square: of the peak, whose Legendre moments are 1 up to L and g^(l - L - 1) from there on,
-// by the second of those: 1 - P_l(cos a) is about l (l + 1) a^2 / 4.
+// How far the forward peak turns light, root mean square, radians. The peak's Legendre moments are 1 up to l = L and
+// g^(l - L - 1) from there on; a narrow peak of mean square angle a^2 has
+//     1 - chi_l = l (l + 1) a^2 / 4,
+// which at the first moment that is not 1, l = L + 2 = order + 1, gives a^2 = 4 (1 - g) / ((order + 1) (order + 2)).
 double peak_width(double g, int order) {
     return std::sqrt(4 * (1 - g) / ((order + 1.0) * (order + 2.0)));
 }
@@ -188,15 +228,17 @@ GroundLight bare_ground(const SceneDraft& scene) {
 void cast_shadow(const SunDepth& sun, double albedo, double peak_share, double g, int threads,
                  GroundLight& ground) {
     if (sun.depth.empty() || !(-sun.w.y > kLowestShadow) || ground.sun == glm::dvec3(0)) return;
-    ground.shadow = raster_of(sun, ground.height, kSunRadius, threads,
-                              [](double depth) { return std::expm1(-depth); });
+    const SunBox box = sun_box(sun, ground.height);
+    ground.shadow =
+        raster_of(box, kSunRadius, threads, [](double depth) { return std::expm1(-depth); });
     if (!(peak_share > 0) || !(albedo > 0)) return;
-    // exp(-k tau) - exp(-tau) without cancellation, k < 1. The disc of radius r has the rms radius r / sqrt(2).
+    // A disc of radius r has the root mean square radius r / sqrt(2).
+    const double radius = std::numbers::sqrt2 * peak_width(g, kOrders);
+    // exp(-k depth) - exp(-depth) with k = `scaled` < 1, written so that nothing cancels.
     const double scaled = 1 - albedo * peak_share;
-    ground.ahead = raster_of(
-        sun, ground.height, std::numbers::sqrt2 * peak_width(g, 4), threads, [=](double depth) {
-            return -std::exp(-scaled * depth) * std::expm1(-(1 - scaled) * depth);
-        });
+    ground.ahead = raster_of(box, radius, threads, [=](double depth) {
+        return -std::exp(-scaled * depth) * std::expm1(-(1 - scaled) * depth);
+    });
 }
 
 }  // namespace awan

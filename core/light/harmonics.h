@@ -1,4 +1,4 @@
-// Real spherical harmonics up to l = 3, order l^2 + l + m; the integral of each square over the sphere is 1.
+// Real spherical harmonics up to l = 3: how the light's dependence on direction is written down.
 #pragma once
 
 #include <array>
@@ -6,9 +6,20 @@
 
 namespace awan {
 
-// d: unit. y is up: the polar axis, so that m = 0 harmonics depend on d.y alone.
-inline std::array<double, 16> harmonics(const glm::dvec3& d) {
-    const double x = d.z, y = d.x, z = d.y;  // the usual formulas' axes
+// Legendre orders that the light grid resolves: l = 0..L with L = 3.
+inline constexpr int kOrders = 4;
+// Harmonics of those orders, in the order l^2 + l + m.
+inline constexpr int kHarmonics = kOrders * kOrders;
+
+// The order l of each harmonic.
+inline constexpr std::array<std::size_t, kHarmonics> kOrderOf = {0, 1, 1, 1, 2, 2, 2, 2,
+                                                                 2, 3, 3, 3, 3, 3, 3, 3};
+
+// The value of each harmonic towards d (unit), normalised so that the integral of its square over the sphere is 1.
+// The polar axis is y, which is up: harmonics with m = 0 depend on d.y alone.
+inline std::array<double, kHarmonics> harmonics(const glm::dvec3& d) {
+    // The usual formulas have z as their polar axis.
+    const double x = d.z, y = d.x, z = d.y;
     const double xx = x * x, yy = y * y, zz = z * z;
     return {0.28209479177387814,
             0.4886025119029199 * y,

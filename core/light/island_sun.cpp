@@ -10,9 +10,11 @@
 namespace awan {
 namespace {
 
-constexpr double kReach = 4;  // in s
+// How far a particle's matter reaches, in standard deviations.
+constexpr double kReach = 4;
 
-// Shares of a Gaussian in the columns from `first` on; what the cut at kReach leaves is not put back: 6e-5 of it.
+// The shares of a Gaussian's mass in columns first..last along one axis. What lies beyond kReach, 6e-5 of it, is left
+// out.
 void shares(double center, double s, double cell, int first, int last, std::vector<double>& to) {
     to.clear();
     double before = normal_cdf((first * cell - center) / s);
@@ -23,7 +25,7 @@ void shares(double center, double s, double cell, int first, int last, std::vect
     }
 }
 
-// Optical depth of what lies before the prism, at the middle of each of its columns' faces: means over columns.
+// Optical depth of what lies before the prism: the mean over each of its columns' faces.
 std::vector<double> depth_before(const Lattice& prism, const ParticleSet& all) {
     const auto nx = static_cast<std::size_t>(prism.cells.x);
     std::vector<double> depth(nx * static_cast<std::size_t>(prism.cells.y)), x, y;

@@ -18,7 +18,8 @@
 namespace awan {
 namespace {
 
-constexpr double kReach = 4;  // in s
+// How far a particle's matter reaches, in standard deviations.
+constexpr double kReach = 4;
 
 void add_particle(const ParticleSet& from, std::size_t i, ParticleSet& to) {
     to.center.push_back(from.center[i]);
@@ -67,82 +68,111 @@ double mass_of(const ParticleSet& particles) {
     return mass;
 }
 
+// What the solves of all islands share.
+struct IslandScene {
+    const Scene& scene;
+    const Islands& islands;
+    const TransportSettings& settings;  // of an island, but for its cells
+    const TransportLight& whole;        // the whole scene on a coarse grid
+    std::vector<ParticleSet> sets{};    // each island's particles
+    std::vector<Neighbour> neighbours{};
+};
+
+IslandScene island_scene(const Scene& scene, const ParticleSet& particles, const Islands& islands,
+                         const TransportSettings& settings, const TransportLight& whole) {
+    IslandScene all{scene, islands, settings, whole};
+    all.sets = sorted_into(particles, islands);
+    all.neighbours.resize(all.sets.size());
+    for (std::size_t i = 0; i < all.sets.size(); ++i)
+        if (all.sets[i].size() > 0) all.neighbours[i] = neighbour_of(all.sets[i]);
+    return all;
+}
+
+// One island's light; not lit where it has no matter or is not seen.
+Result<LightIsland> light_of_island(const IslandScene& all, std::size_t self,
+                                    const IslandCells& cells, int threads,
+                                    const Deadline& deadline) {
+    const Island& box = all.islands.list[self];
+    const ParticleSet& own = all.sets[self];
+    LightIsland island;
+    island.low = box.low;
+    island.high = box.high;
+    if (cells.sun_cells == 0 || !(mass_of(own) > 0)) return island;
+    island.mean_s = box.s_sums[1] / box.s_sums[0];
+    const Lattice prism = sun_lattice(own, sun_direction(all.scene->sun), cells.sun_cells, 1);
+    const ParticleSet with = with_others(all.sets, all.islands.list, self, prism);
+    TransportSettings settings = all.settings;
+    settings.cells = cells.cells;
+    EffectTimes took;
+    SunDepth sun = timed_for(took, Effect::kSelfShadow, [&] { return sun_depth_in(prism, with); });
+    LightPart part{own, with, std::move(sun), box.depth};
+    part.surroundings = surroundings_of(all.scene, all.neighbours, self, all.whole);
+    part.whole = &all.whole;
+    auto solved = light_of_part(all.scene, std::move(part), settings, threads, deadline);
+    if (!solved.ok()) return solved.error();
+    island.light = *std::move(solved);
+    island.light.took.add(took);
+    island.lit = true;
+    return island;
+}
+
+// Adds to the whole's figures what its islands took, each effect's time times `share`.
+void add_figures(TransportLight& light, double share) {
+    for (const LightIsland& island : light.islands) {
+        light.took.add(island.light.took, share);
+        light.sweeps += island.light.sweeps;
+        light.residual = std::max(light.residual, island.light.residual);
+    }
+}
+
+// Indices of the islands, those with the most cells first, so that no thread is left alone with a large one at the end.
+std::vector<std::size_t> largest_first(const std::vector<IslandCells>& islands) {
+    std::vector<std::size_t> order(islands.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return islands[a].cells > islands[b].cells;
+    });
+    return order;
+}
+
 }  // namespace
 
 Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& particles,
                                         const Survey& survey, const TransportSettings& settings,
                                         int threads, const Deadline& deadline) {
-    const glm::dvec3 towards_sun = sun_direction(scene->sun);
     const TransportSettings coarse = whole_settings(settings);
-    const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
-    EffectTimes took;
-    SunDepth sun = timed_for(took, Effect::kSelfShadow, [&] {
-        return sun_depth(particles, towards_sun, coarse.sun_cells, threads);
-    });
-    auto whole = light_of_part(scene, {particles, particles, std::move(sun), deepest, {}, nullptr},
-                               coarse, threads, deadline);
-    if (!whole.ok()) return whole.error();
+    auto whole = light_of_whole(scene, particles, survey, coarse, threads, deadline);
+    if (!whole.ok()) return whole;
     TransportLight& light = *whole;
-    light.took.add(took);
     light.regions = survey.islands;
-    light.islands.resize(settings.islands.size());
 
-    const std::vector<ParticleSet> sets = sorted_into(particles, survey.islands);
-    std::vector<Neighbour> neighbours(sets.size());
-    for (std::size_t i = 0; i < sets.size(); ++i)
-        if (sets[i].size() > 0) neighbours[i] = neighbour_of(sets[i]);
-
-    // The largest first, so that no thread is left alone with it.
-    std::vector<std::size_t> order(sets.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return settings.islands[a].cells > settings.islands[b].cells;
-    });
+    const IslandScene all = island_scene(scene, particles, survey.islands, coarse, light);
+    const std::vector<std::size_t> order = largest_first(settings.islands);
+    std::vector<LightIsland> islands(order.size());
+    // Of few islands, one after the other on all threads.
+    const bool side_by_side = order.size() >= 2 * static_cast<std::size_t>(threads);
     const auto start = Deadline::Clock::now();
-    std::vector<double> own_ms(sets.size());  // of the thread that had it
+    std::vector<double> own_ms(order.size());
     std::mutex mutex;
     std::optional<Error> failed;
-    const int inner = sets.size() < 2 * static_cast<std::size_t>(threads) ? threads : 1;
-    parallel_for(inner > 1 ? 1 : threads, order.size(), [&](std::size_t turn) {
+    parallel_for(side_by_side ? threads : 1, order.size(), [&](std::size_t turn) {
         const std::size_t i = order[turn];
-        const IslandCells& cells = settings.islands[i];
-        LightIsland& island = light.islands[i];
         const auto own_start = Deadline::Clock::now();
-        const Island& box = survey.islands.list[i];
-        island.low = box.low;
-        island.high = box.high;
-        if (cells.sun_cells == 0 || !(mass_of(sets[i]) > 0)) return;
-        island.mean_s = box.s_sums[1] / box.s_sums[0];
-        const Lattice prism = sun_lattice(sets[i], towards_sun, cells.sun_cells, 1);
-        const ParticleSet all = with_others(sets, survey.islands.list, i, prism);
-        TransportSettings own = coarse;
-        own.cells = cells.cells;
-        EffectTimes own_took;
-        SunDepth own_sun =
-            timed_for(own_took, Effect::kSelfShadow, [&] { return sun_depth_in(prism, all); });
-        auto solved = light_of_part(scene,
-                                    {sets[i], all, std::move(own_sun), box.depth,
-                                     surroundings_of(scene, neighbours, i, light), &light},
-                                    own, inner, deadline);
-        if (!solved.ok()) {
+        auto island =
+            light_of_island(all, i, settings.islands[i], side_by_side ? 1 : threads, deadline);
+        if (!island.ok()) {
             const std::lock_guard lock(mutex);
-            failed = solved.error();
+            failed = island.error();
             return;
         }
-        island.light = *std::move(solved);
-        island.light.took.add(own_took);
-        island.lit = true;
-        own_ms[i] = ms_since(own_start);
+        islands[i] = *std::move(island);
+        if (islands[i].lit) own_ms[i] = ms_since(own_start);
     });
     if (failed) return *failed;
-    // Side by side they took less than one after the other.
+    light.islands = std::move(islands);
+    // Each island's time was measured on its own thread; side by side they took less of the clock than their sum.
     const double all_ms = std::accumulate(own_ms.begin(), own_ms.end(), 0.0);
-    const double share = all_ms > 0 ? std::min(1.0, ms_since(start) / all_ms) : 0;
-    for (const LightIsland& island : light.islands) light.took.add(island.light.took, share);
-    for (const LightIsland& island : light.islands) {
-        light.sweeps += island.light.sweeps;
-        light.residual = std::max(light.residual, island.light.residual);
-    }
+    add_figures(light, all_ms > 0 ? std::min(1.0, ms_since(start) / all_ms) : 0);
     return whole;
 }
 

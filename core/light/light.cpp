@@ -16,29 +16,32 @@ namespace awan {
 namespace {
 
 constexpr int kTile = 8;  // texels a side, as in light_columns.glsl
-// Where a particle is cut, in s. What lies beyond, 0.4%, goes to what is within.
+// Where a particle is cut off, in standard deviations. What lies beyond, 0.4% of its mass, is added to what lies
+// within.
 constexpr double kReach = 3.3;
 // Half width, in s, of the smooth step that stands for a Gaussian's mass (light_columns.glsl).
 constexpr double kSpread = 1.88;
 constexpr int kShadowCells = 64;  // along the cloud's longest side, of its shadow on the ground
-constexpr std::uint64_t kMaxEntries =
-    1u << 21;  // about half a second of llvmpipe between looks at the deadline
-constexpr float kSampleDistance =
-    1.2F;  // of the sample points, in s: where most of a particle's mass is
+// List entries of a dispatch: about half a second of llvmpipe between looks at the deadline.
+constexpr std::uint64_t kMaxEntries = 1u << 21;
+// Distance of the sample points from the centre, in standard deviations: where most of a particle's mass is.
+constexpr float kSampleDistance = 1.2F;
 
 struct GpuParticle {
     glm::vec4 place, matter;
 };
 
-// A particle narrower than the grid can see is widened, its optical depth times area kept.
+// A particle on the grid. One that is narrower than the grid can show is widened, and its optical depth times area
+// kept.
 struct OnGrid {
     GpuParticle gpu;
     gl::TileBox tiles;
 };
 
-// Coefficients of light_columns.glsl's start tau / (1 + bend tau), which stands for the gain depth
-// -log(gain + (1 - gain) e^-tau) on lines through a particle whose centre has optical depth
-// `whole`.
+// Of the light on a line through a particle with optical depth tau, gain + (1 - gain) exp(-tau) goes on. That is the
+// transmittance of a depth -log(gain + (1 - gain) exp(-tau)), for which light_columns.glsl takes
+//     start tau / (1 + bend tau);
+// the two agree for thin lines and on the line through the centre, where tau is `whole`.
 struct GainCurve {
     double start, bend;
 };
@@ -46,8 +49,8 @@ struct GainCurve {
 GainCurve gain_curve(double gain, double whole) {
     const double start = 1 - gain;
     if (!(start > 0)) return {0, 0};
-    if (whole < 1e-4)
-        return {start, gain / 2};  // the limit; below, the quotients lose their digits
+    // The limit for thin particles, in which the quotients below lose their digits.
+    if (whole < 1e-4) return {start, gain / 2};
     const double depth = -std::log1p(start * std::expm1(-std::min(whole, 700.0)));
     return {start, std::max(0.0, (start * whole / depth - 1) / whole)};
 }
@@ -82,36 +85,46 @@ struct OneLight {
     bool sky;
 };
 
-// All three steps for one light: two vec4 a particle.
-Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const OneLight& light,
-                                         Device& device, const Deadline& deadline) {
-    const LightGrid grid = light_grid(particles, light.to_light);
-    std::vector<GpuParticle> placed(particles.size());
-    std::vector<gl::TileBox> tiles(particles.size());
-    std::vector<glm::vec4> points(particles.size());
+// The particles as the passes take them.
+struct PlacedParticles {
+    LightGrid grid;
+    std::vector<GpuParticle> particles;
+    std::vector<gl::TileBox> tiles;
+    // Centres on the grid; w: distance of the sample points, scene units.
+    std::vector<glm::vec4> points;
+};
+
+PlacedParticles place_particles(const ParticleSet& particles, const OneLight& light) {
+    PlacedParticles placed;
+    placed.grid = light_grid(particles, light.to_light);
+    placed.particles.resize(particles.size());
+    placed.tiles.resize(particles.size());
+    placed.points.resize(particles.size());
     for (std::size_t i = 0; i < particles.size(); ++i) {
-        const OnGrid on = put_on_grid(particles, i, grid, light.gain);
-        placed[i] = on.gpu;
-        tiles[i] = on.tiles;
-        points[i] =
+        const OnGrid on = put_on_grid(particles, i, placed.grid, light.gain);
+        placed.particles[i] = on.gpu;
+        placed.tiles[i] = on.tiles;
+        placed.points[i] =
             glm::vec4(glm::vec3(on.gpu.place), kSampleDistance * 0.5F * particles.radius[i]);
     }
+    return placed;
+}
 
-    const Device::Programs& programs = device.programs();
-    const glm::ivec3 cells = grid.cells;
-    const gl::TexelBuffer placed_buffer{std::span<const GpuParticle>(placed)};
-    gl::Buffer volume(static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
-                      static_cast<std::size_t>(cells.z) * 2 * sizeof(float));
-    volume.clear();  // columns are worked out only where particles are
-    const auto status = gl::for_each_region(
-        tiles, (cells.x + kTile - 1) / kTile, (cells.y + kTile - 1) / kTile, cells.z / kTile,
+// light_columns: what particles take from the light in each cell of the grid. Only columns of cells with particles in
+// them are worked out; the others stay as they are in `volume`, 0.
+Status fill_columns(const PlacedParticles& placed, Device& device, const Deadline& deadline,
+                    const gl::Buffer& volume) {
+    const glm::ivec3 cells = placed.grid.cells;
+    const gl::TexelBuffer particles{std::span<const GpuParticle>(placed.particles)};
+    return gl::for_each_region(
+        placed.tiles, (cells.x + kTile - 1) / kTile, (cells.y + kTile - 1) / kTile, cells.z / kTile,
         kMaxEntries, 1u << 20, deadline, [&](const gl::TileRegion& region) -> Status {
             const gl::Buffer begin{std::span<const std::uint32_t>(region.begin)};
             const gl::Buffer items{std::span<const std::uint32_t>(region.items)};
             const std::vector<std::uint32_t> filled = region.filled_tiles();
             const gl::Buffer filled_buffer{std::span<const std::uint32_t>(filled)};
-            programs.light_columns.use();
-            placed_buffer.bind(0);
+            device.programs().light_columns.use();
+            particles.bind(0);
             begin.bind(1);
             items.bind(2);
             volume.bind(3);
@@ -128,23 +141,30 @@ Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const One
             }
             return std::nullopt;
         });
-    if (status) return *status;
+}
 
-    programs.light_sums.use();
+// light_sums: from what each cell takes to what reaches it.
+void sum_columns(const glm::ivec3& cells, Device& device, const gl::Buffer& volume) {
+    device.programs().light_sums.use();
     volume.bind(0);
     glUniform3i(0, cells.x, cells.y, cells.z);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glDispatchCompute(static_cast<GLuint>((cells.x * cells.y + 63) / 64), 1, 1);
+}
 
-    const gl::Buffer point_buffer{std::span<const glm::vec4>(points)};
-    std::vector<glm::vec4> samples(2 * particles.size());
+// light_samples: the light at each particle, two vec4 each.
+std::vector<glm::vec4> sample_at_particles(const PlacedParticles& placed, bool sky, Device& device,
+                                           const gl::Buffer& volume) {
+    const LightGrid& grid = placed.grid;
+    const gl::Buffer point_buffer{std::span<const glm::vec4>(placed.points)};
+    std::vector<glm::vec4> samples(2 * placed.points.size());
     const gl::Buffer sample_buffer(samples.size() * sizeof(glm::vec4));
-    programs.light_samples.use();
+    device.programs().light_samples.use();
     point_buffer.bind(0);
     volume.bind(1);
     sample_buffer.bind(2);
-    glUniform3i(0, cells.x, cells.y, cells.z);
-    glUniform1i(1, static_cast<GLint>(particles.size()));
+    glUniform3i(0, grid.cells.x, grid.cells.y, grid.cells.z);
+    glUniform1i(1, static_cast<GLint>(placed.points.size()));
     const auto set_axis = [](GLint location, glm::dvec3 axis, double step) {
         const glm::vec3 a(axis / step);
         glUniform3f(location, a.x, a.y, a.z);
@@ -152,16 +172,30 @@ Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const One
     set_axis(2, grid.u, grid.texel);
     set_axis(3, grid.v, grid.texel);
     set_axis(4, grid.w, grid.slab);
-    glUniform1i(5, light.sky ? 1 : 0);
+    glUniform1i(5, sky ? 1 : 0);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    glDispatchCompute(static_cast<GLuint>((particles.size() + 63) / 64), 1, 1);
+    glDispatchCompute(static_cast<GLuint>((placed.points.size() + 63) / 64), 1, 1);
     sample_buffer.read(samples.data(), samples.size() * sizeof(glm::vec4));
+    return samples;
+}
+
+// All three steps for one light: two vec4 a particle.
+Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const OneLight& light,
+                                         Device& device, const Deadline& deadline) {
+    const PlacedParticles placed = place_particles(particles, light);
+    const glm::ivec3 cells = placed.grid.cells;
+    gl::Buffer volume(static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
+                      static_cast<std::size_t>(cells.z) * 2 * sizeof(float));
+    volume.clear();
+    if (Status failed = fill_columns(placed, device, deadline, volume)) return *failed;
+    sum_columns(cells, device, volume);
+    std::vector<glm::vec4> samples = sample_at_particles(placed, light.sky, device, volume);
     if (auto error = gl::gl_status("the light pass")) return *error;
     if (auto error = deadline.over()) return *error;
     return samples;
 }
 
-// No light of the cloud's own: direct sun and open sky.
+// Lit by the direct sun and the open sky: the cloud's own light is not sent down by these passes.
 GroundLight ground_under(const Scene& scene, const ParticleSet& particles, const Plan& plan) {
     GroundLight ground = bare_ground(*scene);
     if (particles.size() == 0 || !has_ground(*scene, bounds_of(particles))) return ground;

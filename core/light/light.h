@@ -13,38 +13,40 @@
 
 namespace awan {
 
-// Fractions 0..1 of a light's full strength near one particle: value at its centre (w) and gradient
-// over scene units (xyz), so that a fragment can have its own light.
+// Fractions 0..1 of a light's full strength near one particle: the value at its centre (w) and its gradient per scene
+// unit (x y z), so that every fragment of the particle can have its own light.
 struct ParticleLight {
-    glm::vec4 direct;      // sun, not scattered on the way
-    glm::vec4 scattered;   // sun, scattered forward on the way (arrives from about the sun, leaves
-                           // in all directions)
+    glm::vec4 direct;  // of the sun, not scattered on the way
+    // Of the sun, scattered forward on the way: it arrives from about the sun, and is scattered on in all directions.
+    glm::vec4 scattered;
     glm::vec4 from_above;  // upper half of the sky
     glm::vec4 from_below;  // lower half
 };
 
-// View-independent: it may be kept while the camera moves.
+// It does not depend on the view: it may be kept while the camera moves.
 struct Lighting {
-    // One a particle; EMPTY when no light is shadowed: then direct, from_above and from_below are
-    // 1, scattered 0.
+    // One a particle. EMPTY where nothing shadows light: then direct, from_above and from_below are 1, scattered is 0.
     std::vector<ParticleLight> particles;
-    GroundLight ground;  // of a scene that has one, its `shadow` only, as the plan's effects say
+    GroundLight ground;  // of a scene that has one; of what the cloud does to it only the shadow
     EffectTimes took;    // of the passes
 };
 
-// Half angles within which forward-scattered light counts as going on, radians. The sources leave them open: the sun's is
-// chosen by eye between 45 and 90 degrees, the sky's is the hemisphere it shines from.
+// Half angles, radians, within which light that is scattered forward counts as going on. The papers leave them open.
+// The sun's is chosen by eye between 45 and 90 degrees; the sky's is the hemisphere that it shines from.
 inline constexpr double kSunGathering = std::numbers::pi / 3;
 inline constexpr double kSkyGathering = std::numbers::pi / 2;
 
-// The classic recurrence (document 000, eq. 3.12; Harris 2001) from the sun and from the zenith, by
-// the compute passes light_columns, light_sums and light_samples. Skipped when the plan has no self_shadow.
+// The light that reaches each particle past those before it, from the sun and from the zenith. The recurrence is
+// Harris's (2001; Rekawan's eq. 3.12): with T_k the transmittance of particle k and g_k the light that it scatters
+// forward,
+//     I_1 = I_0,     I_k = g_(k-1) + T_(k-1) I_(k-1).
+// It is evaluated on a grid by the compute passes light_columns, light_sums and light_samples; not at all where the
+// plan has no self_shadow.
 //
-// Forward gain: the part of a particle's scattered light that travels on with the light, albedo
-// times the phase function's true fraction (gathering_fraction) within kSunGathering of the beam
-// or, since the sky's light comes from a whole hemisphere, kSkyGathering. Sunlight gained so has
-// been scattered; it is kept apart from the direct beam, because it no longer has the beam's
-// direction. Errors: kOverDeadline, kCancelled, kInternal.
+// As printed, the gain g can make light grow. Here the light that a particle scatters goes on by the albedo times the
+// phase function's true fraction (gathering_fraction) within kSunGathering of the beam; of the sky's light, which comes
+// from a whole hemisphere, within kSkyGathering. Sunlight that was gained so is kept apart from the direct beam,
+// because it no longer has the beam's direction. Errors: kOverDeadline, kCancelled, kInternal.
 Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const Plan& plan,
                        Device& device, const Deadline& deadline);
 

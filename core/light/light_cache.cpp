@@ -1,55 +1,76 @@
 #include "core/light/light_cache.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <bit>
+#include <cstdint>
 
 #include "core/scene/fingerprint.h"
 
 namespace awan {
 
+std::list<LightCache::Entry>::iterator LightCache::at(const std::string& key) {
+    return std::find_if(entries_.begin(), entries_.end(),
+                        [&](const Entry& entry) { return entry.key == key; });
+}
+
+// Summed up anew each time: there are few entries, and a total that is kept beside them could go wrong.
+std::size_t LightCache::used() const {
+    std::size_t sum = 0;
+    for (const Entry& entry : entries_) sum += entry.bytes;
+    return sum;
+}
+
 std::shared_ptr<const TransportLight> LightCache::find(const std::string& key) {
     const std::lock_guard lock(mutex_);
-    const auto at = std::find_if(entries_.begin(), entries_.end(),
-                                 [&](const Entry& entry) { return entry.key == key; });
-    if (at == entries_.end()) return nullptr;
-    entries_.splice(entries_.begin(), entries_, at);
-    return at->light;
+    const auto found = at(key);
+    if (found == entries_.end()) return nullptr;
+    entries_.splice(entries_.begin(), entries_, found);
+    return found->light;
 }
 
 void LightCache::keep(const std::string& key, std::shared_ptr<const TransportLight> light) {
     const std::size_t size = light->bytes();
     const std::lock_guard lock(mutex_);
     if (size > bytes_) return;
-    const auto at = std::find_if(entries_.begin(), entries_.end(),
-                                 [&](const Entry& entry) { return entry.key == key; });
-    if (at != entries_.end()) {  // two requests made it at once
-        used_ -= at->light->bytes();
-        entries_.erase(at);
-    }
-    while (used_ + size > bytes_) {
-        used_ -= entries_.back().light->bytes();
-        entries_.pop_back();
-    }
-    used_ += size;
-    entries_.push_front({key, std::move(light)});
+    // It is here already where two requests for the same light were solved at once.
+    if (const auto same = at(key); same != entries_.end()) entries_.erase(same);
+    while (used() + size > bytes_) entries_.pop_back();
+    entries_.push_front({key, std::move(light), size});
 }
 
 std::size_t LightCache::bytes_in_use() const {
     const std::lock_guard lock(mutex_);
-    return used_;
+    return used();
 }
 
-std::string light_key(const Scene& scene, const TransportSettings& settings,
-                      std::uint64_t variant) {
-    char text[128];
-    std::snprintf(text, sizeof text, ":%llx:%d:%d:%a:%d:%d:%d:%d",
-                  static_cast<unsigned long long>(variant), settings.cells, settings.sun_cells,
-                  settings.tolerance, settings.max_sweeps, settings.sky ? 1 : 0,
-                  settings.ground ? 1 : 0, settings.ground_shadow ? 1 : 0);
-    std::string key = light_fingerprint(scene) + text;
-    for (const IslandCells& island : settings.islands) {
-        std::snprintf(text, sizeof text, ":%d.%d", island.cells, island.sun_cells);
-        key += text;
+// The settings are taken apart by name, so that one that is added to them does not compile until it is in the key.
+std::string light_key(const Scene& scene, const TransportSettings& settings, std::uint64_t variant,
+                      const DetailField* detail) {
+    const auto& [cells, sun_cells, tolerance, max_sweeps, sky, ground, ground_shadow, islands] =
+        settings;
+    std::string key = light_fingerprint(scene);
+    const auto add = [&](std::uint64_t value) { key += ':' + std::to_string(value); };
+    add(variant);
+    add(static_cast<std::uint64_t>(cells));
+    add(static_cast<std::uint64_t>(sun_cells));
+    add(std::bit_cast<std::uint64_t>(tolerance));
+    add(static_cast<std::uint64_t>(max_sweeps));
+    add(sky ? 1 : 0);
+    add(ground ? 1 : 0);
+    add(ground_shadow ? 1 : 0);
+    add(islands.size());
+    for (const auto& [own_cells, own_sun_cells] : islands) {
+        add(static_cast<std::uint64_t>(own_cells));
+        add(static_cast<std::uint64_t>(own_sun_cells));
+    }
+    if (detail != nullptr) {
+        const auto add_number = [&](double value) { add(std::bit_cast<std::uint64_t>(value)); };
+        // The seed of its tile is the scene's, even where each cloud has one of its own.
+        add(scene->seed);
+        for (int axis = 0; axis < 3; ++axis) add_number(detail->origin[axis]);
+        add_number(detail->bump);
+        add_number(detail->edge);
+        add_number(detail->keep);
     }
     return key;
 }

@@ -1,13 +1,14 @@
+// How fast this machine is beside the one on which the forecasts of times were calibrated.
 #pragma once
 
 #include "core/plan/forecast.h"
 
 namespace awan {
 
-// Times a small fixed piece of the transport solve, about 5 ms, the best of five.
+// Times a small fixed piece of the transport solve five times, about 5 ms in all, and takes the best.
 MachineSpeed measure_speed();
 
-// What it takes on the machine on which times were calibrated, ms.
+// What that piece takes on the machine of the calibration, ms.
 inline constexpr double kCalibratedSweepMs = 0.74;
 
 }  // namespace awan

@@ -21,8 +21,8 @@ Ordinates make_ordinates() {
         octant.sign = {(o & 1u) != 0 ? -1 : 1, (o & 2u) != 0 ? -1 : 1, (o & 4u) != 0 ? -1 : 1};
         for (std::size_t d = 0; d < kDirections; ++d) {
             const std::size_t level = d / 4;
-            const double azimuth =
-                (static_cast<double>(d % 4) + 0.5) * std::numbers::pi / 8;  // of 0..pi/2
+            // 0..pi/2
+            const double azimuth = (static_cast<double>(d % 4) + 0.5) * std::numbers::pi / 8;
             const double up = kNode[level], flat = std::sqrt(1 - up * up);
             const glm::dvec3 size(flat * std::sin(azimuth), up, flat * std::cos(azimuth));
             for (int axis = 0; axis < 3; ++axis)

@@ -9,7 +9,7 @@
 namespace awan {
 namespace {
 
-// Levels end where the weights of the quadrature (ordinates.cpp) have added up.
+// Heights at which the levels of the quadrature end: the sums of its weights (ordinates.cpp), from the horizontal up.
 constexpr std::array<double, 5> kEdge = {0, 0.362683783378362, 0.676390429256249, 0.898771463709624,
                                          1};
 constexpr std::size_t kAzimuths = 4;  // of an octant

@@ -6,13 +6,15 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/survey/lattice.h"
 #include "core/survey/lattice_detail.h"
 #include "core/survey/projection.h"
 
 namespace awan {
 namespace {
 
-constexpr double kLeftOut = 0.01;  // optical depth of what the lattice may leave out
+// Optical depth of matter that the lattice may leave outside.
+constexpr double kLeftOut = 0.01;
 
 }  // namespace
 

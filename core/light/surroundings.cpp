@@ -10,7 +10,6 @@
 #include "core/generate/gaussian.h"
 #include "core/light/harmonics.h"
 #include "core/light/legendre.h"
-#include "core/light/sun_depth.h"
 
 namespace awan {
 namespace {
@@ -19,7 +18,7 @@ struct Chord {
     double near, far, extinction;
 };
 
-// Of the ellipsoid with a ray from outside of it; far <= near: none.
+// The part of a ray from outside that lies in the ellipsoid, distances from its start; far <= near: none.
 Chord chord_of(const Neighbour& ball, const glm::dvec3& from, const glm::dvec3& direction) {
     const glm::dvec3 p = (from - ball.center) / ball.half, d = direction / ball.half;
     const double a = glm::dot(d, d), b = glm::dot(p, d), c = glm::dot(p, p) - 1;
@@ -45,7 +44,8 @@ double source_at(const TransportLight& light, const LightBand& band, const glm::
     return std::clamp(sum, 0.0, static_cast<double>(band.most));
 }
 
-// p without its peak, per 4 pi, times the albedo: what the beam's first scattering adds to the source.
+// What the first scattering of the sun's beam adds to the source function, for a scattering angle of cosine mu: with f
+// the share of the peak, albedo sum_l (2 l + 1) (chi_l - f) P_l(mu) / 4 pi, per irradiance.
 double first_scattering(const Medium& medium, double mu, double f) {
     double p[4] = {1, mu, 1.5 * mu * mu - 0.5, 2.5 * mu * mu * mu - 1.5 * mu}, sum = 0;
     for (int l = 0; l < 4; ++l) sum += (2 * l + 1) * (phase_moment(medium, l) - f) * p[l];
@@ -90,7 +90,7 @@ Surroundings surroundings_of(const Scene& scene, const std::vector<Neighbour>& n
                          [](const Chord& a, const Chord& b) { return a.near < b.near; });
         const double f = whole.peak_share, kept = 1 - scene->medium.albedo * f;
         const bool light = band < whole.bands.size();
-        // Bands of the beam have no limit; of white matter the first, of coloured all.
+        // Bands that the sun's beam is in are those without a limit: in grey matter the first, in coloured matter all.
         const bool beam = light && whole.bands[band].most == std::numeric_limits<float>::infinity();
         const std::array<double, kHarmonics> towards = harmonics(direction);
         const double first =

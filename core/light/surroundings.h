@@ -1,4 +1,4 @@
-// What an island sees of the others.
+// What an island sees of the others (islands.h).
 #pragma once
 
 #include <vector>
@@ -13,11 +13,12 @@ struct Neighbour {
     double extinction = 0;          // mean, 1/unit
 };
 
-// Mass-weighted mean and spread of the particles: a uniform ellipsoid has the same.
+// The uniform ellipsoid with the same mass, centre and spread along the axes as the particles.
 Neighbour neighbour_of(const ParticleSet& particles);
 
-// Light that reaches the middle of island `self` past and from the others, which shine as `whole` (a solve of the whole scene)
-// says where a ray has come one mean free path into them. `neighbours` and `whole` must outlive it.
+// The light that reaches the middle of island `self`: what the others let through, and what they send. They shine by
+// the source function that `whole`, a coarse solve of the whole scene, has where a ray has come one mean free path into
+// them, or in the middle of what is thinner. `scene`, `neighbours` and `whole` must outlive the result.
 Surroundings surroundings_of(const Scene& scene, const std::vector<Neighbour>& neighbours,
                              std::size_t self, const TransportLight& whole);
 

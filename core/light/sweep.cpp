@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstring>
 
+#include "core/base/instruction_sets.h"
 #include "core/base/parallel.h"
 
 namespace awan {
@@ -13,11 +14,11 @@ namespace {
 using Lanes = float __attribute__((vector_size(64)));
 static_assert(kDirections == 16);
 
-// By reference: passed by value, a Lanes would change the ABI between the clones below.
-inline __attribute__((always_inline)) void load(Lanes& to, const float* from) {
+// By reference: passed by value, a Lanes would change the ABI between the instruction sets.
+AWAN_INLINE void load(Lanes& to, const float* from) {
     std::memcpy(&to, from, sizeof to);
 }
-inline __attribute__((always_inline)) void store(float* to, const Lanes& from) {
+AWAN_INLINE void store(float* to, const Lanes& from) {
     std::memcpy(to, &from, sizeof from);
 }
 
@@ -37,26 +38,77 @@ struct Task {
     float* moments;       // added to
     float* row;           // radiance into the next cell along y: 16 floats a cell of a row
     float* layer;         // into the next along z: 16 floats a cell of a layer
-    // Instead of `inflow`, of each cell of the faces where light enters: 16 floats each. Null: the same everywhere.
+    // Instead of `inflow`: what enters each cell of the three faces that face the light, 16 floats each. Null: `inflow`
+    // everywhere.
     const float *face_x = nullptr, *face_y = nullptr, *face_z = nullptr;
 };
 
-inline __attribute__((always_inline)) void fill(float* to, std::size_t count, const Lanes& value) {
+AWAN_INLINE void fill(float* to, std::size_t count, const Lanes& value) {
     for (std::size_t i = 0; i < count; ++i) store(to + i * kDirections, value);
 }
 
-// kHarmonics: 1 or 16.
+// |cosines| of the 16 directions to the axes.
+struct Cosines {
+    Lanes x, y, z;
+};
+
+// The light's way through one cell. psi_x, psi_y, psi_z: radiance that enters through the faces across x, y and z, and
+// on return what leaves through those opposite; psi: the mean over the cell. With c the cosine to an axis, s the depth
+// of the cell's side, q the source:
+//     sum over axes of c (psi_out - psi_in) + s psi = q,     psi = theta psi_out + (1 - theta) psi_in along each axis,
+//     theta = (3 + tau) / (6 + tau), tau = s / c,     so 1 / theta = (6 c + s) / (3 c + s).
+// The factors 1 / theta (tx, ty, tz) share one division. psi_x comes last from the cell before: all that can be is
+// computed without it.
+AWAN_INLINE void pass_cell(const Cosines& c, float s, const Lanes& q, Lanes& psi_x, Lanes& psi_y,
+                           Lanes& psi_z, Lanes& psi) {
+    const Lanes ax = 3 * c.x + s, ay = 3 * c.y + s, az = 3 * c.z + s;
+    const Lanes inverse = 1 / (ax * ay * az);
+    const Lanes tx = (ax + 3 * c.x) * (ay * az) * inverse;
+    const Lanes ty = (ay + 3 * c.y) * (ax * az) * inverse;
+    const Lanes tz = (az + 3 * c.z) * (ax * ay) * inverse;
+    const Lanes wx = c.x * tx, wy = c.y * ty, wz = c.z * tz;
+    const Lanes share = 1 / (s + wx + wy + wz);
+    const Lanes others = q + wy * psi_y + wz * psi_z;
+    psi = (others + wx * psi_x) * share;
+    psi_x += (psi - psi_x) * tx;
+    psi_y += (psi - psi_y) * ty;
+    psi_z += (psi - psi_z) * tz;
+}
+
+// Adds the moments of 16 directions' radiance: sum of weight * Y_i * psi.
 template <int kHarmonics>
-inline __attribute__((always_inline)) void walk_octant(const Task& task) {
+AWAN_INLINE void add_moments(const Ordinates::Octant& octant, const Lanes& psi, float* to) {
+    alignas(64) float out[kDirections];
+    store(out, psi);
+    if constexpr (kHarmonics == 16) {
+        Lanes sum;
+        load(sum, to);
+        for (std::size_t d = 0; d < kDirections; ++d) {
+            Lanes weighted;
+            load(weighted, octant.weighted[d].data());
+            sum += out[d] * weighted;
+        }
+        store(to, sum);
+    } else {
+        float sum = 0;
+        for (std::size_t d = 0; d < kDirections; ++d) sum += out[d] * octant.weighted[d][0];
+        to[0] += sum;
+    }
+}
+
+// All cells in the order in which an octant's light meets them. kHarmonics: 1 or 16.
+template <int kHarmonics>
+AWAN_INLINE void walk_octant(const Task& task) {
     const glm::ivec3 n = task.grid.cells;
-    Lanes cx, cy, cz, in;
-    load(cx, task.ordinates.cosine[0].data());
-    load(cy, task.ordinates.cosine[1].data());
-    load(cz, task.ordinates.cosine[2].data());
+    const auto nx = static_cast<std::size_t>(n.x), ny = static_cast<std::size_t>(n.y);
+    Cosines cosines;
+    Lanes in;
+    load(cosines.x, task.ordinates.cosine[0].data());
+    load(cosines.y, task.ordinates.cosine[1].data());
+    load(cosines.z, task.ordinates.cosine[2].data());
     load(in, task.inflow);
     Lanes value[kHarmonics];
     for (std::size_t m = 0; m < kHarmonics; ++m) load(value[m], task.octant.value[m].data());
-    const auto nx = static_cast<std::size_t>(n.x), ny = static_cast<std::size_t>(n.y);
     if (task.face_z != nullptr)
         std::copy_n(task.face_z, nx * ny * kDirections, task.layer);
     else
@@ -70,73 +122,38 @@ inline __attribute__((always_inline)) void walk_octant(const Task& task) {
         else
             fill(task.row, nx, in);
         for (int j = walk_y.begin; j != walk_y.end; j += walk_y.step) {
-            Lanes psi_x = in;
             const std::size_t across = static_cast<std::size_t>(j) * nx;
-            const std::size_t line = static_cast<std::size_t>(k) * ny * nx + across;
-            if (task.face_x != nullptr)
-                load(psi_x, task.face_x +
-                                (static_cast<std::size_t>(k) * ny + static_cast<std::size_t>(j)) *
-                                    kDirections);
+            const std::size_t line = static_cast<std::size_t>(k) * ny + static_cast<std::size_t>(j);
+            Lanes psi_x = in;
+            if (task.face_x != nullptr) load(psi_x, task.face_x + line * kDirections);
             for (int i = walk_x.begin; i != walk_x.end; i += walk_x.step) {
                 const auto column = static_cast<std::size_t>(i);
-                const std::size_t cell = line + column;
+                const std::size_t cell = line * nx + column;
                 float* const row = task.row + column * kDirections;
                 float* const layer = task.layer + (across + column) * kDirections;
-                Lanes psi_y, psi_z;
+                Lanes psi_y, psi_z, psi;
                 load(psi_y, row);
                 load(psi_z, layer);
-
                 const float* from = task.source + cell * kHarmonics;
                 Lanes q = from[0] * value[0];
                 for (std::size_t m = 1; m < kHarmonics; ++m) q += from[m] * value[m];
-
-                // theta = (3 + tau) / (6 + tau), tau = depth / |cosine|: 1 / theta = (6c + s) / (3c + s).
-                const float s = task.grid.depth[cell];
-                const Lanes ax = 3 * cx + s, ay = 3 * cy + s, az = 3 * cz + s;
-                const Lanes inverse = 1 / (ax * ay * az);
-                const Lanes tx = (ax + 3 * cx) * (ay * az) * inverse;
-                const Lanes ty = (ay + 3 * cy) * (ax * az) * inverse;
-                const Lanes tz = (az + 3 * cz) * (ax * ay) * inverse;
-                const Lanes wx = cx * tx, wy = cy * ty, wz = cz * tz;
-                // psi_x comes from the cell before: all else is ready by then.
-                const Lanes share = 1 / (s + wx + wy + wz);
-                const Lanes others = q + wy * psi_y + wz * psi_z;
-                const Lanes psi = (others + wx * psi_x) * share;
-                psi_x += (psi - psi_x) * tx;
-                psi_y += (psi - psi_y) * ty;
-                psi_z += (psi - psi_z) * tz;
+                pass_cell(cosines, task.grid.depth[cell], q, psi_x, psi_y, psi_z, psi);
                 store(row, psi_y);
                 store(layer, psi_z);
-
-                float* const to = task.moments + cell * kHarmonics;
-                alignas(64) float out[kDirections];
-                store(out, psi);
-                if constexpr (kHarmonics == 16) {
-                    Lanes sum;
-                    load(sum, to);
-                    for (std::size_t d = 0; d < kDirections; ++d) {
-                        Lanes weighted;
-                        load(weighted, task.octant.weighted[d].data());
-                        sum += out[d] * weighted;
-                    }
-                    store(to, sum);
-                } else {
-                    float sum = 0;
-                    for (std::size_t d = 0; d < kDirections; ++d)
-                        sum += out[d] * task.octant.weighted[d][0];
-                    to[0] += sum;
-                }
+                add_moments<kHarmonics>(task.octant, psi, task.moments + cell * kHarmonics);
             }
         }
     }
 }
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void walk_16(const Task& task) {
+AWAN_INLINE void walk_16_body(const Task& task) {
     walk_octant<16>(task);
 }
-__attribute__((target_clones("avx512f", "avx2", "default"))) void walk_1(const Task& task) {
+AWAN_INLINE void walk_1_body(const Task& task) {
     walk_octant<1>(task);
 }
+AWAN_KERNEL(void, walk_16, (const Task& task), (task))
+AWAN_KERNEL(void, walk_1, (const Task& task), (task))
 
 // What enters an octant's three faces: along x (y fastest, then z), y (x, then z) and z (x, then y).
 struct Faces {
@@ -166,12 +183,15 @@ Faces faces_of(const glm::ivec3& n, const Ordinates::Octant& octant, const float
 constexpr std::size_t kGroups = 4;
 static_assert(std::tuple_size_v<decltype(SweepSpace::sums)> == kGroups);
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void add_groups(
-    const SweepSpace& space, std::size_t at, std::size_t count, float* to) {
+AWAN_INLINE void add_groups_body(const SweepSpace& space, std::size_t at, std::size_t count,
+                                 float* to) {
     const float *a = space.sums[0].data() + at, *b = space.sums[1].data() + at,
                 *c = space.sums[2].data() + at, *d = space.sums[3].data() + at;
     for (std::size_t i = 0; i < count; ++i) to[i] = (a[i] + b[i]) + (c[i] + d[i]);
 }
+AWAN_KERNEL(void, add_groups,
+            (const SweepSpace& space, std::size_t at, std::size_t count, float* to),
+            (space, at, count, to))
 
 }  // namespace
 

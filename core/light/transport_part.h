@@ -7,8 +7,8 @@
 
 namespace awan {
 
-// Radiance that reaches a part along `direction` (unit, the way the light goes) in the units of band `band`, where the open
-// sky would send `sky`.
+// Radiance that reaches a part along `direction` (unit, the way the light goes), in units of the colour of band `band`,
+// where the open sky would send `sky`.
 using Surroundings =
     std::function<double(std::size_t band, const glm::dvec3& direction, double sky)>;
 
@@ -16,9 +16,9 @@ struct LightPart {
     const ParticleSet& own;  // the grid goes around these; not empty, with mass
     const ParticleSet& all;  // and holds what of these lies in it
     SunDepth sun;
-    double deepest = 0;         // optical depth of the longest line towards the lights
-    Surroundings surroundings;  // empty: the open sky
-    // The solve of the whole scene, of which this is a part; null: this is all. Bands come in its order.
+    double deepest = 0;           // optical depth of the longest line towards the sun or the zenith
+    Surroundings surroundings{};  // empty: the open sky
+    // The solve of the whole scene, of which this is a part: the part's bands come in its order. Null: this is all.
     const TransportLight* whole = nullptr;
 };
 
@@ -26,5 +26,10 @@ struct LightPart {
 Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
                                      const TransportSettings& settings, int threads,
                                      const Deadline& deadline);
+
+// The whole scene as one part. Precondition: the particles have mass.
+Result<TransportLight> light_of_whole(const Scene& scene, const ParticleSet& particles,
+                                      const Survey& survey, const TransportSettings& settings,
+                                      int threads, const Deadline& deadline);
 
 }  // namespace awan

@@ -15,17 +15,28 @@
 namespace awan {
 namespace {
 
+using ellipsoids::blur_along;
+using ellipsoids::blur_of_blob;
+using ellipsoids::opacity;
+using ellipsoids::texture_at;
+using ellipsoids::TextureValue;
+using ellipsoids::threshold_at;
+
 using namespace gardner;
 
-constexpr int kTile = 16;         // pixels
-constexpr double kUnseen = 1e-4;  // of what is left of the light from behind
-constexpr double kHalfPixel =
-    0.35;  // standard deviation of what a pixel sees, pixels; a square has .29
-constexpr double kFarthest = 1e15;  // scene units: the plane's horizon
+// The side of a tile, pixels.
+constexpr int kTile = 16;
+// A ray ends where less than this share of the light from behind is left.
+constexpr double kUnseen = 1e-4;
+// The standard deviation of what a pixel sees, in pixels. A square has .29.
+constexpr double kHalfPixel = 0.35;
+// How far along a ray the plane is drawn, scene units: its horizon.
+constexpr double kFarthest = 1e15;
 
 struct Surface {
     double distance;
-    std::size_t index;  // of an ellipsoid; a plane's is its cloud's, after all ellipsoids
+    // That of its ellipsoid. A plane has that of its cloud, counted on from the last ellipsoid.
+    std::size_t index;
     SphereHit hit;
 };
 
@@ -36,7 +47,8 @@ struct Picture {
     Whites whites;
     glm::dvec3 to_sun;
     double pixel_angle;
-    std::optional<double> ground;  // its height, where the eye is above it
+    // The ground's height, where there is one and the eye is above it.
+    std::optional<double> ground;
 };
 
 // What stands in front: premultiplied radiance, and the share that it lets through.
@@ -77,7 +89,8 @@ void shade_plane(const Picture& picture, const SeenCloud& cloud, double distance
                  const glm::dvec3& direction, Veil& veil) {
     const Motion& motion = cloud.motion;
     const glm::dvec3 at = motion.back(picture.view.eye + distance * direction);
-    // A pixel's footprint: across the ray, and along it, longer by 1 / sine of the ray's height.
+    // A pixel's footprint on the plane: across the ray, and along it, where it is longer by 1 / sine of the ray's
+    // elevation.
     const double level = std::sqrt(direction.x * direction.x + direction.z * direction.z);
     const double cos = level > 0 ? direction.x / level : 1,
                  sin = level > 0 ? direction.z / level : 0;
@@ -95,7 +108,7 @@ void shade_plane(const Picture& picture, const SeenCloud& cloud, double distance
     const SkyPlane& plane = *cloud.model->plane;
     const double opaque = opacity(value, plane.threshold, plane.range);
     if (!(opaque > 0)) return;
-    // Lit from above also where it is seen from below: it is thin.
+    // Lit from above even where it is seen from below: it is thin.
     const glm::dvec3 normal(0, 1, 0);
     const SineShading& shading = cloud.model->shading;
     const double i =
@@ -119,7 +132,7 @@ Veil seen_along(const Picture& picture, const glm::dvec3& direction,
                             frame.ellipsoids.size() + k,
                             {}});
     }
-    // By distance; where two are as far, in the order of the document, whatever the threads.
+    // Sorted by distance; where two are as far, in the order of the scene, whatever the threads.
     std::sort(surfaces.begin(), surfaces.end(), [](const Surface& a, const Surface& b) {
         return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
     });
@@ -137,7 +150,7 @@ Veil seen_along(const Picture& picture, const glm::dvec3& direction,
     return veil;
 }
 
-// Ellipsoids that may show in a tile, then its pixels.
+// Finds the ellipsoids that may show in a tile, then draws its pixels.
 void draw_tile(const Picture& picture, int tile_x, int tile_y, Image& image) {
     const int x0 = tile_x * kTile, y0 = tile_y * kTile;
     const int x1 = std::min(x0 + kTile, image.width), y1 = std::min(y0 + kTile, image.height);
@@ -198,8 +211,8 @@ Result<Image> gardner_look(const Scene& scene, const View& view, int threads,
 }
 
 double gardner_look_ms(const Scene& scene, const View& view, int threads) {
-    // Measured (tests/bench/ellipsoids_bench): nanoseconds for a pixel and its background, for a ray and an ellipsoid
-    // that may be in its way, for one that is and is shaded, and for a plane.
+    // Measured (tests/bench/ellipsoids_bench), in nanoseconds: a pixel and its background; a ray and an ellipsoid
+    // that may be in its way; one that is and is shaded; a plane.
     constexpr double kPixel = 90, kTest = 12, kShade = 250, kPlane = 350;
     const Frame frame = frame_of(scene, view, false);
     double boxes = 0;
@@ -210,7 +223,7 @@ double gardner_look_ms(const Scene& scene, const View& view, int threads) {
     for (const SeenCloud& cloud : frame.clouds) planes += cloud.plane_height ? 1 : 0;
     const double pixels =
         static_cast<double>(scene->image.width) * static_cast<double>(scene->image.height);
-    // An ellipse fills .79 of its box; of many in a row only the first few are shaded.
+    // An ellipse fills .79 of its box. Of many ellipsoids in a row only the first few are shaded.
     const double met = std::min(0.79 * boxes, 6 * pixels);
     return (pixels * (kPixel + kPlane * planes) + boxes * kTest + met * kShade) * 1e-6 /
            std::max(threads, 1);

@@ -26,7 +26,7 @@ double specular(const glm::dvec3& normal, const glm::dvec3& to_sun, const glm::d
 std::optional<SphereHit> hit(const UnitSphere& sphere, const glm::dvec3& direction) {
     const glm::dvec3 d = sphere.to_unit * direction;
     const double squared = glm::dot(d, d);
-    // By the cross product: b keeps its digits from far away, where the eye's distance squared has none left.
+    // b^2 by the cross product. From far away it keeps its digits, while the eye's distance squared has none left.
     const glm::dvec3 across = glm::cross(sphere.eye, d);
     const double limb = 1 - glm::dot(across, across) / squared;
     if (!(limb > 0)) return std::nullopt;
@@ -35,14 +35,14 @@ std::optional<SphereHit> hit(const UnitSphere& sphere, const glm::dvec3& directi
     double distance = middle - half;
     if (!(distance > 0)) distance = middle + half;
     if (!(distance > 0)) return std::nullopt;
-    // The two from the point nearest to the centre, each with its own digits.
+    // The two meetings from the point nearest to the centre, each with digits of its own.
     const glm::dvec3 nearest = glm::cross(d, across) / squared;
     const glm::dvec3 at = nearest + (distance < middle ? -half : half) * d;
     return SphereHit{distance, at / glm::length(at), limb};
 }
 
 std::optional<LimbCurve> limb_on_picture(const UnitSphere& sphere, const View& view) {
-    // |eye x d|^2 < |d|^2 inside of the silhouette, d linear in x and z.
+    // Inside of the silhouette |eye x d|^2 < |d|^2, where d is linear in x and z.
     const glm::dvec3 base = sphere.to_unit * view.forward, x = sphere.to_unit * view.right,
                      z = sphere.to_unit * view.up;
     const auto form = [&](const glm::dvec3& a, const glm::dvec3& b) {

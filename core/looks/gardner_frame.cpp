@@ -10,9 +10,13 @@
 namespace awan::gardner {
 namespace {
 
+using ellipsoids::placed_ellipsoids;
+using ellipsoids::texture_function;
+
 UnitSphere sphere_of(const PlacedEllipsoid& one, const Motion& motion, const glm::dvec3& eye) {
     UnitSphere sphere;
-    // Columns: where the scene's axes go. Motion::back without its translation, then the ellipsoid's own turn and radii.
+    // By columns: where the scene's axes go. It is Motion::back without its translation, then the ellipsoid's own
+    // turn and radii.
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 e(0);
         e[axis] = 1;
@@ -27,8 +31,8 @@ UnitSphere sphere_of(const PlacedEllipsoid& one, const Motion& motion, const glm
     return sphere;
 }
 
-// Where the ellipsoid may show, from its dual conic: tangent lines x = const are the roots of a quadratic. A pixel is added on every
-// side.
+// The pixels where the ellipsoid may show, from its dual conic: the tangent lines x = const are the roots of a
+// quadratic. A pixel is added on every side.
 PixelBox box_of(const PlacedEllipsoid& one, const Motion& motion, const View& view, int width,
                 int height) {
     const PixelBox all{0, 0, width - 1, height - 1};
@@ -39,7 +43,7 @@ PixelBox box_of(const PlacedEllipsoid& one, const Motion& motion, const View& vi
         e[axis] = 1;
         axes[static_cast<std::size_t>(axis)] = motion(one.from_unit(e)) - motion(one.center);
     }
-    // Half of its width along a vector.
+    // Half of the ellipsoid's width along a vector is the root of its product with itself.
     const auto product = [&](const glm::dvec3& a, const glm::dvec3& b) {
         double sum = 0;
         for (const glm::dvec3& axis : axes) sum += glm::dot(axis, a) * glm::dot(axis, b);
@@ -49,7 +53,8 @@ PixelBox box_of(const PlacedEllipsoid& one, const Motion& motion, const View& vi
     const double deep = product(view.forward, view.forward);
     const double reach = std::sqrt(deep);
     if (ahead + reach <= 0) return {};
-    if (!(ahead - reach > 1e-6 * reach)) return all;  // around the eye or beside it
+    // It is around the eye or beside it.
+    if (!(ahead - reach > 1e-6 * reach)) return all;
     const auto tangents = [&](const glm::dvec3& side, double& low, double& high) {
         const double a = ahead * ahead - deep;
         const double b = ahead * glm::dot(center, side) - product(view.forward, side);
@@ -61,7 +66,8 @@ PixelBox box_of(const PlacedEllipsoid& one, const Motion& motion, const View& vi
     double left = 0, right = 0, bottom = 0, top = 0;
     tangents(view.right, left, right);
     tangents(view.up, bottom, top);
-    const auto pixel = [](double share, int count) {  // of 0..1 across the picture
+    // From a share 0..1 of the picture's width or height to a pixel.
+    const auto pixel = [](double share, int count) {
         const double at = share * count;
         return static_cast<int>(std::floor(std::clamp(at, -2.0, count + 1.0)));
     };
@@ -76,7 +82,7 @@ PixelBox box_of(const PlacedEllipsoid& one, const Motion& motion, const View& vi
     return box;
 }
 
-// The search for k takes up to a millisecond, and many clouds have one texture.
+// Textures that are ready: the search for k takes up to a millisecond, and many clouds have one texture.
 struct MadeTexture {
     SineTexture texture;
     bool in_space;
@@ -84,7 +90,8 @@ struct MadeTexture {
 };
 TextureFunction ready(const SineTexture& texture, bool in_space, const glm::dvec3& shift,
                       std::vector<MadeTexture>& made) {
-    constexpr std::size_t kKept = 8;  // of the latest
+    // How many of the latest are kept.
+    constexpr std::size_t kKept = 8;
     auto known = std::find_if(made.begin(), made.end(), [&](const MadeTexture& one) {
         return one.in_space == in_space && one.texture == texture;
     });
@@ -116,7 +123,7 @@ Frame frame_of(const Scene& scene, const View& view, bool textures) {
             seen.plane_height = seen.motion.translate.y + cloud.scale * model.plane->altitude;
         }
         frame.clouds.push_back(seen);
-        // The key of generate(): the same ellipsoids as in the volume.
+        // The same key as in generate(), so the same ellipsoids as in the volume.
         const std::uint64_t key = keyed(cloud.seed.value_or(scene->seed), k);
         for (const PlacedEllipsoid& one : placed_ellipsoids(model, key)) {
             const PixelBox box =
@@ -129,7 +136,8 @@ Frame frame_of(const Scene& scene, const View& view, bool textures) {
 }
 
 Whites whites_of(const Scene& scene) {
-    constexpr double kCloudReflectance = 0.5;  // as core/formats' automatic exposure has it
+    // As in automatic exposure (core/formats/image_file.cpp).
+    constexpr double kCloudReflectance = 0.5;
     constexpr double kPi = 3.14159265358979324;
     const Outside outside = outside_of(scene);
     const glm::dvec3 sky =
@@ -138,7 +146,7 @@ Whites whites_of(const Scene& scene) {
     whites.sunlit = kCloudReflectance / kPi * outside.sun + sky;
     whites.ambient = whites.sunlit;
     const double bright = luminance(whites.sunlit), blue = luminance(sky);
-    // Half way to the sky's hue: the rest is light from the cloud's own lit sides and from the ground.
+    // Half way to the sky's hue. The other half is light from the cloud's own lit sides and from the ground.
     if (blue > 0) whites.ambient = 0.5 * whites.sunlit + 0.5 * (bright / blue) * sky;
     return whites;
 }

@@ -1,21 +1,21 @@
-// Pictures by the rules of published systems instead of by light (scene field `look`): how a cloud was drawn there, for the looks
-// of it. They have no rungs and no error against the truth. The clouds are all of the model that the look belongs to
-// (validate), and stand where their transform and the scene's time put them.
+// Pictures by the rules of published systems instead of by light (scene field `look`): what a cloud looked like
+// there. They have no rungs and no error against the truth. All clouds of the scene are of the model that the look
+// belongs to (validate() sees to it), and stand where their transform and the scene's time put them.
 #pragma once
 
 #include "core/base/deadline.h"
+#include "core/base/image.h"
 #include "core/base/result.h"
-#include "core/draw/image.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
 
 namespace awan {
 
-// Threads do not show in the result. Errors: kOverDeadline, kCancelled.
+// Draws the scene's look. Threads do not show in the result. Errors: kOverDeadline, kCancelled.
 Result<Image> draw_look(const Scene& scene, const View& view, int threads,
                         const Deadline& deadline);
 
-// About what it will take, wall clock.
+// About how long it will take, wall clock.
 double look_time_ms(const Scene& scene, const View& view, int threads);
 
 // The two of them, each in its own files.

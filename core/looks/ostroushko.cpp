@@ -1,9 +1,9 @@
-// The picture of Ostroushko et al. (document 003): rays through the hierarchy of spheres, front to back. Each sphere lets
-// T f + 1 - f through (equations 1-3) and shows its bump-mapped surface (equation 4) for the rest. Spheres above a level bound
-// those below, and one that looks smaller than a pixel is a leaf.
+// The picture of Ostroushko et al. 2010: rays through the hierarchy of spheres, front to back. Each sphere lets T f +
+// 1 - f through (1)-(3) and shows its bump-mapped surface (4) for the rest. Spheres of a level bound those below, and
+// one that looks smaller than a pixel is a leaf.
 //
-// Ours, where the source says nothing: light (sun and sky on a diffuse surface, as it reaches a sphere through the upper levels
-// of all clouds), a ground that hides, and a tile's rays going down the tree together.
+// Ours, where the paper says nothing: light (sun and sky on a diffuse surface, as it reaches a sphere through the
+// upper levels of all clouds), a ground that hides, and a tile's rays going down the tree together.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -56,8 +56,9 @@ Result<Image> ostroushko_look(const Scene& scene, const View& view, int threads,
     return image;
 }
 
-// Measured on one thread at 2.1 GHz, pictures of 800 x 600 (tests/bench/spheres_bench): a pixel of sky, one of cloud, and the
-// spheres that are gone down to, of which many more than few lie hidden or in one pixel: as the root of their number.
+// Measured on one thread at 2.1 GHz, pictures of 800 x 600 (tests/bench/spheres_bench), in milliseconds: a pixel of
+// sky, a pixel of cloud, and the spheres that rays go down to. Of many spheres more lie hidden or in one pixel than
+// of few, so these count by the root of their number.
 double ostroushko_look_ms(const Scene& scene, const View& view, int threads) {
     constexpr double kSky = 0.25e-3, kCovered = 1.5e-3, kSpheres = 1.3;
     const double pixels =
@@ -71,7 +72,7 @@ double ostroushko_look_ms(const Scene& scene, const View& view, int threads) {
         const double across =
             2 * radius / std::max(distance, radius) / (2 * view.tan_half_fov) * scene->image.height;
         covered += 0.3 * across * across;
-        // Of five a level as many as are larger than a pixel: 2.6 is the dimension of the default cumulus.
+        // Of the five a level, as many as are larger than a pixel. 2.6 is the dimension of the default cumulus.
         spheres += std::min(std::pow(5.0, static_cast<double>(cloud.spheres->levels)),
                             std::pow(across, 2.6));
     }

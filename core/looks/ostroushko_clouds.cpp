@@ -10,11 +10,16 @@
 namespace awan::looks {
 namespace {
 
-// 781 spheres: their shadows are as soft as light that has been scattered on is.
+using spheres::cluster_moments;
+using spheres::ClusterMoments;
+using spheres::extinction_of;
+using spheres::SphereNode;
+
+// 781 spheres. Their shadows are as soft as those of light that has been scattered on.
 constexpr int kUpperLevels = 4;
 
-// A ray meets 5 E(I_j^2) times as many spheres at each level. Where that runs away (large ratios), levels that would give it
-// more than this are not told apart: all of them are cloud everywhere.
+// A ray meets 5 E(I_j^2) times as many spheres at each level. Where that runs away (large ratios), the levels that
+// would make it more than this are not told apart: they are cloud everywhere.
 constexpr double kMostHits = 1000;
 
 int told_apart(const SphereTree& tree) {
@@ -55,7 +60,7 @@ LookCloud look_cloud(const Scene& scene, std::size_t k, const glm::dvec3& eye) {
         {},
         0};
     made.levels = told_apart(made.tree);
-    // Its mass over that of a sphere of its own extinction: the mean depth is in proportion.
+    // A cluster's mass over that of a sphere of its own extinction; the mean depth is in proportion.
     for (const ClusterMoments& moments : cluster_moments(made.tree))
         made.thinning.push_back(moments.mass);
     made.thinning.push_back(made.thinning.back() *
@@ -65,7 +70,7 @@ LookCloud look_cloud(const Scene& scene, std::size_t k, const glm::dvec3& eye) {
     return made;
 }
 
-// Down from sphere `index` of `level`; what is left of the light.
+// The share of light that is left after sphere `index` of `level` and what lies below it.
 double through_upper(const LookCloud& cloud, std::size_t index, int level, const glm::dvec3& from,
                      const glm::dvec3& direction, double sigma) {
     constexpr double kDark = 1e-3;

@@ -1,5 +1,5 @@
-// The clouds of a scene as the look of Ostroushko et al. sees them (document 003; core/generate/spheres/subdivision.h): where they
-// stand, how finely they are seen, and how much light comes through their upper levels.
+// The clouds of a scene as the look of Ostroushko et al. 2010 sees them (core/generate/spheres/subdivision.h): where
+// they stand, how finely they are seen, and how much light comes through their upper levels.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,18 @@
 
 namespace awan::looks {
 
-// A ray from the origin; direction unit. From `begin` on.
+using spheres::Sphere;
+using spheres::SphereTree;
+
+// Where a ray from the origin meets a sphere.
 struct SphereHit {
-    double enter = 0, leave = 0;  // distances along the ray; enter >= 0: an eye inside begins at 0
-    double middle = 0;            // d: from the sphere's centre to the line
+    // Distances along the ray. enter >= 0: for an eye inside, the sphere begins at 0.
+    double enter = 0, leave = 0;
+    // d: the distance from the sphere's centre to the ray's line.
+    double middle = 0;
 };
-// The source's equations 5, 6. c: centre, radius > 0. False: missed, or behind.
+// Ostroushko et al. 2010 (5), (6). c: the centre; radius > 0; direction: unit. False: the ray misses, or the sphere
+// is behind.
 inline bool meets(const glm::dvec3& c, double radius, const glm::dvec3& direction, SphereHit& hit) {
     const double along = c.x * direction.x + c.y * direction.y + c.z * direction.z;
     const glm::dvec3 beside = c - along * direction;
@@ -33,30 +39,36 @@ inline bool meets(const glm::dvec3& c, double radius, const glm::dvec3& directio
     return true;
 }
 
-// Equations 1-3: T f + 1 - f, T = exp(-sigma l), f = 1 - d/r; l is the path in the sphere, d its middle's distance. 0..1.
+// The share of light that a sphere lets through, 0..1. Ostroushko et al. 2010 (1)-(3): T f + 1 - f, T = exp(-sigma
+// l), f = 1 - d/r, where l is the ray's path in the sphere and d the distance of its line from the centre.
 double through(const SphereHit& hit, double radius, double sigma);
 
+// A cloud as the look sees it.
 struct LookCloud {
     SphereTree tree;
     Motion motion;
-    glm::dvec3 eye;  // in the cloud's own coordinates
-    double sigma;    // extinction in it, 1/unit of the scene
-    int levels;      // that are told apart; at most the tree's
-    // Element n: share of the depth of a sphere that is left where the leaves n levels below stand for it.
+    // In the cloud's own coordinates.
+    glm::dvec3 eye;
+    // Extinction in the cloud, 1/unit of the scene.
+    double sigma;
+    // How many levels are told apart; at most the tree's.
+    int levels;
+    // Element n: the share of a sphere's depth that is left where the leaves n levels below stand for it.
     std::vector<double> thinning;
-    // The upper levels down to `upper_levels`, children of sphere i at 5 i + 1 .. 5 i + 5.
+    // The upper levels, down to `upper_levels`; the children of sphere i are 5 i + 1 .. 5 i + 5.
     std::vector<Sphere> upper;
     int upper_levels;
 };
 
+// The clouds of a scene, seen from an eye (scene units).
 std::vector<LookCloud> look_clouds(const Scene& scene, const glm::dvec3& eye);
 
-// From the cloud's coordinates (a direction or a length beside `scale`) to the scene's axes and back.
+// From the cloud's coordinates to the scene's axes and back; directions, or lengths where `scale` is taken care of.
 glm::dvec3 turned(const LookCloud& cloud, const glm::dvec3& v);
 glm::dvec3 turned_back(const LookCloud& cloud, const glm::dvec3& v);
 
-// What comes through all clouds to a point from a direction (unit), both in the scene's axes, the point relative to the eye;
-// `softened` multiplies all depths. By the upper levels only.
+// The share of light from a direction (unit) that comes through all clouds to a point, by the upper levels only. Both
+// in the scene's axes, the point relative to the eye. softened: multiplies all depths.
 double light_through(const std::vector<LookCloud>& clouds, const glm::dvec3& point,
                      const glm::dvec3& towards, double softened);
 

@@ -12,11 +12,15 @@
 namespace awan::looks {
 namespace {
 
-constexpr int kWaves = 3;        // of the relief
-constexpr double kSteepest = 4;  // of their frequencies, radians over the radius, along each axis
-constexpr double kBump = 0.06;   // height of a wave, radii
+// Waves of the relief on a sphere.
+constexpr int kWaves = 3;
+// Their largest frequency along each axis, radians over the radius.
+constexpr double kSteepest = 4;
+// The height of a wave, in radii.
+constexpr double kBump = 0.06;
 
-double part(std::uint64_t bits, int from) {  // 16 of them, -1..1
+// 16 of the bits as a number in -1..1.
+double part(std::uint64_t bits, int from) {
     return static_cast<double>(bits >> from & 0xffffu) / 0x8000 - 1;
 }
 
@@ -33,7 +37,7 @@ LookLight look_light(const Scene& scene) {
     if (scene->ground)
         light.below = scene->ground->albedo * (light.sun * std::max(light.to_sun.y, 0.0) +
                                                sky.irradiance_up / std::numbers::pi);
-    // What is scattered forward goes on: similarity, depth (1 - albedo g).
+    // Light that is scattered forward goes on. By similarity, the depth that counts is (1 - albedo g) of it.
     light.softened = 1 - scene->medium.albedo * std::max(scene->medium.g, 0.0);
     light.albedo = scene->medium.albedo;
     return light;
@@ -59,7 +63,7 @@ Reaching reaching(const std::vector<LookCloud>& clouds, const LookLight& light,
 }
 
 glm::dvec3 shade(const LookLight& light, const Reaching& share, const glm::dvec3& normal) {
-    // Light comes round a ball of cloud: half at its limb, none at its back.
+    // Light comes round a ball of cloud: half of it at its limb, none at its back.
     const double facing = (1 + glm::dot(normal, light.to_sun)) / 2;
     const double up = (1 + normal.y) / 2;
     return light.albedo *

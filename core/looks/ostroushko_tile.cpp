@@ -11,13 +11,17 @@
 namespace awan::looks {
 namespace {
 
-constexpr double kOpaque = 1.0 / 1024;  // less light from behind is a quarter of a step of 8 bits
+using spheres::SphereNode;
+
+// A ray ends where less of the light from behind is left: a quarter of a step of 8 bits.
+constexpr double kOpaque = 1.0 / 1024;
 constexpr std::uint32_t kNowhere = UINT32_MAX;
 
 struct Gathering {
     const LookScene& scene;
     const LookCloud& cloud;
-    Cone cone;  // in the cloud's coordinates
+    // In the cloud's coordinates.
+    Cone cone;
     ConeSpheres& found;
 
     glm::dvec3 from_eye(const glm::dvec3& v) const { return cloud.motion.scale * turned(cloud, v); }
@@ -45,7 +49,7 @@ struct Gathering {
     }
 };
 
-// A ray's meetings that are known but not yet the nearest for certain.
+// A meeting of a ray with a sphere that is known, but not yet for certain the nearest one.
 struct Meeting {
     SphereHit hit;
     std::uint32_t sphere;
@@ -53,18 +57,20 @@ struct Meeting {
 
 struct Traced {
     glm::dvec3 radiance{0};
-    double left = 1;  // of the light from behind
+    // The share of the light from behind that is left.
+    double left = 1;
 };
 
 class Tracer {
   public:
     Tracer(const LookScene& scene, ConeSpheres& found) : scene_(scene), found_(found) {}
 
-    // Of the spheres `some`, nearest first, in front of `end`. A sphere's `near` is at most where the ray enters it, so that
-    // all meetings before the next sphere's are final.
+    // Follows a ray through the spheres `some`, nearest first, as far as `end`. A sphere's `near` is at most where
+    // the ray enters it, so all meetings before the next sphere's `near` are final.
     Traced trace(const glm::dvec3& ray, double end, std::span<const std::uint32_t> some) {
         Traced traced;
-        waiting_.clear();  // the nearest last
+        // Meetings sorted so that the nearest is the last.
+        waiting_.clear();
         for (const std::uint32_t i : some) {
             const glm::dvec4& ball = found_.balls[i];
             Meeting meeting{{}, i};
@@ -109,7 +115,7 @@ class Tracer {
     std::vector<Meeting> waiting_;
 };
 
-// Pixels x..right-1, y..bottom-1.
+// Pixels x .. right - 1, y .. bottom - 1.
 struct Block {
     int x, y, right, bottom;
 };
@@ -121,12 +127,13 @@ Cone cone_of(const LookScene& scene, const Block& block) {
     Cone cone{glm::normalize(corners[0] + corners[1] + corners[2] + corners[3]), 0, 1};
     for (const glm::dvec3& corner : corners)
         cone.cosine = std::min(cone.cosine, glm::dot(cone.axis, corner));
-    cone.cosine = std::max(cone.cosine - 1e-12, 0.0);  // rounding
+    // Against rounding.
+    cone.cosine = std::max(cone.cosine - 1e-12, 0.0);
     cone.sine = std::sqrt(1 - cone.cosine * cone.cosine);
     return cone;
 }
 
-// Quarters of it with what they may meet of `some`, down to single pixels.
+// Draws the quarters of a block, each with what it may meet of `some`, down to single pixels.
 void draw_block(const LookScene& scene, const Block& block, const ConeSpheres& found,
                 std::span<const std::uint32_t> some, Tracer& tracer, float* pixels) {
     if (some.empty()) return;
@@ -152,7 +159,8 @@ void draw_block(const LookScene& scene, const Block& block, const ConeSpheres& f
                                  Block{middle_x, middle_y, block.right, block.bottom}}) {
         if (quarter.right <= quarter.x || quarter.bottom <= quarter.y) continue;
         const bool pixel = quarter.right - quarter.x == 1 && quarter.bottom - quarter.y == 1;
-        if (pixel) {  // its one ray is as quick as a cone
+        // A pixel's one ray is as quick as a cone.
+        if (pixel) {
             draw_block(scene, quarter, found, some, tracer, pixels);
             continue;
         }
@@ -169,7 +177,7 @@ void draw_block(const LookScene& scene, const Block& block, const ConeSpheres& f
 bool may_meet(const Cone& cone, const glm::dvec3& center, double radius) {
     const double along = glm::dot(center, cone.axis);
     if (along < -radius) return false;
-    // Its distance from the cone's line; behind the eye too small, which is safe.
+    // The square of the centre's distance from the cone's axis. Behind the eye it is too small, which is safe.
     const double reach = radius + along * cone.sine;
     const double beside = std::max(glm::dot(center, center) - along * along, 0.0);
     return reach > 0 && beside * cone.cosine * cone.cosine <= reach * reach;

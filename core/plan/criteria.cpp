@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/scene/outside.h"
+#include "core/survey/outside_light.h"
 
 namespace awan {
 namespace {
@@ -24,8 +24,8 @@ constexpr double kScatterDepthForward = 0.02;    // |g| >= .5; linear in between
 constexpr double kShare = 0.01;  // of the light, of a pixel
 constexpr double kTint = 0.01;   // of a channel from grey
 
-// What the picture loses without an effect, measured by the largest optical depth (PHYSICS: bias of exact solutions
-// without self-shadow, view extinction, and scattering at its worst).
+// What the picture loses without an effect, measured by the largest optical depth (the error of exact solutions
+// that go without self-shadow, view extinction, and scattering at its worst).
 struct Measured {
     double depth, shadow, view, scattering;
 };
@@ -63,38 +63,34 @@ double scatter_threshold(double g) {
     return kScatterDepthIsotropic + t * (kScatterDepthForward - kScatterDepthIsotropic);
 }
 
-constexpr int kSkySteps =
-    12;  // a figure to a percent; the finest would take longer than all else of a plan
+// A figure to a percent; the finest would take longer than all else of a plan.
+constexpr int kSkySteps = 12;
 
-// What shines on the cloud.
-struct Lights {
-    Outside outside;
-    bool sun = false, sky = false;
-    double sun_light = 0, sky_light = 0;  // mean radiance from all sides, luminance
-    double depth = 0;                     // largest optical depth of the cloud towards them
-
-    double all() const { return std::max(sun_light + sky_light, 1e-300); }
+// What shines on the cloud, and how deep the cloud is for it.
+struct Lights : OutsideLight {
+    bool sun_shines = false, sky_shines = false;
+    // The largest optical depth of the cloud towards those that shine.
+    double depth = 0;
 };
 
 Lights lights_of(const Scene& scene, const Survey& survey) {
-    Lights lights;
-    lights.outside = outside_of(scene);
-    lights.sun_light = luminance(lights.outside.sun) / (4 * std::numbers::pi);
-    lights.sun = lights.outside.sun != glm::dvec3(0);
-    lights.sky = lights.outside.sky.shines;
-    if (lights.sky) {
-        const SkyMeans means = means_of(lights.outside.sky, kSkySteps);
-        lights.sky_light = 0.5 * luminance(means.above + means.below);
-    }
-    lights.depth = std::max(lights.sun ? survey.optical_depth_sun : 0.0,
-                            lights.sky ? survey.optical_depth_zenith : 0.0);
+    Lights lights{outside_light(scene, kSkySteps)};
+    lights.sun_shines = lights.outside.sun != glm::dvec3(0);
+    lights.sky_shines = lights.outside.sky.shines;
+    lights.depth = std::max(lights.sun_shines ? survey.optical_depth_sun : 0.0,
+                            lights.sky_shines ? survey.optical_depth_zenith : 0.0);
     return lights;
+}
+
+// For shares of all the light: not 0.
+double all_light(const Lights& lights) {
+    return std::max(lights.all(), 1e-300);
 }
 
 Criterion sky_light(const Scene& scene, const Lights& lights) {
     if (scene->sky.none) return {false, 0, "the scene has no sky"};
-    if (!lights.sky) return {false, 0, "the sky is black"};
-    const double share = lights.sky_light / (lights.sky_light + lights.sun_light);
+    if (!lights.sky_shines) return {false, 0, "the sky is black"};
+    const double share = lights.sky / (lights.sky + lights.sun);
     return above("the sky's share of the light,", share, kShare, share);
 }
 
@@ -109,17 +105,16 @@ Criterion ground_shadow(const Scene& scene, const Survey& survey, const Lights& 
     if (!(survey.ground.seen > 0)) return {false, 0, "the ground is not in view"};
     // A black ground has none to lose.
     const double up = std::max(lights.outside.to_sun.y, 0.0);
-    const double shines =
-        luminance(scene->ground->albedo) *
-        (up * luminance(lights.outside.sun) / std::numbers::pi + lights.sky_light);
-    const double share = survey.ground.shade * std::min(1.0, shines / lights.all());
+    const double shines = luminance(scene->ground->albedo) *
+                          (up * luminance(lights.outside.sun) / std::numbers::pi + lights.sky);
+    const double share = survey.ground.shade * std::min(1.0, shines / all_light(lights));
     return above("what the clouds take of the ground's light in view, over a typical pixel,", share,
                  kShare, share * survey.ground.seen);
 }
 
 Criterion sun_color(const Scene& scene, const Lights& lights) {
     if (!scene->sun.auto_color) return {false, 0, "the sun's colour is given"};
-    if (!lights.sun) return {false, 0, "the sun does not shine"};
+    if (!lights.sun_shines) return {false, 0, "the sun does not shine"};
     const double angle = std::asin(std::clamp(lights.outside.to_sun.y, -1.0, 1.0));
     const glm::dvec3 color = sunlight(angle, scene->sky.turbidity);
     const double grey = luminance(color);
@@ -146,15 +141,16 @@ double phase_in_view(const Haze& haze, const Lights& lights, const View& view) {
 
 Criterion haze(Effect effect, const Scene& scene, const Survey& survey, const Lights& lights) {
     if (!scene->haze || !(scene->haze->extinction > 0)) return {false, 0, "the scene has no haze"};
+    // What shafts' absence costs is measured over the whole picture.
     if (effect == Effect::kLightShafts)
         return above("the clouds' shadows in the haze, over a typical pixel,", survey.haze.shaded,
-                     kShare, 0.4 * survey.haze.shaded);  // of the whole picture; measured
+                     kShare, 0.4 * survey.haze.shaded);
     // Thin haze shows where it glows: towards the sun, over a typical pixel.
     const double depth = std::max(survey.haze.depth_to_clouds, survey.haze.depth_behind);
     const double glow =
         luminance(scene->haze->albedo) *
-        (lights.sun_light * phase_in_view(*scene->haze, lights, survey.view) + lights.sky_light) /
-        lights.all();
+        (lights.sun * phase_in_view(*scene->haze, lights, survey.view) + lights.sky) /
+        all_light(lights);
     const double veil = -std::expm1(-depth) * std::max(1.0, glow);
     return above("the haze's largest share of a pixel in view,", veil, kShare, std::min(veil, 1.0));
 }
@@ -162,14 +158,14 @@ Criterion haze(Effect effect, const Scene& scene, const Survey& survey, const Li
 Criterion detail(const Scene& scene, const Survey& survey) {
     if (!scene->detail) return {false, 0, "the scene asks for none"};
     if (!(scene->detail->amount > 0)) return {false, 0, "the scene asks for an amount of 0"};
-    // Where matter is gathered a pixel has it or has it not. Measured on table 4.4.
+    // Where matter is gathered a pixel has it or has it not. Measured on table 4.4 of Sunar et al. 2005.
     const double left_out = 0.55 * scene->detail->amount;
     return above("its largest bumps in pixels,", detail_pixels(scene, survey), kLeastBump,
                  left_out);
 }
 
 Criterion of_matter(Effect effect, const Scene& scene, const Survey& survey, const Lights& lights) {
-    const bool lit = lights.sun || lights.sky;
+    const bool lit = lights.sun_shines || lights.sky_shines;
     switch (effect) {
         case Effect::kSelfShadow:
             if (!lit) return {false, 0, "no light reaches the cloud"};

@@ -11,11 +11,12 @@ namespace awan {
 
 struct Criterion {
     bool wanted = false;
-    // About how wrong the picture would be without: rms over the cloud's pixels (or the whole picture's, of what is seen
-    // beside the cloud), relative to their mean. 0: the scene has nothing of the kind. Within a factor of 3 or so
-    // (effects_test), often too large: the figures are the largest in view.
+    // About how wrong the picture would be without: rms over the cloud's pixels (or the whole picture's, of what is
+    // seen beside the cloud), relative to their mean. 0: the scene has nothing of the kind. Within a factor of 3 or
+    // so (effects_test), often too large: the figures are the largest in view.
     double left_out = 0;
-    std::string reason;  // one phrase, with figure and threshold where there is one
+    // One phrase, with figure and threshold where there is one.
+    std::string reason;
 };
 
 // In the order of Effect.
@@ -23,8 +24,8 @@ std::array<Criterion, kEffectCount> criteria(const Scene& scene, const Survey& s
 // One of them.
 Criterion criterion(Effect effect, const Scene& scene, const Survey& survey);
 
-inline constexpr double kLeastBump =
-    1;  // pixels; smaller bumps are faded out (core/draw/march_detail.h)
+// Pixels; smaller bumps are faded out (core/draw/march_detail.h).
+inline constexpr double kLeastBump = 1;
 // Size of detail's largest bumps in the picture, pixels, where the cloud is nearest; infinite from within.
 double detail_pixels(const Scene& scene, const Survey& survey);
 

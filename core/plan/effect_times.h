@@ -8,8 +8,8 @@
 
 namespace awan {
 
-// Wall time, ms. Of the effects whose work is inside the kernels of other effects (view_extinction, interior, sun_color)
-// there is none; detail and aerial_perspective have what is done apart from the rays.
+// Wall time, ms. Of the effects whose work is inside the kernels of other effects (view_extinction, interior,
+// sun_color) there is none; detail and aerial_perspective have what is done apart from the rays.
 struct EffectTimes {
     std::array<double, kEffectCount> ms{};
 

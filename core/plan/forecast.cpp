@@ -22,8 +22,8 @@ double predicted_ms(const TimeModel& model, const TimeFigures& figures) {
     return std::inner_product(figures.begin(), figures.end(), model.coefficient.begin(), 0.0);
 }
 
-// Of a scene in islands: the solves that run at a time, the lights, the particles sorted into islands and those that the
-// islands at work have of each other.
+// Of a scene in islands: the solves that run at a time, the lights, the particles sorted into islands and those that
+// the islands at work have of each other.
 double island_bytes(const IslandWork& work, double bands, double particles, double vectors,
                     int threads) {
     return 64 * vectors * work.largest * std::max(threads, 1) + 64 * bands * work.cells +
@@ -33,8 +33,8 @@ double island_bytes(const IslandWork& work, double bands, double particles, doub
 // At its peak, beside particles and picture: the transport solve's vectors, or the light grid and lists of the splats.
 double predicted_bytes(const Rung& rung, const Scene& scene, const Survey& survey,
                        const TimeFigures& figures, int threads) {
-    constexpr double kVectors =
-        2 * 12 + 8;  // of GMRES (core/light/transport.cpp) and the sweeps, 16 floats a cell
+    // Of GMRES (core/light/transport.cpp) and the sweeps, 16 floats a cell.
+    constexpr double kVectors = 2 * 12 + 8;
     const double pairs = figures[3], particles = figures[2];
     switch (rung.method) {
         case Method::kSplats:
@@ -64,7 +64,7 @@ double stretch(int threads, double serial) {
 const ErrorModel& error_model(const Rung& rung) {
     switch (rung.method) {
         case Method::kSplats:
-            return find_rung("additive") == &rung ? kAdditiveError : kHarrisError;
+            return rung.id == RungId::kAdditive ? kAdditiveError : kHarrisError;
         case Method::kMarch:
             return rung.cells == 0 ? kSingleError : kTransportError;
         case Method::kPaths:
@@ -87,9 +87,9 @@ RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey
     double ms = predicted_ms(kPrepareTime, times);
     switch (rung.method) {
         case Method::kSplats:
-            ms += &rung == find_rung("additive") ? predicted_ms(kAdditiveTime, times)
-                                                 : predicted_ms(kHarrisLightTime, times) +
-                                                       predicted_ms(kHarrisDrawTime, times);
+            ms += rung.id == RungId::kAdditive ? predicted_ms(kAdditiveTime, times)
+                                               : predicted_ms(kHarrisLightTime, times) +
+                                                     predicted_ms(kHarrisDrawTime, times);
             break;
         case Method::kMarch:
             ms += (predicted_ms(kMarchLightTime, times) + predicted_ms(kMarchDrawTime, times)) *
@@ -108,7 +108,7 @@ RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey
 }
 
 std::uint32_t samples_for(double error, const Scene& scene, const Survey& survey) {
-    const Rung& truth = *find_rung("truth");
+    const Rung& truth = rung_of(RungId::kTruth);
     const double noise = forecast(truth, scene, survey, 1, 1, {}).error;
     const double samples = std::ceil(noise * noise / (error * error) / 2) * 2;
     return static_cast<std::uint32_t>(std::clamp(samples, 2.0, double{kMaxTruthSamples}));

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/plan/ladder.h"
+#include "core/scene/rungs.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
 
@@ -17,10 +17,12 @@ struct MachineSpeed {
 // What a rung would cost this scene and how far it would be from the truth.
 struct RungForecast {
     const Rung* rung = nullptr;
-    double error =
-        0;  // relative (PictureError::nrmse, core/accuracy/error_measures.h); measured errors are below it in 95% of scenes
-    double time_ms = 0;  // of all stages but queue and encode, on this machine
-    double bytes = 0;    // memory at its peak, beside the scene's particles and the picture
+    // Relative (PictureError::nrmse, core/accuracy/error_measures.h); measured errors are below it in 95% of scenes.
+    double error = 0;
+    // Of all stages but queue and encode, on this machine.
+    double time_ms = 0;
+    // Memory at its peak, beside the scene's particles and the picture.
+    double bytes = 0;
 };
 
 // Of one rung; `samples`: paths a pixel, for rung truth only. threads: of the march and the paths.

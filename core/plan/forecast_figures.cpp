@@ -169,28 +169,30 @@ ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& s
     const double thin = std::log(depth / (1 + depth)),
                  thick = std::log1p(std::min(depth, kMostDepth));
     const double cells = std::log1p(std::min(cell_depth, kMostCellDepth)), forward = std::abs(g);
-    return {1,
-            thin,
-            thick,
-            cells,
-            forward,
-            g * g,
-            backlit,
-            g * g * backlit,
-            coarseness,
-            survey.eye_inside ? 1.0 : 0.0,
-            sun_share(scene),
-            std::log10(std::clamp(1 - scene->medium.albedo, 1e-4, 1.0)) + 4,
-            thin * forward,
-            thick * forward,
-            thick * backlit,
-            thick * thick,
-            cells * cells,
-            thin * thin,
-            has_detail(scene) ? scene->detail->amount : 0,
-            survey.ground.light / (1 + survey.ground.light),
-            -std::expm1(-survey.haze.depth_to_clouds),
-            survey.islands.list.empty() ? 0.0 : 1.0};
+    const std::array figures{1.0,
+                             thin,
+                             thick,
+                             cells,
+                             forward,
+                             g * g,
+                             backlit,
+                             g * g * backlit,
+                             coarseness,
+                             survey.eye_inside ? 1.0 : 0.0,
+                             sun_share(scene),
+                             std::log10(std::clamp(1 - scene->medium.albedo, 1e-4, 1.0)) + 4,
+                             thin * forward,
+                             thick * forward,
+                             thick * backlit,
+                             thick * thick,
+                             cells * cells,
+                             thin * thin,
+                             has_detail(scene) ? scene->detail->amount : 0,
+                             survey.ground.light / (1 + survey.ground.light),
+                             -std::expm1(-survey.haze.depth_to_clouds),
+                             survey.islands.list.empty() ? 0.0 : 1.0};
+    static_assert(figures.size() == kErrorFigureCount);
+    return figures;
 }
 
 TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& survey,
@@ -219,7 +221,8 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
                                                              : scene->sky.physical
                                                                  ? 3  // a colour channel each
                                                                  : 2);
-        if (survey.ground.light > 0) bands += 2;  // from the ground, and back once more
+        // From the ground, and back once more.
+        if (survey.ground.light > 0) bands += 2;
         const double harmonics = scene->medium.g == 0 ? 0.5 : 1;  // of the cost of 16
         // Sweeps that the solve takes: few in thin matter, three times as many at depth 30.
         const double sweeps = 1 + 0.7 * std::log1p(std::min(survey.optical_depth_sun, 1e3));

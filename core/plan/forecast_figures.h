@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include "core/plan/ladder.h"
 #include "core/plan/transport_settings.h"
+#include "core/scene/rungs.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
 
@@ -17,32 +17,50 @@ struct IslandWork {
     double largest = 0;  // of the largest
     double nodes = 0;    // of all SunDepths
     double updates = 0;  // cell updates of all lattices
-    double cell = 0;     // mean side of a cell, weighted by the area in the picture, scene units
+    // Mean side of a cell, weighted by the area in the picture, scene units.
+    double cell = 0;
 };
 IslandWork island_work(const TransportSettings& settings, const Scene& scene, const Survey& survey);
 
-inline constexpr std::size_t kErrorFigureCount = 22;
-using ErrorFigures = std::array<double, kErrorFigureCount>;
-// 1; log of depth / (1 + depth) and log(1 + depth) towards the eye; log(1 + scaled depth of the densest cell); |g|; g^2;
-// how far one looks into the sun (cosine^2, 0 when it is behind); that times g^2; log2 of cell over mean s; eye inside;
-// the sun's share of the light; log10 of what is absorbed; products of these; the amount of detail; the ground's share of the
-// light; what haze takes of the cloud; whether there are islands.
-ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& survey);
-inline constexpr std::array<const char*, kErrorFigureCount> kErrorFigureNames = {
+inline constexpr std::array kErrorFigureNames = {
     "one",     "thin",       "thick",         "cell_depth", "g",           "g2",
     "backlit", "g2_backlit", "coarseness",    "inside",     "sun_share",   "absorbed",
     "thin_g",  "thick_g",    "thick_backlit", "thick2",     "cell_depth2", "thin2",
     "detail",  "ground",     "haze",          "islands"};
+inline constexpr std::size_t kErrorFigureCount = kErrorFigureNames.size();
+using ErrorFigures = std::array<double, kErrorFigureCount>;
+// Of these names:
+//   one, g2            1; the square of g, the mean cosine of the phase function
+//   g                  its size |g|
+//   thin, thick        log(depth / (1 + depth)) and log(1 + depth), depth: the largest optical depth towards the eye
+//   cell_depth         log(1 + depth of the densest cell of the transport grid), scaled for forward scattering
+//   backlit            how far one looks into the sun: cosine^2, 0 where it is behind
+//   coarseness         log2 of the grid's cell over the particles' mean s
+//   inside, islands    1 where the eye is within a particle; where the scene falls apart into islands
+//   sun_share, ground  the sun's share of the light; the ground's
+//   absorbed           log10 of 1 - albedo, from 0 up
+//   detail             the amount of detail that is asked for
+//   haze               what haze takes of the light of the cloud
+// and products and squares of them, as the other names say.
+ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& survey);
 
-inline constexpr std::size_t kTimeFigureCount = 11;
+inline constexpr std::array kTimeFigureNames = {"one",    "covered",  "particles", "pairs",
+                                                "pixels", "unknowns", "updates",   "scatterings",
+                                                "lumps",  "air",      "detail"};
+inline constexpr std::size_t kTimeFigureCount = kTimeFigureNames.size();
 using TimeFigures = std::array<double, kTimeFigureCount>;
-// 1; pixels that meet cloud; particles; pixel-particle pairs; pixels; cells x bands x harmonics of the transport grid x its sweeps;
-// cell updates of its lattices; paths x (1 + scatterings); samples of detail along the rays that meet cloud; pixels seen through
-// haze; whether there is detail.
+// Of these names:
+//   one                  1
+//   pixels, covered      of the picture; of these, those that meet cloud
+//   particles, pairs     all; pairs of a pixel and a particle that it sees
+//   unknowns             cells x bands x harmonics of the transport grid, times the sweeps through it
+//   updates              of cells, where particles are summed on lattices
+//   scatterings          paths x (1 + scatterings of a path); rung truth
+//   lumps                samples of detail along the rays that meet cloud
+//   air                  pixels that are seen through haze
+//   detail               1 where there is detail
+// samples: paths a pixel of rung truth.
 TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& survey,
                          std::uint32_t samples);
-inline constexpr std::array<const char*, kTimeFigureCount> kTimeFigureNames = {
-    "one",     "covered",     "particles", "pairs", "pixels", "unknowns",
-    "updates", "scatterings", "lumps",     "air",   "detail"};
 
 }  // namespace awan

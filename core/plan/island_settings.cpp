@@ -8,7 +8,8 @@
 namespace awan {
 namespace {
 
-constexpr double kMargin = 1.1;  // beside the picture, for what is drawn at its edge
+// Beside the picture, for what is drawn at its edge.
+constexpr double kMargin = 1.1;
 
 bool in_picture(const View& view, const glm::dvec3& low, const glm::dvec3& high) {
     const double across = kMargin * view.tan_half_fov * view.aspect,

@@ -6,23 +6,26 @@
 #include <cstdio>
 #include <limits>
 
-#include "core/looks/looks.h"
 #include "core/plan/criteria.h"
 
 namespace awan {
 namespace {
 
-constexpr double kPatience_ms = 20e3;  // longer paths than these are not chosen, only taken by name
+// Longer paths than these are not chosen, only taken by name.
+constexpr double kPatience_ms = 20e3;
+// Where no rung keeps to the error that is wanted: a cheaper rung than the closest is taken, if its error is at most
+// so many times the closest's.
 constexpr double kKnee = 2.5;
-constexpr double kFarOff = 0.3;       // relative error
-constexpr double kTruthNoise = 0.05;  // of a pixel, when rung truth is asked for by name
+// Relative error above which a picture is far from the truth for anyone to see.
+constexpr double kFarOff = 0.3;
+// Of a pixel, when rung truth is asked for by name.
+constexpr double kTruthNoise = 0.05;
 
 // Forward-scattered light travels with the light pass of self_shadow: one does not run without the
 // other.
 void join_scattering_to_shadow(Plan& plan, const Scene& scene) {
-    EffectDecision& shadow = plan.effects[static_cast<std::size_t>(Effect::kSelfShadow)];
-    EffectDecision& scattering =
-        plan.effects[static_cast<std::size_t>(Effect::kMultipleScattering)];
+    EffectDecision& shadow = plan.of(Effect::kSelfShadow);
+    EffectDecision& scattering = plan.of(Effect::kMultipleScattering);
     if (!scattering.on || shadow.on) return;
     if (scene->effects[static_cast<int>(Effect::kSelfShadow)] == Switch::kOff) {
         scattering.on = false;
@@ -35,7 +38,7 @@ void join_scattering_to_shadow(Plan& plan, const Scene& scene) {
 
 // Bumps below a pixel are no detail, even where it is asked for.
 void leave_out_unseen_detail(Plan& plan, const Scene& scene, const Survey& survey) {
-    EffectDecision& detail = plan.effects[static_cast<std::size_t>(Effect::kDetail)];
+    EffectDecision& detail = plan.of(Effect::kDetail);
     if (!detail.on || detail_pixels(scene, survey) > kLeastBump) return;
     detail.on = false;
     detail.reason += ": nothing of it could be seen";
@@ -43,16 +46,12 @@ void leave_out_unseen_detail(Plan& plan, const Scene& scene, const Survey& surve
 
 // Shadows are seen in haze that is drawn.
 void join_shafts_to_haze(Plan& plan) {
-    EffectDecision& shafts = plan.effects[static_cast<std::size_t>(Effect::kLightShafts)];
+    EffectDecision& shafts = plan.of(Effect::kLightShafts);
     if (!shafts.on || plan.on(Effect::kAerialPerspective)) return;
     shafts.on = false;
     shafts.reason =
         "aerial_perspective is off, and shadows are seen in the haze (" + shafts.reason + ")";
 }
-
-}  // namespace
-
-namespace {
 
 std::string percent(double error) {
     std::array<char, 32> text{};
@@ -88,8 +87,9 @@ Choice cheapest_within(double error, const std::vector<RungForecast>& candidates
         if (candidate.error <= error && (!cheapest || candidate.time_ms < cheapest->time_ms))
             cheapest = &candidate;
     }
-    // Where all are far off, what leaves out most of the light is not close because its forecast is a little less: a picture of
-    // a dark cloud is the worst of them.
+    // Where all rungs are far off, forecasts that differ by a little say nothing. A rung that leaves out most of the
+    // light shows a dark cloud, which is the worst of the pictures: only rungs that follow all orders are left to
+    // choose from.
     if (!cheapest && best && best->error > kFarOff) {
         const RungForecast* of_grids = nullptr;
         for (const RungForecast& candidate : candidates)
@@ -103,7 +103,7 @@ Choice cheapest_within(double error, const std::vector<RungForecast>& candidates
         return {*cheapest, "the cheapest with a predicted error of at most " + percent(error)};
     std::string reason = "none is predicted to stay under " + percent(error);
     if (!cheapest && error >= kDefaultError) {
-        // No more than a picture at all was asked for: not ten times the time for a little less of a large error.
+        // The scene asks for no particular error: it is not made to wait ten times as long for a slightly smaller one.
         const RungForecast* knee = best;
         for (const RungForecast& candidate : candidates)
             if (candidate.rung->method != Method::kPaths &&
@@ -135,16 +135,15 @@ Choice best_in_time(double time_ms, const std::vector<RungForecast>& candidates)
             "none is predicted to take at most " + milliseconds(time_ms) + "; this is the fastest"};
 }
 
-// Of splats in matter so thin that little is shaded or scattered twice: what that little costs, and their sky, which comes evenly
-// from above and from below. Measured on table 4.4 at depths .03 to .3: 5 to 7% under a gradient, 25 to 27% under a physical
-// sky, whose light about the sun is scattered forward. Infinite where matter is deeper than that.
+// Error of splats in matter so thin that little is shaded or scattered twice: that little is what they leave out;
+// besides, splats have the sky's light come evenly from above and below. Infinite where matter is deeper. Measured on
+// table 4.4 of Sunar et al. 2005 at depths .03 to .3: 5 to 7% under a gradient, 25 to 27% under a physical sky, whose
+// light about the sun is scattered forward.
 double thin_error(const Plan& plan, const Scene& scene, const Survey& survey, bool additive) {
     const double deepest =
         std::max({survey.optical_depth_eye, survey.optical_depth_sun, survey.optical_depth_zenith});
     if (deepest > (additive ? 0.3 : 0.12)) return std::numeric_limits<double>::infinity();
-    const auto left_out = [&](Effect effect) {
-        return plan.effects[static_cast<std::size_t>(effect)].left_out;
-    };
+    const auto left_out = [&](Effect effect) { return plan.of(effect).left_out; };
     const double sum =
         0.7 * (left_out(Effect::kSelfShadow) + left_out(Effect::kMultipleScattering) +
                left_out(Effect::kViewExtinction)) +
@@ -154,7 +153,7 @@ double thin_error(const Plan& plan, const Scene& scene, const Survey& survey, bo
 
 // Error of what the scene calls for and splats cannot show.
 double lost_by_splats(const Plan& plan) {
-    const EffectDecision& detail = plan.effects[static_cast<std::size_t>(Effect::kDetail)];
+    const EffectDecision& detail = plan.of(Effect::kDetail);
     return detail.on ? detail.left_out : 0;
 }
 
@@ -165,7 +164,7 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
     plan.samples =
         samples_for(accuracy.rung || accuracy.time_ms ? kTruthNoise : wanted_error, scene, survey);
     if (accuracy.time_ms) {  // as many paths as fit
-        const Rung& truth = *find_rung("truth");
+        const Rung& truth = rung_of(RungId::kTruth);
         const double one = forecast(truth, scene, survey, 2, threads, speed).time_ms;
         const double two = forecast(truth, scene, survey, 4, threads, speed).time_ms;
         const double pairs = two > one ? (*accuracy.time_ms - one) / (two - one) : 1;
@@ -180,7 +179,7 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
         plan.forecasts.push_back(forecast(rung, scene, survey, plan.samples, threads, speed));
         if (rung.method == Method::kSplats) {
             double& error = plan.forecasts.back().error;
-            const bool additive = &rung == find_rung("additive");
+            const bool additive = rung.id == RungId::kAdditive;
             error = std::hypot(std::min(error, thin_error(plan, scene, survey, additive)),
                                lost_by_splats(plan));
         }
@@ -194,7 +193,7 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
     if (accuracy.rung) {
         const Rung* named = find_rung(*accuracy.rung);
         for (const RungForecast& candidate : plan.forecasts)
-            if (candidate.rung == named) choice.forecast = candidate;
+            if (*candidate.rung == *named) choice.forecast = candidate;
         choice.reason = "asked for by name";
     } else if (accuracy.time_ms) {
         choice = best_in_time(*accuracy.time_ms, candidates);
@@ -218,15 +217,15 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
 void fit_effects_to_rung(Plan& plan) {
     const Rung& rung = *plan.predicted.rung;
     const auto set = [&](Effect effect, bool on) {
-        EffectDecision& decision = plan.effects[static_cast<std::size_t>(effect)];
+        EffectDecision& decision = plan.of(effect);
         if (decision.on == on) return;
         decision.on = on;
         decision.reason = "rung " + plan.rung + (on ? " always has it (" : " goes without (") +
                           decision.reason + ")";
     };
-    const bool additive = &rung == find_rung("additive"), harris = &rung == find_rung("harris");
+    const bool additive = rung.id == RungId::kAdditive;
     if (rung.method == Method::kSplats) set(Effect::kDetail, false);
-    if (harris) return;
+    if (rung.id == RungId::kHarris) return;
     set(Effect::kSelfShadow, !additive);
     set(Effect::kMultipleScattering,
         !additive && (rung.cells > 0 || rung.method == Method::kPaths));
@@ -234,19 +233,19 @@ void fit_effects_to_rung(Plan& plan) {
     if (rung.method == Method::kMarch && rung.cells == 0) set(Effect::kSkyLight, false);
 }
 
-// A look is not lit: nothing is simulated.
-Plan plan_look(const Scene& scene, const Survey& survey, int threads) {
+// A look is not lit: nothing is simulated. What it takes is added by who knows the looks (core/planning.cpp).
+Plan plan_look() {
     Plan plan;
     for (int i = 0; i < kEffectCount; ++i) {
-        EffectDecision& decision = plan.effects[static_cast<std::size_t>(i)];
+        EffectDecision& decision = plan.of(static_cast<Effect>(i));
         decision.effect = static_cast<Effect>(i);
         decision.available = in_this_version(decision.effect);
         decision.reason = "the scene asks for a look, which follows its own rules";
     }
-    plan.predicted.rung = &look_rung();
+    const Rung& look = rung_of(RungId::kLook);
+    plan.predicted.rung = &look;
     plan.predicted.error = std::numeric_limits<double>::quiet_NaN();
-    plan.predicted.time_ms = look_time_ms(scene, survey.view, threads);
-    plan.rung = look_rung().name;
+    plan.rung = look.name;
     plan.rung_reason = "the scene asks for a look: there is no truth to be near to";
     return plan;
 }
@@ -254,12 +253,12 @@ Plan plan_look(const Scene& scene, const Survey& survey, int threads) {
 }  // namespace
 
 Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSpeed& speed) {
-    if (scene->look != Look::kPhysical) return plan_look(scene, survey, threads);
+    if (scene->look != Look::kPhysical) return plan_look();
     Plan plan;
     const std::array<Criterion, kEffectCount> own_of = criteria(scene, survey);
     for (int i = 0; i < kEffectCount; ++i) {
         const auto effect = static_cast<Effect>(i);
-        EffectDecision& decision = plan.effects[static_cast<std::size_t>(i)];
+        EffectDecision& decision = plan.of(static_cast<Effect>(i));
         decision.effect = effect;
         decision.available = in_this_version(effect);
         if (!decision.available) {

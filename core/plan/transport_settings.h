@@ -2,27 +2,36 @@
 
 #include <vector>
 
-#include "core/plan/ladder.h"
+#include "core/scene/rungs.h"
 
 namespace awan {
 
 // Of one island (core/survey/islands.h).
 struct IslandCells {
-    int cells = 0;      // as TransportSettings::cells; 0: no grid
-    int sun_cells = 0;  // 0: it is not seen and has no light of its own
+    // As TransportSettings::cells; 0: no grid.
+    int cells = 0;
+    // 0: it is not seen and has no light of its own.
+    int sun_cells = 0;
 };
 
 // How finely the transport rungs (core/light/transport.h) solve.
 struct TransportSettings {
-    int cells = 32;      // along the longest side of the matter; 0: no grid, the sun's depth only
-    int sun_cells = 96;  // of SunDepth, along its longest side
-    double tolerance = 1e-3;  // of the solve, relative to its source
-    int max_sweeps = 40;      // a band; each is one walk through all cells and directions
-    bool sky = true;          // whether the sky's light is wanted
-    bool ground = false;      // whether the ground's light goes into the cloud
-    bool ground_shadow =
-        false;  // whether the cloud shades the ground and sends it light of its own
-    std::vector<IslandCells> islands;  // one for each of Survey::islands; EMPTY: one grid holds all
+    // Along the longest side of the matter; 0: no grid, the sun's depth only.
+    int cells = 32;
+    // Of SunDepth, along its longest side.
+    int sun_cells = 96;
+    // Of the solve, relative to its source.
+    double tolerance = 1e-3;
+    // Of a band; each is one walk through all cells and directions.
+    int max_sweeps = 40;
+    // Whether the sky's light is wanted.
+    bool sky = true;
+    // Whether the ground's light goes into the cloud.
+    bool ground = false;
+    // Whether the cloud shades the ground and sends it light of its own.
+    bool ground_shadow = false;
+    // One for each of Survey::islands; EMPTY: one grid holds all.
+    std::vector<IslandCells> islands;
 };
 
 // Of a rung of Method::kMarch.

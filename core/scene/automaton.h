@@ -1,6 +1,6 @@
-// What a cloud of model "automaton" is: clouds grown by a cellular automaton of three bits a cell, after Nagel & Raschke 1992
-// and Dobashi et al. 2000 (document 000, section 3.2) and Upchurch 2009 (document 001). The automaton itself is in
-// core/generate/automaton.
+// What a cloud of model "automaton" is: clouds grown by a cellular automaton of three bits a cell, after Nagel &
+// Raschke 1992 and Dobashi et al. 2000 and Upchurch 2009. The automaton
+// itself is in core/generate/automaton.
 //
 // Lengths are in cells where nothing else is said, x along the wind, y up: cell (i, j, k) is the cube from (i, j, k) to
 // (i + 1, j + 1, k + 1). In the cloud's own coordinates the grid stands with the middle of its floor at the origin.
@@ -22,8 +22,9 @@ namespace awan {
 
 struct AutomatonState;  // core/generate/automaton/state.h
 
-// A parcel of wet air: vapour and phase transition are supplied in it, most at its centre, and clouds in it vanish fastest
-// at its edge; all linear in d, the distance from the centre in radii (Upchurch 2009, "Controlling Clouds with Ellipsoids").
+// A parcel of wet air: vapour and phase transition are supplied in it, most at its centre, and clouds in it vanish
+// fastest at its edge; all linear in d, the distance from the centre in radii (Upchurch 2009, "Controlling Clouds with
+// Ellipsoids").
 struct AutomatonEllipsoid {
     glm::dvec3 center{0};
     glm::dvec3 radii{8};
@@ -102,8 +103,8 @@ inline const Table& table_of<RandomEllipsoids>() {
     return kRandomEllipsoidsTable;
 }
 
-// Which of several ellipsoids that contain a cell says its probabilities: the first one (Upchurch 2009; its edge then cuts
-// through the middle of others), or the one in which the cell lies deepest (the smallest d).
+// Which of several ellipsoids that contain a cell says its probabilities: the first one (Upchurch 2009; its edge then
+// cuts through the middle of others), or the one in which the cell lies deepest (the smallest d).
 enum class AutomatonOverlap { kDeepest, kFirst };
 inline constexpr const char* kAutomatonOverlapWords[] = {"deepest", "first"};
 
@@ -145,8 +146,8 @@ inline const Table& table_of<AutomatonSpeed>() {
     return kAutomatonSpeedTable;
 }
 
-// Moves the ellipsoids whose centre's y is from `from` to `to`; those in several bands by the sum (Upchurch 2009, "Cloud
-// Advection by Wind"). In documents the speed's parts stand beside `from` and `to`.
+// Moves the ellipsoids whose centre's y is from `from` to `to`; those in several bands by the sum (Upchurch 2009,
+// "Cloud Advection by Wind"). In documents the speed's parts stand beside `from` and `to`.
 struct AutomatonWindBand {
     double from = 0;
     double to = 1024;
@@ -233,9 +234,9 @@ struct AutomatonCloud {
     // Clouds are flat there. 0: none.
     double base = 5;
 
-    // Probabilities a step, each a damping factor of Upchurch 2009 (without, "puff-balls"): p_hum = humidity (1 - d) in an
-    // ellipsoid, else 0; p_act = activation (1 - d), else 0; p_ext = extinction d, else outside_extinction, for which
-    // Upchurch's 0 leaves stranded clouds for ever.
+    // Probabilities a step, each a damping factor of Upchurch 2009 (without, "puff-balls"): p_hum = humidity (1 - d) in
+    // an ellipsoid, else 0; p_act = activation (1 - d), else 0; p_ext = extinction d, else outside_extinction, for
+    // which Upchurch's 0 leaves stranded clouds for ever.
     double humidity = 0.1;
     double activation = 0.002;
     double extinction = 0.12;
@@ -258,8 +259,8 @@ struct AutomatonCloud {
     double threshold = 0;
     std::uint64_t most_particles = 1u << 20;
 
-    // Where to begin instead of at step 0, if it fits: set by the command line, never by a document, and it changes nothing
-    // but the time taken.
+    // Where to begin instead of at step 0, if it fits: set by the command line, never by a document, and it changes
+    // nothing but the time taken.
     std::shared_ptr<const AutomatonState> start;
 };
 
@@ -376,8 +377,8 @@ RandomEllipsoids random_ellipsoids_of(const AutomatonCloud& cloud);
 // Steps made at time t: from 0 to cloud.steps.
 double automaton_steps_at(const AutomatonCloud& cloud, double time);
 
-// Equal for clouds whose automata have the same bits at every step (with the same seed): all fields but those that only say
-// how bits become particles, or which step is looked at.
+// Equal for clouds whose automata have the same bits at every step (with the same seed): all fields but those that only
+// say how bits become particles, or which step is looked at.
 std::string automaton_rules_of(const AutomatonCloud& cloud);
 
 // No more particles are made of it; of one that can be.

@@ -162,15 +162,8 @@ Status check_value(const Field& field, const void* value, const Place& at) {
     return std::nullopt;
 }
 
-bool is_there(const Table& table, const void* object) {
-    for (const Field& field : table.fields)
-        if (field.access.holds == Holds::kAbsence)
-            return !*static_cast<const bool*>(field.access.member(object));
-    return true;
-}
-
 Status check_object(const Table& table, const void* object, const Place& at) {
-    if (!is_there(table, object)) return std::nullopt;
+    if (is_absent(table, object)) return std::nullopt;
     for (const Field& field : table.fields) {
         if (!field.in_documents()) continue;
         const void* const value = field.access.get(object);

@@ -8,8 +8,8 @@
 
 namespace awan {
 
-// The first value that is out of its range, in the table's order, objects within included. NaN is in no range. `at` is the
-// pointer to the object. Costs no allocation where all is in range, however long the lists.
+// The first value that is out of its range, in the table's order, objects within included. NaN is in no range. `at` is
+// the pointer to the object. Costs no allocation where all is in range, however long the lists.
 Status check_ranges(const Table& table, const void* object, const std::string& at);
 
 }  // namespace awan

@@ -101,8 +101,8 @@ const Table& table_of<ImplicitCloud>();
 template <>
 const Table& table_of<EllipsoidsCloud>();
 
-// A point p of the model stands at translate + rotate_y(scale * p) in the scene; radii scale too, extinction (1/unit) does
-// not: a cloud made twice as large is twice as deep.
+// A point p of the model stands at translate + rotate_y(scale * p) in the scene; radii scale too, extinction (1/unit)
+// does not: a cloud made twice as large is twice as deep.
 struct Cloud {
     CloudModel model = CloudModel::kCubes;
     // Of model kCubes.

@@ -35,8 +35,8 @@ constexpr std::array<double, kWavelengths - kFirstVapour> kVapour = {0.016, 0.02
                                                                      0.87,  0.061, 0.001};
 constexpr double kOzoneDepth = 0.35, kVapourDepth = 2;  // cm
 
-// CIE 1931 colour matching functions, the multi-lobe fit of Wyman, Sloan & Shirley 2013 ("Simple analytic approximations to
-// the CIE XYZ color matching functions", table 1); wavelength in micrometres.
+// CIE 1931 colour matching functions, the multi-lobe fit of Wyman, Sloan & Shirley 2013 ("Simple analytic
+// approximations to the CIE XYZ color matching functions", table 1); wavelength in micrometres.
 double lobe(double wavelength, double height, double middle, double below, double above) {
     const double t = (1e3 * wavelength - middle) * (1e3 * wavelength < middle ? below : above);
     return height * std::exp(-0.5 * t * t);
@@ -97,8 +97,9 @@ double cubic(double a, double b, double c, double d, double t) {
     return ((a * t + b) * t + c) * t + d;
 }
 
-// By the depth of the sun below the horizon, degrees. Illuminance falls from sunset to the end of civil twilight (6 degrees)
-// from some 700 to 3 lux (Seidelmann 1992, Explanatory Supplement), by e every 1.1 degrees, and there is no twilight at 18.
+// By the depth of the sun below the horizon, degrees. Illuminance falls from sunset to the end of civil twilight (6
+// degrees) from some 700 to 3 lux (Seidelmann 1992, Explanatory Supplement), by e every 1.1 degrees, and there is no
+// twilight at 18.
 double twilight(double below) {
     if (below <= 0) return 1;
     return below < 18 ? std::exp(-below / 1.1) * (1 - below / 18) : 0;

@@ -7,21 +7,21 @@
 
 namespace awan {
 
-// Irradiance of direct sunlight at normal incidence: the paper's appendix 1 (Rayleigh, aerosol, ozone, water vapour; its
-// mixed gases absorb beyond 750 nm only, where the eye sees nothing), summed over 380..750 nm.
-// elevation: radians above the horizon; darkens to 0 from 0 to -1 degree below it. turbidity: 2..10. Components are >= 0:
-// what lies outside of Rec. 709 is taken to its edge at the same luminance.
+// Irradiance of direct sunlight at normal incidence: Preetham et al. 1999, appendix 1 (Rayleigh, aerosol, ozone, water
+// vapour; its mixed gases absorb beyond 750 nm only, where the eye sees nothing), summed over 380..750 nm.
+// elevation: radians above the horizon; darkens to 0 from 0 to -1 degree below it. turbidity: 2..10. Components are >=
+// 0: what lies outside of Rec. 709 is taken to its edge at the same luminance.
 glm::dvec3 sunlight(double elevation, double turbidity);
 
-// Share of light of a wavelength of the tables (number i: 380 + 10 i nm, i = 0..37) that clear air of a relative optical mass
-// (1: sun at the zenith) lets through.
+// Share of light of a wavelength of the tables (number i: 380 + 10 i nm, i = 0..37) that clear air of a relative
+// optical mass (1: sun at the zenith) lets through.
 double air_transmittance(int i, double optical_mass, double turbidity);
 
 // Illuminance of direct sunlight at normal incidence, lux; 0 below the horizon.
 double sun_illuminance(double elevation, double turbidity);
 
-// The clear sky: the paper's appendix 2, Perez' five-parameter distribution of Y, x and y. Known of it, and left as it is:
-// with the sun near the horizon it is brighter than measured skies.
+// The clear sky: Preetham et al. 1999, appendix 2, Perez' five-parameter distribution of Y, x and y. Known of it, and
+// left as it is: with the sun near the horizon it is brighter than measured skies.
 struct ClearSky {
     glm::dvec3 to_sun{0, 1, 0};                    // unit; at or above the horizon
     std::array<std::array<double, 5>, 3> perez{};  // A..E of Y, x, y
@@ -32,8 +32,8 @@ struct ClearSky {
 // to_sun: unit. turbidity: 2..10.
 ClearSky clear_sky(const glm::dvec3& to_sun, double turbidity);
 
-// From a direction (unit). Below the horizon the horizon's gradation goes on, so that there is no edge: it depends on the
-// angle to the sun only. >= 0, finite.
+// From a direction (unit). Below the horizon the horizon's gradation goes on, so that there is no edge: it depends on
+// the angle to the sun only. >= 0, finite.
 glm::dvec3 radiance(const ClearSky& sky, const glm::dvec3& direction);
 
 }  // namespace awan

@@ -1,8 +1,8 @@
-// What a cloud of model "ellipsoids" is: Gardner 1985, "Visual simulation of clouds" (document 002): a textured sky plane and
-// ellipsoids whose shading and translucence a sum of sines modulates.
+// What a cloud of model "ellipsoids" is: Gardner 1985, "Visual simulation of clouds": a textured sky
+// plane and ellipsoids whose shading and translucence a sum of sines modulates.
 //
-// Gardner's axes have Z up; ours have y up: his X, Y, Z are our x, z, y. A formation that moves apart from the others is a
-// cloud of its own, with a velocity.
+// Gardner's axes have Z up; ours have y up: his X, Y, Z are our x, z, y. A formation that moves apart from the others
+// is a cloud of its own, with a velocity.
 #pragma once
 
 #include <cstdint>

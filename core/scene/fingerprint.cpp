@@ -1,12 +1,12 @@
 // XXH3-128 over a canonical byte serialisation.
 //
 // A walk over the tables puts every field in, in their order: every list, optional and string preceded by its length or
-// presence, so that no two scenes share their bytes by running together. Numbers go in as their little-endian bytes (the
-// engine is built for x86-64 only), with -0 as 0.
+// presence, so that no two scenes share their bytes by running together. Numbers go in as their little-endian bytes
+// (the engine is built for x86-64 only), with -0 as 0.
 //
-// Equal scenes may be written in several ways, and some values have no meaning beside others. Those, and only those, are
-// named here (Instead): another value stands for the member, or the member is left out. What is not named goes in as it is,
-// so a new field is part of every fingerprint until somebody says otherwise.
+// Equal scenes may be written in several ways, and some values have no meaning beside others. Those, and only those,
+// are named here (Instead): another value stands for the member, or the member is left out. What is not named goes in
+// as it is, so a new field is part of every fingerprint until somebody says otherwise.
 #include "core/scene/fingerprint.h"
 
 #define XXH_STATIC_LINKING_ONLY  // the state may stand on the stack
@@ -160,7 +160,7 @@ void add_value(Hasher& hash, const Field& field, const void* value, const Instea
 }
 
 void add_field(Hasher& hash, const Field& field, const void* object, const Instead& instead) {
-    if (field.access.holds == Holds::kOutside) return;
+    if (field.access.holds == Holds::kOutside || field.access.holds == Holds::kAbsence) return;
     const void* const value = instead.value_of(field, object);
     const bool idle = field.idle != nullptr && field.idle(object);
     const bool used = value != nullptr && !idle &&
@@ -170,12 +170,9 @@ void add_field(Hasher& hash, const Field& field, const void* object, const Inste
 }
 
 void add_object(Hasher& hash, const Table& table, const void* object, const Instead& instead) {
-    for (const Field& field : table.fields) {
-        if (field.access.holds != Holds::kAbsence) continue;
-        const bool absent = *static_cast<const bool*>(field.access.member(object));
-        hash.integer(absent);
-        if (absent) return;
-    }
+    const bool absent = is_absent(table, object);
+    hash.integer(absent);
+    if (absent) return;
     for (const Field& field : table.fields) add_field(hash, field, object, instead);
 }
 

@@ -1,8 +1,8 @@
-// What tells scenes apart, as 128 bits in 32 hex digits (XXH3): equal scenes, however written, have equal fingerprints. No
-// protection against someone who wants a collision.
+// What tells scenes apart, as 128 bits in 32 hex digits (XXH3): equal scenes, however written, have equal fingerprints.
+// No protection against someone who wants a collision.
 //
-// Every field of every table goes in (table.h), so none can be forgotten; what is resolved or left out because it has no
-// meaning (the eye of an automatic camera) is listed in fingerprint.cpp.
+// Every field of every table goes in (table.h), so none can be forgotten; what is resolved or left out because it has
+// no meaning (the eye of an automatic camera) is listed in fingerprint.cpp.
 #pragma once
 
 #include <string>

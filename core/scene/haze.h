@@ -1,6 +1,7 @@
-// Air that is seen: extinction (1/unit) `extinction * exp(-(y - height) / scale_height)` above `height`, `extinction` below
-// it. It dims and veils what lies behind it and shows where the clouds shade it; the light on its way to the clouds, to the
-// ground and to itself it leaves alone: sun and sky are given as they arrive there. Light it scatters, it scatters once.
+// Air that is seen: extinction (1/unit) `extinction * exp(-(y - height) / scale_height)` above `height`, `extinction`
+// below it. It dims and veils what lies behind it and shows where the clouds shade it; the light on its way to the
+// clouds, to the ground and to itself it leaves alone: sun and sky are given as they arrive there. Light it scatters,
+// it scatters once.
 #pragma once
 
 #include "core/scene/limits.h"

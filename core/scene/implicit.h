@@ -1,5 +1,4 @@
-// What a cloud of model "implicit" is: volumetric implicit functions (Ebert, "Volumetric cloud modeling with implicit
-// functions", document 004).
+// What a cloud of model "implicit" is: volumetric implicit functions (Ebert 2002).
 //
 // Macrostructure: primitives, each a weight and a density that falls off from it (Wyvill, McPheeters & Wyvill 1986),
 //   m(p) = max(0, sum_i w_i h(r_i / R_i)),  h(a) = -4/9 a^6 + 17/9 a^4 - 22/9 a^2 + 1 for a <= 1, else 0,
@@ -9,8 +8,8 @@
 // p1 `amount`, p2 `exponent`, p3 `blend`, p4 `displacement`. All of it is a multiple of the cloud's density (1/unit).
 //
 // Positions, radii and points are in units. What is a matter of style is in mean radii: of the primitives as they are
-// described (without keys), or of the growth's particles where there are none. So a cloud described twice as large looks
-// the same.
+// described (without keys), or of the growth's particles where there are none. So a cloud described twice as large
+// looks the same.
 #pragma once
 
 #include <cstdint>
@@ -49,8 +48,8 @@ inline constexpr Range kImplicitRadius =
 inline constexpr Range kImplicitWeight = within(limits::kMaxImplicitWeight);
 inline constexpr const char* kPointWanted = "[x, y, z]: three numbers";
 
-// What is given holds at that time; between keys that have it a value is interpolated, before the first and after the last
-// it holds.
+// What is given holds at that time; between keys that have it a value is interpolated, before the first and after the
+// last it holds.
 struct ImplicitKey {
     // The keys of a primitive rise.
     double time = 0;
@@ -167,9 +166,9 @@ inline const Table& table_of<ImplicitPrimitive>() {
     return kImplicitPrimitiveTable;
 }
 
-// The particle system whose particles are primitives (spheres): seeds rise and wander in a turbulent force, bear children
-// as often as the turbulence where they are is strong, come to rest after their lifetime, and never die. Lengths are in
-// `radius`.
+// The particle system whose particles are primitives (spheres): seeds rise and wander in a turbulent force, bear
+// children as often as the turbulence where they are is strong, come to rest after their lifetime, and never die.
+// Lengths are in `radius`.
 struct ImplicitGrowth {
     std::uint64_t seeds = 12;
     std::uint64_t most = 50;
@@ -356,8 +355,8 @@ inline const Table& table_of<ImplicitVortex>() {
     return kImplicitVortexTable;
 }
 
-// A vector flow table: matter at p was moved there by the vector of p, trilinear between the table's, those of the faces
-// outside.
+// A vector flow table: matter at p was moved there by the vector of p, trilinear between the table's, those of the
+// faces outside.
 struct ImplicitFlow {
     // Of the box; the first and the last vectors of a row stand on its faces.
     glm::dvec3 min{-1};
@@ -421,8 +420,8 @@ struct ImplicitCloud {
     std::optional<double> exponent;
     std::optional<double> blend;
     std::optional<double> displacement;
-    // Ebert moves points along (1, -1, 1) by the turbulence, which is positive: the whole cloud shifts. Else each axis has
-    // noise of its own around 0.
+    // Ebert moves points along (1, -1, 1) by the turbulence, which is positive: the whole cloud shifts. Else each axis
+    // has noise of its own around 0.
     bool diagonal = false;
     std::optional<double> noise_size;
     std::optional<std::uint64_t> octaves;
@@ -439,16 +438,16 @@ struct ImplicitCloud {
     std::vector<ImplicitVortex> vortices;
     std::optional<ImplicitFlow> flow;
 
-    // Mackerel: the density times 1 - depth (1 - s_x s_y s_z), s = (1 + sin(2 pi x / wavelength + turbulence t)) / 2, for
-    // axes with a wavelength > 0, mean radii.
+    // Mackerel: the density times 1 - depth (1 - s_x s_y s_z), s = (1 + sin(2 pi x / wavelength + turbulence t)) / 2,
+    // for axes with a wavelength > 0, mean radii.
     std::optional<glm::dvec3> ripple;
     std::optional<double> ripple_depth;
     std::optional<double> ripple_turbulence;
 
     // In Ebert's frames a second: 30 is video.
     double swirl = 3;
-    // Ebert's path winds out for ever, and its noise coarsens into chaos with the frame number. Else the same path without
-    // these two.
+    // Ebert's path winds out for ever, and its noise coarsens into chaos with the frame number. Else the same path
+    // without these two.
     bool printed_swirl = false;
 
     std::uint64_t resolution = 96;

@@ -6,8 +6,8 @@
 namespace awan {
 namespace {
 
-// Places and radii below are in tens of metres, and a unit is kTen of them: 3.3 metres. With the default density, .2 a unit, a
-// cumulus has then the extinction of a real one, .06 a metre, and is opaque.
+// Places and radii below are in tens of metres, and a unit is kTen of them: 3.3 metres. With the default density, .2 a
+// unit, a cumulus has then the extinction of a real one, .06 a metre, and is opaque.
 constexpr double kTen = 3;
 
 ImplicitPrimitive sphere(glm::dvec3 center, double radius, double weight = 1) {

@@ -7,12 +7,12 @@
 #include <glm/trigonometric.hpp>
 #include <string>
 
-#include "core/plan/ladder.h"
 #include "core/scene/automaton.h"
 #include "core/scene/checks.h"
 #include "core/scene/ellipsoids.h"
 #include "core/scene/implicit.h"
 #include "core/scene/limits.h"
+#include "core/scene/rungs.h"
 #include "core/scene/spheres.h"
 
 namespace awan {

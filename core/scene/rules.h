@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/base/result.h"
+#include "core/scene/check_ranges.h"
 #include "core/scene/scene.h"
 
 namespace awan {
@@ -24,6 +25,13 @@ Status check_rules(const AutomatonCloud& cloud, const std::string& at);
 Status check_rules(const SpheresCloud& cloud, const std::string& at);
 Status check_rules(const ImplicitCloud& cloud, const std::string& at);
 Status check_rules(const EllipsoidsCloud& cloud, const std::string& at);
+
+// Ranges, then rules, of the object of one model: whether a cloud may have it.
+template <typename Model>
+Status check_model(const Model& model, const std::string& at) {
+    if (Status wrong = check_ranges(table_of<Model>(), &model, at)) return wrong;
+    return check_rules(model, at);
+}
 
 // --- of writing: what a document must give, and what it may not give together (rules_written.cpp)
 

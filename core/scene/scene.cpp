@@ -76,7 +76,7 @@ constexpr Field kFields[] = {
                               .words = kFillWords,
                               .says = "How cubes are filled: uniform (centred, low-discrepancy), "
                                       "gardner (uniform and a phase-shift warp), "
-                                      "printed (the source's equations as they stand)."}),
+                                      "printed (the equations as they were published)."}),
     field<&SceneDraft::seed>(
         {.name = "seed",
          .wanted = "an integer from 0 to 18446744073709551615",

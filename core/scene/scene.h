@@ -1,8 +1,8 @@
 // What was asked for, as plain values. A SceneDraft is as read (types right, ranges unchecked); a Scene is a draft that
 // validate() (validate.h) has found possible. Nothing else can make a Scene.
 //
-// Axes: right-handed, y up; the unit of length is the scene's own. Angles in degrees here, as in the document; they become
-// radians where they are used. Colours are linear, Rec. 709 primaries.
+// Axes: right-handed, y up; the unit of length is the scene's own. Angles in degrees here, as in the document; they
+// become radians where they are used. Colours are linear, Rec. 709 primaries.
 //
 // Each object of the document has a header of its own, with the struct and below it the table of its fields (table.h).
 #pragma once
@@ -35,13 +35,13 @@ namespace awan {
 enum class Look { kPhysical, kOstroushko, kGardner };
 inline constexpr const char* kLookWords[] = {"physical", "ostroushko", "gardner"};
 
-// Makes table 4.4 of Rekawan's thesis a thick cumulus: optical depth about 30 through its middle (measured by
+// Makes table 4.4 of Sunar et al. 2005 a thick cumulus: optical depth about 30 through its middle (measured by
 // survey_test).
 inline constexpr double kDefaultDensity = 0.2;
 
 struct SceneDraft {
-    // True when the document has `cubes` at its top instead of `clouds`: then there is exactly one cloud and pointers to
-    // its cubes read /cubes/i, else /clouds/k/cubes/i.
+    // True when the document has `cubes` at its top instead of `clouds`: then there is exactly one cloud and pointers
+    // to its cubes read /cubes/i, else /clouds/k/cubes/i.
     bool top_level_cubes = true;
     std::vector<Cloud> clouds;
     Fill fill = Fill::kUniform;

@@ -1,5 +1,5 @@
-// The sky of a scene: a gradient, radiance `intensity * mix(horizon, zenith, f(sine of elevation))` (core/shaders/sky.glsl),
-// or the clear sky that belongs to the sun (core/scene/daylight.h), times `intensity`.
+// The sky of a scene: a gradient, radiance `intensity * mix(horizon, zenith, f(sine of elevation))`
+// (core/shaders/sky.glsl), or the clear sky that belongs to the sun (core/scene/daylight.h), times `intensity`.
 #pragma once
 
 #include "core/scene/limits.h"
@@ -7,8 +7,8 @@
 
 namespace awan {
 
-// The default of a physical sky: the clear skies of Preetham et al. 1999 are 1.8 times as bright as measured ones (IES: 14
-// klx on the ground at 45 degrees, the model 25).
+// The default of a physical sky: the clear skies of Preetham et al. 1999 are 1.8 times as bright as measured ones (IES:
+// 14 klx on the ground at 45 degrees, the model 25).
 inline constexpr double kPhysicalSkyIntensity = 0.55;
 inline constexpr double kGradientSkyIntensity = 1.7;
 inline constexpr const char* kSkyModelWords[] = {"gradient", "physical"};

@@ -1,5 +1,5 @@
-// What a scene document may hold, said once: a table for each of its objects, a row for each field. A table stands below
-// its struct (haze.h, sun.h, ...) and drives all that goes over every field:
+// What a scene document may hold, said once: a table for each of its objects, a row for each field. A table stands
+// below its struct (haze.h, sun.h, ...) and drives all that goes over every field:
 //   reading            server/document/parse.cpp
 //   ranges             core/scene/check_ranges.h
 //   writing            server/document/write_scene.cpp
@@ -154,9 +154,16 @@ struct Table {
     std::span<const Field> fields;
     // One of these with all the defaults.
     const void* (*standard)();
-    // Where a word may stand for the whole object, the field that it sets: {"model": "physical"} is "physical". Null: none.
+    // Where a word may stand for the whole object, the field that it sets: {"model": "physical"} is "physical". Null:
+    // none.
     const char* shorthand = nullptr;
 };
+
+// The row by which the whole object can be absent (absence() below); null: it has none.
+const Field* absence_of(const Table& table);
+
+// Whether that row says that `object` is not there.
+bool is_absent(const Table& table, const void* object);
 
 // The table of a struct of the document; defined below each of them.
 template <typename Object>

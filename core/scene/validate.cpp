@@ -9,7 +9,8 @@
 namespace awan {
 namespace {
 
-// A draft that says it was written with its cubes at the top has no other pointers to them, whatever else was set since.
+// A draft that says it was written with its cubes at the top has no other pointers to them, whatever else was set
+// since.
 void point_to_top(Error& error) {
     constexpr std::string_view kOnlyCloud = "/clouds/0";
     if (error.pointer.starts_with(kOnlyCloud)) error.pointer.erase(0, kOnlyCloud.size());

@@ -1,40 +1,50 @@
-// Pass 1, step 1: how much optical depth each slab of each column of a volume holds; the columns run from a light away.
+// Pass 1, step 1: how much optical depth each slab of each column of a volume holds. The columns run from the light
+// away.
 //
-// A column is one line from the light through one texel. Each particle adds its whole optical depth on that line (and its
-// gain depth, light/light.cpp), spread over the slabs as its mass is. Summed up along the column (light_sums.glsl), that is the
-// recurrence (3.12) exactly between particles, and within one the light falls off as its Gaussian does. Columns do
-// not need each other and sums have no order to keep.
+// A column is one line from the light through one texel. Each particle adds its whole optical depth on that line (and
+// its gain depth, see light/light.cpp), spread over the slabs as its mass is. Summed up along the column
+// (light_sums.glsl), that is exactly the recurrence of Harris & Lastra 2001,
+//   I_k = g_(k-1) + T_(k-1) I_(k-1),    T = exp(-tau),
+// between particles, and within one the light falls off as its Gaussian does. Columns do not need each other, and the
+// sums have no order to keep.
 //
-// A work group makes a brick of 8 x 8 texels and 8 slabs, a work item a row of 8 texels along v with all slabs: what is
-// the same for a whole particle is then worked out once in 64 cells.
+// A work group makes a brick of 8 x 8 texels and 8 slabs; a work item makes a row of 8 texels along v with all slabs.
+// What is the same for a whole particle is then worked out once for 64 cells.
 layout(local_size_x = 8) in;
 
-// Two texels a particle: u, v (texels), depth (slabs), 1 / (2 s^2) in texels^-2;
-// optical depth through the centre, 1 / (2 kSpread s) in slabs^-1, the two coefficients of gained() below.
-// A buffer texture, since llvmpipe fetches a vec4 of it in a tenth of the time that four words of a storage buffer take.
+// Two vec4s a particle. First: u, v of the centre (texels), its depth (slabs), 1 / (2 s^2) (texels^-2). Second: the
+// optical depth through the centre, 1 / (2 kSpread s) (slabs^-1), and the two coefficients of gained() below. A
+// buffer texture, since llvmpipe fetches a vec4 of it in a tenth of the time that four words of a storage buffer
+// take.
 layout(binding = 0) uniform samplerBuffer particles;
 layout(std430, binding = 1) readonly buffer TileBegin { uint tile_begin[]; };
 layout(std430, binding = 2) readonly buffer TileItems { uint tile_items[]; };
 layout(std430, binding = 4) readonly buffer FilledTiles { uint filled_tiles[]; };
-layout(std430, binding = 3) buffer Volume { vec2 volume[]; };  // plain, with gain
+// Of each cell: its optical depth, and its gain depth.
+layout(std430, binding = 3) buffer Volume { vec2 volume[]; };
 
-layout(location = 0) uniform ivec3 cells;   // texels u, texels v, slabs
-layout(location = 1) uniform ivec4 region;  // of tiles: first u, first v, count u, count v
-layout(location = 2) uniform ivec2 run;     // first and count of the list entries to add now
+// Cells of the volume: texels along u, texels along v, slabs.
+layout(location = 0) uniform ivec3 cells;
+// The tiles of this dispatch: first u, first v, count along u, count along v.
+layout(location = 1) uniform ivec4 region;
+// The first entry of the tiles' lists to add now, and how many.
+layout(location = 2) uniform ivec2 run;
 
-// Part of a Gaussian's mass before depth z, x = (z - centre) / (2 kSpread s): a smooth step in place of the error
-// function, within .02 of it.
+// The share of a Gaussian's mass that lies before depth z, where x = (z - centre) / (2 kSpread s). A smooth step
+// takes the place of the error function; it stays within .02 of it.
 vec4 share_before(vec4 x) {
     vec4 t = clamp(x + 0.5, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
 }
 
-// Gain depth (gain_curve in light/light.cpp) of a line of optical depth tau through a particle: start tau / (1 + bend tau), which is exact
-// for thin lines and for the line through the centre, and bounded as the exact one is. Between: within 2% for particles
-// up to optical depth 1, within 25% for any.
+// The gain depth (gain_curve in light/light.cpp) of a line through a particle whose optical depth on that line is
+// tau:
+//   start tau / (1 + bend tau).
+// It is exact for thin lines and for the line through the centre, and bounded as the exact one is. Between these it
+// is within 2% for particles up to optical depth 1, and within 25% for any.
 vec4 gained(vec4 tau, float start, float bend) { return start * tau / (1.0 + bend * tau); }
 
-// One slab's cells of a row: v, v + 4 texels.
+// What one slab of a row of 8 texels holds, as 4 + 4 texels along v: optical depth and gain depth.
 struct Cells {
     vec4 plain_a, plain_b, gained_a, gained_b;
 };
@@ -69,7 +79,8 @@ void main() {
     int slab = tile.z * 8;
     float texel_u = float(u);
     vec4 row_a = vec4(float(v)) + vec4(0.0, 1.0, 2.0, 3.0), row_b = row_a + 4.0;
-    vec4 side_a = vec4(float(slab)) + vec4(-1.0, 0.0, 1.0, 2.0), side_b = side_a + 4.0;  // near sides of slabs
+    // Depths of the near sides of this slab, the one before and the six after it.
+    vec4 side_a = vec4(float(slab)) + vec4(-1.0, 0.0, 1.0, 2.0), side_b = side_a + 4.0;
     Cells none = Cells(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
     Cells c0 = none, c1 = none, c2 = none, c3 = none, c4 = none, c5 = none, c6 = none, c7 = none;
 

@@ -1,21 +1,25 @@
 // Pass 1, step 3: the light on each particle, as a value at its centre and a gradient.
 //
-// Six points around the centre, at distance r along the scene's axes: the mean of their values is the value, and half the
-// difference of two opposite ones over r the gradient.
+// Six points lie around the centre, at distance r along the scene's axes. The mean of their values is the value; half
+// the difference of two opposite ones over r is the gradient along that axis.
 layout(local_size_x = 64) in;
 
 struct SamplePoint {
-    vec4 place;  // u, v (texels), depth (slabs) of the centre; distance r of the points, scene units
+    // The centre's u, v (texels) and depth (slabs), and the distance r of the six points, scene units.
+    vec4 place;
 };
 layout(std430, binding = 0) readonly buffer Points { SamplePoint points[]; };
 layout(std430, binding = 1) readonly buffer Volume { vec2 volume[]; };
-layout(std430, binding = 2) writeonly buffer Samples { vec4 samples[]; };  // two a particle: gradient xyz, value w
+// Two a particle, one for each component of light_at(): gradient in xyz, value in w.
+layout(std430, binding = 2) writeonly buffer Samples { vec4 samples[]; };
 
 layout(location = 0) uniform ivec3 cells;
 layout(location = 1) uniform int count;
-layout(location = 2) uniform vec3 axis_u;  // a step of one scene unit: texels along each scene axis
+// What a step of one scene unit along x, y or z is in texels along u, in texels along v, ...
+layout(location = 2) uniform vec3 axis_u;
 layout(location = 3) uniform vec3 axis_v;
-layout(location = 4) uniform vec3 axis_depth;  // slabs
+// ... and in slabs.
+layout(location = 4) uniform vec3 axis_depth;
 layout(location = 5) uniform bool from_sky;
 
 vec2 slab_at(ivec2 a, ivec2 b, vec2 f, int slab) {
@@ -25,7 +29,8 @@ vec2 slab_at(ivec2 a, ivec2 b, vec2 f, int slab) {
     return mix(low, high, f.y);
 }
 
-// Sun: unscattered light, and light that was scattered forward on the way. Sky: from above, and from below.
+// From the sun: unscattered light, and light that was scattered forward on its way. From the sky: light from its
+// upper half, and from its lower half.
 vec2 light_at(vec3 p) {
     vec2 q = clamp(p.xy, vec2(0.0), vec2(cells.xy - 1));
     ivec2 a = ivec2(q);

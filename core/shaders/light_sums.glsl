@@ -1,4 +1,5 @@
-// Pass 1, step 2: running sums along the columns, from the light on: optical depth up to each slab.
+// Pass 1, step 2: running sums along the columns, from the light on. Each slab then holds the depth of all slabs up
+// to it.
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 0) buffer Volume { vec2 volume[]; };

@@ -1,5 +1,5 @@
-// The shaders' shared maths as C++ functions: the very text that the GPU compiles, in the common subset of GLSL and
-// GLM. In namespace awan::shader; float32 throughout, as there.
+// The shaders' shared formulas as C++ functions: the very text that the GPU compiles, written in what GLSL and GLM
+// have in common. In namespace awan::shader; float32 throughout, as there.
 #pragma once
 
 #include <glm/common.hpp>
@@ -10,7 +10,8 @@
 #include <glm/vector_relational.hpp>
 
 namespace awan::shader {
-namespace {  // GLSL has no `inline`: each file that includes this gets copies of its own
+// GLSL has no `inline`: each file that includes this gets copies of its own.
+namespace {
 
 using glm::abs;
 using glm::dot;

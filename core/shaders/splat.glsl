@@ -1,59 +1,81 @@
-// Pass 2: Gaussian particles blended front to back, per pixel (document 000, eq. 3.13 with S = a (1 - e^-tau) p I / 4 pi).
+// Pass 2: Gaussian particles blended front to back, per pixel (Harris & Lastra 2001):
+//   E_k = S_k + T_k E_(k-1),    S = a (1 - e^-tau) p I / 4 pi,    T = e^-tau.
+// Print has S = a tau p I / 4 pi (Sunar et al. 2005, below (3.13)), which is not bounded by the light that arrives.
 //
-// A work group draws a tile of 8 x 16 pixels, a work item a column of 16 of them, four by four in vectors. A particle's
-// optical depth along a pixel's ray d is exact in perspective: tau exp(-|q x d|^2 / (2 s^2 |d|^2)), and in a column
-// |q x d|^2 = C (Y - Y0)^2 + m with no cancellation.
-// The program is compiled twice, since llvmpipe runs both sides of every branch: INTERIOR (effect `interior`) takes the half
-// line before the eye for all particles, the other the whole line.
-// Light and phase function are evaluated where the fragment is: at the ray's closest point to the centre.
+// A work group draws a tile of 8 x 16 pixels; a work item draws a column of 16 of them, four by four in vectors. A
+// particle's optical depth along a pixel's ray d is exact in perspective,
+//   tau exp(-|q x d|^2 / (2 s^2 |d|^2)),    q: from the eye to the centre,
+// and in a column |q x d|^2 = C (Y - Y0)^2 + m, without cancellation.
+//
+// The program is compiled twice, since llvmpipe runs both sides of every branch: INTERIOR (effect `interior`) takes
+// only the half line before the eye, for all particles, the other the whole line. Light and phase function are
+// evaluated where the fragment is: at the point of the ray closest to the particle's centre.
 layout(local_size_x = 8) in;
 
 #include "optics.glsl"
 #include "phase.glsl"
 #include "sky.glsl"
 
-// Five texels a particle. A buffer texture, since llvmpipe fetches a vec4 of it in a tenth of the time that four
+// A particle: five vec4s. In a buffer texture, since llvmpipe fetches a vec4 of it in a tenth of the time that four
 // words of a storage buffer take.
 struct Splat {
-    vec4 place;   // centre in the eye's frame (right, up, forward), 1 / (2 s^2)
-    vec4 matter;  // albedo * colour * sun irradiance / 4 pi; optical depth through the centre
-    vec4 direct;  // sun light that was not scattered: gradient (eye's frame), value at the eye (!)
-    vec4 other;   // radiance scattered from all other light, at the centre; largest factor on it
-    vec4 change;  // factor on `other`: gradient, value at the eye
+    // Its centre in the eye's frame (right, up, forward), and 1 / (2 s^2).
+    vec4 place;
+    // Albedo * colour * the sun's irradiance / 4 pi, and the optical depth through the centre.
+    vec4 matter;
+    // Sunlight that was not scattered on its way: gradient in the eye's frame, and the value extrapolated to the eye
+    // (not the value at the centre).
+    vec4 direct;
+    // Radiance scattered from all other light, at the centre, and the largest factor that may multiply it.
+    vec4 other;
+    // The factor on `other`: gradient in the eye's frame, and the value extrapolated to the eye.
+    vec4 change;
 };
 layout(binding = 0) uniform samplerBuffer splats;
 layout(std430, binding = 1) readonly buffer TileBegin { uint tile_begin[]; };
 layout(std430, binding = 2) readonly buffer TileItems { uint tile_items[]; };
 layout(std430, binding = 3) buffer Picture { vec4 picture[]; };
 
-layout(location = 0) uniform ivec4 region;    // of tiles: first x, first y, count x, count y
-layout(location = 1) uniform ivec2 size;      // of the whole picture, pixels
-layout(location = 2) uniform vec2 tangent;    // half width and half height of the image plane at distance 1
-layout(location = 3) uniform vec3 to_sun;     // unit, eye's frame
-layout(location = 4) uniform vec3 vertical;   // scene's y axis in the eye's frame
-layout(location = 5) uniform vec3 zenith;     // sky radiance; black for none
+// The tiles of this dispatch: first x, first y, count along x, count along y.
+layout(location = 0) uniform ivec4 region;
+// Width and height of the whole picture, pixels.
+layout(location = 1) uniform ivec2 size;
+// Half width and half height of the image plane at distance 1.
+layout(location = 2) uniform vec2 tangent;
+// Towards the sun: unit, in the eye's frame.
+layout(location = 3) uniform vec3 to_sun;
+// The scene's y axis in the eye's frame.
+layout(location = 4) uniform vec3 vertical;
+// The sky's radiances; black for no sky.
+layout(location = 5) uniform vec3 zenith;
 layout(location = 6) uniform vec3 horizon;
 layout(location = 7) uniform float g;
 layout(location = 8) uniform bool is_cornette_shanks;
-layout(location = 9) uniform bool extinguish;  // effect view_extinction
-layout(location = 10) uniform bool opaque;     // the sky behind
-layout(location = 11) uniform ivec3 run;       // first and count of the list entries to blend now; 1 when they are the last
+// Whether effect view_extinction is on.
+layout(location = 9) uniform bool extinguish;
+// Whether the sky is drawn behind.
+layout(location = 10) uniform bool opaque;
+// The first entry of the lists to blend now, how many, and 1 where they are the last.
+layout(location = 11) uniform ivec3 run;
 
 // Below this transmittance the rest of the list is skipped: what is behind adds no more than a thousandth of itself, a
 // quarter of an 8-bit step.
 const float kOpaque = 1e-3;
 
-// Four pixels of a column. Never in an array: an array that a loop indexes lives in memory on llvmpipe.
+// Four pixels of a column. Never in an array, since one that a loop indexes lives in memory on llvmpipe.
 struct Pixels {
-    vec4 Y, per_d2, phase;         // of the ray (X, Y, 1): Y, 1 / |d|^2, phase function
-    vec4 left, red, green, blue;   // transmittance and radiance so far
+    // Of the rays d = (X, Y, 1): Y, 1 / |d|^2, and the phase function.
+    vec4 Y, per_d2, phase;
+    // Transmittance and radiance so far.
+    vec4 left, red, green, blue;
 };
 
-// What a particle is to a whole column: terms that do not depend on Y. Light is linear in the scene, and as good as
-// linear in Y along a column: it is expanded about the row nearest to the centre.
+// What is the same of a particle for a whole column: the terms that do not depend on Y. Its light is linear in the
+// scene and almost linear in Y along a column, so it is expanded about the row nearest to the centre.
 struct Column {
     float X, aside, y0, a, m, along;
-    vec2 direct, change;  // at Y: x + y Y
+    // Two linear functions of Y, x + y Y: direct sunlight, and the factor on the other light.
+    vec2 direct, change;
 };
 
 Splat fetch(int at) {
@@ -61,7 +83,8 @@ Splat fetch(int at) {
                  texelFetch(splats, at + 3), texelFetch(splats, at + 4));
 }
 
-// A linear function of the scene on the rays (X, Y, 1) near Y = y: point t d, t the closest to the centre, slope its change with Y.
+// A linear function of the scene (f: gradient, value at the eye) as x + y Y on the rays (X, Y, 1) near Y = y. It is
+// evaluated at the point t d of the ray that is closest to the centre; slope is the change of t with Y.
 vec2 on_column(vec4 f, float X, float y, float t, float slope) {
     float along = f.x * X + f.z + f.y * y;
     float change = slope * along + t * f.y;
@@ -110,7 +133,8 @@ Pixels look(float X, float first_row) {
 
 void blend(Splat p, Column k, inout Pixels px) {
 #ifdef INTERIOR
-    vec4 t = (k.along + p.place.y * px.Y) * px.per_d2;  // of the closest point, in units of d
+    // How far along its ray each pixel's closest point lies, in units of d.
+    vec4 t = (k.along + p.place.y * px.Y) * px.per_d2;
     vec4 up = p.place.y - p.place.z * px.Y, over = p.place.x * px.Y - p.place.y * k.X;
     vec4 miss = (up * up + k.aside * k.aside + over * over) * p.place.w;
     vec4 tau = p.matter.w * exp(-miss * px.per_d2) *
@@ -130,7 +154,8 @@ void blend(Splat p, Column k, inout Pixels px) {
 }
 
 void put(int at, float X, float Y, float per_d2, float left, vec3 color) {
-    if (run.z == 0) {  // to be continued: transmittance instead of opacity, nothing behind
+    // More entries follow: the transmittance is kept in place of the opacity, and nothing is put behind.
+    if (run.z == 0) {
         picture[at] = vec4(color, left);
         return;
     }

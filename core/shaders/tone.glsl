@@ -1,14 +1,16 @@
-// The tone curve, the only place where scene radiance becomes a display value. Written in the
-// subset that GLSL and C++ with GLM share; core/formats/tone.cpp compiles this text.
+// The tone curve, the only place where scene radiance becomes a display value. Written in what GLSL and C++ with GLM
+// have in common; core/formats/tone.cpp compiles this text.
 //
-// Straight up to the knee: what is darker than half of display white keeps its radiance and its
-// hue, so the blue of the sky stays as it was asked for and 0.18 stays mid grey. Above, Reinhard's
-// extended curve (Reinhard et al. 2002, eq. 4), moved so that it leaves the knee with slope 1 and
-// arrives at 1 exactly at kToneWhite: sunlit cloud keeps its shading, and only what is five times
-// as bright as a sunlit white wall is plain white. To be applied to each channel by itself,
-// which takes the tint out of highlights instead of leaving coloured whites.
-const float kToneKnee = 0.5f;   // display-linear; below it the curve is the identity
-const float kToneWhite = 8.0f;  // exposed radiance that becomes display white
+// It is straight up to the knee: what is darker than half of display white keeps its radiance and its hue, so the
+// blue of the sky stays as it was asked for and 0.18 stays mid grey. Above the knee comes the curve of Reinhard et
+// al. 2002 (4), moved so that it leaves the knee with slope 1 and arrives at 1 exactly at kToneWhite: sunlit cloud
+// keeps its shading, and only what is five times as bright as a sunlit white wall is plain white. It is to be applied
+// to each channel by itself, which takes the tint out of highlights instead of leaving coloured whites.
+//
+// kToneKnee is display-linear; below it the curve is the identity.
+const float kToneKnee = 0.5f;
+// Exposed radiance that becomes display white.
+const float kToneWhite = 8.0f;
 
 // Where automatic exposure puts the sunlit side of a thick cloud, before the curve;
 // tone_curve(1.6) is 0.85, 237 of 255 in sRGB: white, with room for what is brighter.

@@ -8,8 +8,9 @@
 
 namespace awan {
 
-// The detail that the scene asks for (its defaults where it says nothing), made for what was surveyed; mass is kept to
-// what the middles of the density volume's cells (48 along the longest side) can tell, some percent. Null: there is nothing to gather.
+// The detail that the scene asks for (its defaults where it says nothing), made for what was surveyed; mass is kept
+// to what the middles of the density volume's cells (48 along the longest side) can tell, some percent. Null: there
+// is nothing to gather.
 std::shared_ptr<const DetailField> detail_of(const Scene& scene, const Survey& survey, int threads,
                                              DetailTiles* tiles = nullptr);
 

@@ -8,6 +8,8 @@
 
 #include "core/generate/gaussian.h"
 #include "core/scene/outside.h"
+#include "core/survey/raster_ray.h"
+#include "core/survey/volume.h"
 
 namespace awan {
 namespace {
@@ -31,14 +33,8 @@ double depth_through(const DensityVolume& volume, const glm::dvec3& from, const 
     const double step = (leave - enter) / steps;
     double depth = 0;
     for (int i = 0; i < steps; ++i) {
-        const glm::ivec3 c = glm::clamp(glm::ivec3(glm::floor(p + (enter + (i + 0.5) * step) * d)),
-                                        glm::ivec3(0), volume.cells - 1);
-        const std::size_t at =
-            (static_cast<std::size_t>(c.z) * static_cast<std::size_t>(volume.cells.y) +
-             static_cast<std::size_t>(c.y)) *
-                static_cast<std::size_t>(volume.cells.x) +
-            static_cast<std::size_t>(c.x);
-        depth += static_cast<double>(volume.extinction[at]) * step * volume.cell;
+        const glm::dvec3 at = p + (enter + (i + 0.5) * step) * d;
+        depth += extinction_of_cell(volume, at) * step * volume.cell;
     }
     return depth;
 }
@@ -74,9 +70,7 @@ GroundView ground_view(const Scene& scene, const ParticleSet& particles, const S
     int met = 0;
     for (int j = 0; j < kDown; ++j)
         for (int i = 0; i < kAcross; ++i) {
-            const double u = ((i + 0.5) / kAcross * 2 - 1) * view.tan_half_fov * view.aspect;
-            const double v = (1 - (j + 0.5) / kDown * 2) * view.tan_half_fov;
-            const glm::dvec3 d = glm::normalize(view.forward + u * view.right + v * view.up);
+            const glm::dvec3 d = raster_ray(view, kAcross, kDown, i, j);
             if (!(d.y < 0)) continue;
             ++met;
             const glm::dvec3 p = view.eye + (height - view.eye.y) / d.y * d;

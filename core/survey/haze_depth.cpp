@@ -7,7 +7,8 @@
 namespace awan {
 namespace {
 
-constexpr double kLevel = 1e-200;  // slopes below it change no height within any finite picture
+// Slopes below it change no height within any finite picture.
+constexpr double kLevel = 1e-200;
 
 }  // namespace
 

@@ -7,8 +7,9 @@ namespace awan {
 
 // A ray through the layer: from height `y`, rising by `slope` (-1..1) a unit of its length. Scene units.
 //
-// In the exponential part the depth over a length l is b l (1 - exp(-x)) / x, x = |slope| l / scale height, b the extinction
-// at the lower end: nothing cancels or overflows for level rays or for scale heights of any size. Relative error < 1e-12.
+// In the exponential part the depth over a length l is b l (1 - exp(-x)) / x, x = |slope| l / scale height, b the
+// extinction at the lower end: nothing cancels or overflows for level rays or for scale heights of any size. Relative
+// error < 1e-12.
 class HazeRay {
   public:
     HazeRay(const Haze& haze, double y, double slope);
@@ -23,12 +24,14 @@ class HazeRay {
   private:
     double above(double start, double length) const;
 
-    double extinction_, start_, slope_;  // start_: above the layer's `height`, in scale heights
-    double rate_, crossing_;  // slope in scale heights; distance of `height`, infinite: not ahead
+    // start_: above the layer's `height`, in scale heights.
+    double extinction_, start_, slope_;
+    // Slope in scale heights; distance of `height`, infinite: not ahead.
+    double rate_, crossing_;
 };
 
-// Optical depth of the layer over a vertical line from `low` to `high` >= low; `high` may be infinite. A ray between these
-// heights has this over the size of its slope.
+// Optical depth of the layer over a vertical line from `low` to `high` >= low; `high` may be infinite. A ray between
+// these heights has this over the size of its slope.
 double vertical_haze_depth(const Haze& haze, double low, double high);
 
 }  // namespace awan

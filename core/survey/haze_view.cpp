@@ -6,15 +6,19 @@
 #include <limits>
 #include <numbers>
 
-#include "core/scene/outside.h"
 #include "core/survey/haze_depth.h"
+#include "core/survey/outside_light.h"
+#include "core/survey/raster_ray.h"
+#include "core/survey/volume.h"
 
 namespace awan {
 namespace {
 
 constexpr int kAcross = 16, kDown = 12, kPoints = 32;
+constexpr int kSkySteps = 48;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kSeen = 0.01;  // optical depth from which a ray meets clouds
+// Optical depth from which a ray meets clouds.
+constexpr double kSeen = 0.01;
 
 // Part of origin + t direction, t in from..to, inside of the volume.
 bool clip(const DensityVolume& volume, const glm::dvec3& origin, const glm::dvec3& direction,
@@ -33,14 +37,7 @@ bool clip(const DensityVolume& volume, const glm::dvec3& origin, const glm::dvec
 }
 
 double extinction_in(const DensityVolume& volume, const glm::dvec3& p) {
-    const glm::ivec3 at =
-        glm::clamp(glm::ivec3((p - volume.origin) / volume.cell), glm::ivec3(0), volume.cells - 1);
-    return static_cast<double>(
-        volume
-            .extinction[(static_cast<std::size_t>(at.z) * static_cast<std::size_t>(volume.cells.y) +
-                         static_cast<std::size_t>(at.y)) *
-                            static_cast<std::size_t>(volume.cells.x) +
-                        static_cast<std::size_t>(at.x)]);
+    return extinction_of_cell(volume, (p - volume.origin) / volume.cell);
 }
 
 // Optical depth of the clouds from p on, by steps of about a cell; stops where nothing is seen any more.
@@ -56,19 +53,22 @@ double depth_towards(const DensityVolume& volume, const glm::dvec3& p,
     return depth;
 }
 
+// What lights the haze and, by a guess, the clouds in it. Luminances.
 struct Lights {
-    double sun, ambient, cloud;  // luminance; of the haze, and a guess of a lit cloud's
+    double sun;  // irradiance
+    // Mean radiance from all directions.
+    double ambient;
+    double cloud;  // radiance of a lit cloud
     glm::dvec3 to_sun;
     SkyDome sky;
 };
 
 Lights lights_of(const Scene& scene) {
-    const Outside outside = outside_of(scene);
-    const SkyMeans means = means_of(outside.sky);
-    const bool under = scene->ground && outside.to_sun.y < 0;
-    const double sun = under ? 0 : luminance(outside.sun);
-    const double sky = 0.5 * luminance(means.above + means.below);
-    return {sun, sky, sun / (4 * std::numbers::pi) + sky, outside.to_sun, outside.sky};
+    const OutsideLight light = outside_light(scene, kSkySteps);
+    // A ground keeps a sun below it from the haze.
+    const bool under = scene->ground && light.outside.to_sun.y < 0;
+    return {under ? 0 : luminance(light.outside.sun), light.sky, under ? light.sky : light.all(),
+            light.outside.to_sun, light.outside.sky};
 }
 
 double henyey_greenstein(double g, double cosine) {
@@ -91,7 +91,8 @@ RayFigures look_along(const Haze& haze, double ground, const Lights& lights, con
     const double albedo = luminance(haze.albedo);
     RayFigures figures;
     figures.behind = ray.depth(end);
-    // Points even in the haze's opacity would crowd at the eye: even in distance instead, out to well behind the clouds.
+    // Points even in the haze's opacity would crowd at the eye: even in distance instead, out to well behind the
+    // clouds.
     const glm::dvec3 half = 0.5 * glm::dvec3(volume.cells) * volume.cell;
     const double reach =
         std::min(end, glm::length(volume.origin + half - view.eye) + 2 * glm::length(half));
@@ -138,9 +139,7 @@ HazeFigures haze_figures(const Scene& scene, const Survey& survey) {
     const bool matter = !survey.volume.extinction.empty();
     for (int j = 0; j < kDown; ++j)
         for (int i = 0; i < kAcross; ++i) {
-            const double u = ((i + 0.5) / kAcross * 2 - 1) * view.tan_half_fov * view.aspect;
-            const double v = (1 - (j + 0.5) / kDown * 2) * view.tan_half_fov;
-            const glm::dvec3 d = glm::normalize(view.forward + u * view.right + v * view.up);
+            const glm::dvec3 d = raster_ray(view, kAcross, kDown, i, j);
             if (!matter) {
                 const double end =
                     d.y < 0 && view.eye.y > ground ? (view.eye.y - ground) / -d.y : kInfinity;

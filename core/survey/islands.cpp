@@ -11,14 +11,18 @@
 namespace awan {
 namespace {
 
-constexpr double kReach = 2.5;        // of a particle's box, in s
-constexpr double kIslandReach = 4;    // of what an island holds, in s
-constexpr double kEmpty = 1e-3;       // optical depth of a cell that counts as empty
-constexpr double kMostDepth = 1e3;    // of one particle in a cell: keeps the sums' digits
-constexpr double kQuickCells = 64e3;  // that find whether there is any use
-constexpr int kFineCells = 200;       // along the longest side
+constexpr double kReach = 2.5;      // of a particle's box, in s
+constexpr double kIslandReach = 4;  // of what an island holds, in s
+// Optical depth of a cell that counts as empty.
+constexpr double kEmpty = 1e-3;
+// Of one particle in a cell: keeps the sums' digits.
+constexpr double kMostDepth = 1e3;
+// That find whether there is any use.
+constexpr double kQuickCells = 64e3;
+constexpr int kFineCells = 200;  // along the longest side
 constexpr double kMostCells = 1e6;
-constexpr int kLeastSide = 4;  // cells; a smaller part is not cut again
+// Cells; a smaller part is not cut again.
+constexpr int kLeastSide = 4;
 
 struct Box {
     glm::ivec3 low, high;  // cells, both included

@@ -12,27 +12,34 @@ namespace awan {
 
 // The particles whose centres lie in one region.
 struct Island {
-    glm::dvec3 low{0}, high{0};      // holds them out to 4 s, scene units
-    std::size_t particles = 0;       // 0: the region has only others' fringes
-    std::array<double, 4> s_sums{};  // over its particles, of s^0..s^3, unit^k
-    double depth = 0;  // optical depth of its longest line along an axis, of matter in whole cells
+    // Holds them out to 4 s, scene units.
+    glm::dvec3 low{0}, high{0};
+    // 0: the region has only others' fringes.
+    std::size_t particles = 0;
+    // Over its particles, of s^0..s^3, unit^k.
+    std::array<double, 4> s_sums{};
+    // Optical depth of its longest line along an axis, of matter in whole cells.
+    double depth = 0;
 };
 
 // A k-d tree over all of space: a point is in one region.
 struct IslandNode {
-    int axis = -1;  // -1: a region, and `below` is its index in Islands::list
+    // -1: a region, and `below` is its index in Islands::list.
+    int axis = -1;
     double cut = 0;
     int below = 0, above = 0;  // nodes
 };
 struct Islands {
-    std::vector<IslandNode> nodes;  // the root first; EMPTY: all is one
+    // The root first; EMPTY: all is one.
+    std::vector<IslandNode> nodes;
     std::vector<Island> list;
 };
 
-// Cuts go through planes in which no line along the axes has more optical depth than kCutDepth, the widest gaps first, and
-// only stay where the pieces' boxes together are smaller than the whole by kPays: a single cloud is one, and so is a field
-// too dense to gain. At most kMostIslands. Time: linear in the particles (about 40 ns each) and up to 30 ms.
-// The cells' extinction is a box's of each particle's mass and width: it finds gaps, and is for nothing else.
+// Cuts go through planes in which no line along the axes has more optical depth than kCutDepth, the widest gaps
+// first, and only stay where the pieces' boxes together are smaller than the whole by kPays: a single cloud is one,
+// and so is a field too dense to gain. At most kMostIslands. Time: linear in the particles (about 40 ns each) and up
+// to 30 ms. The cells' extinction is a box's of each particle's mass and width: it finds gaps, and is for nothing
+// else.
 Islands find_islands(const ParticleSet& particles);
 
 inline constexpr double kCutDepth = 0.3;

@@ -15,8 +15,9 @@
 namespace awan {
 namespace {
 
-constexpr double kCut = 4;           // in s
-constexpr int kCoarse = 32;          // cells of the volume that finds the box
+constexpr double kCut = 4;  // in s
+// Cells of the volume that finds the box.
+constexpr int kCoarse = 32;
 constexpr double kCoarseWork = 1e7;  // of it; about 10 ms
 
 struct Span {
@@ -32,9 +33,9 @@ Span span_of(double center, double reach, double cell, int count) {
             static_cast<int>(std::min(last, static_cast<double>(count - 1)))};
 }
 
-// Share of a Gaussian's mass below a point, from -kCut s (0) to kCut s (1): linear between the nodes of a table, within 2e-7. A
-// table of normal_cdf, itself one: inlined and ready scaled it saves a quarter of a million small particles' time, which is
-// spent here.
+// Share of a Gaussian's mass below a point, from -kCut s (0) to kCut s (1): linear between the nodes of a table,
+// within 2e-7. A table of normal_cdf, itself one: inlined and ready scaled it saves a quarter of a million small
+// particles' time, which is spent here.
 class MassBelow {
   public:
     MassBelow() {
@@ -144,8 +145,8 @@ std::vector<float> deposit(const ParticleSet& particles, const Lattice& lattice,
     std::vector<float> cells(lattice.size());
     const int layers = lattice.cells.z;
     const std::vector<LayerSpan> spans = layer_spans(particles, lattice, threads);
-    // Each cell is one slab's, and has its particles in the set's order: neither slabs nor threads show. As few as keep the
-    // threads busy, since a particle is worked on once for every slab that it reaches.
+    // Each cell is one slab's, and has its particles in the set's order: neither slabs nor threads show. As few as
+    // keep the threads busy, since a particle is worked on once for every slab that it reaches.
     const std::size_t slabs = threads > 1 ? 2 * static_cast<std::size_t>(threads) : 1;
     parallel_for(threads, slabs, [&](std::size_t slab) {
         const auto edge = [&](std::size_t i) {

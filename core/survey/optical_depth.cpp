@@ -13,7 +13,8 @@
 namespace awan {
 namespace {
 
-constexpr double kCoveredShare = 0.05;  // of the largest alpha: what counts as cloud in a picture
+// Of the largest alpha: what counts as cloud in a picture.
+constexpr double kCoveredShare = 0.05;
 constexpr double kCut = 4;
 
 // Coarsens a raster of `side` lines until the work fits; work(side) = line-particle pairs.
@@ -36,7 +37,8 @@ struct Raster {
 double parallel_optical_depth(const ParticleSet& particles, glm::dvec3 direction) {
     if (particles.size() == 0) return 0;
     const SideAxes axes = side_axes(direction);
-    const glm::dvec3 origin = particles.center[0];  // rebased, so that far clouds keep their digits
+    // Rebased, so that far clouds keep their digits.
+    const glm::dvec3 origin = particles.center[0];
     glm::dvec2 low(0), high(0);
     double largest = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -44,7 +46,8 @@ double parallel_optical_depth(const ParticleSet& particles, glm::dvec3 direction
         const glm::dvec2 q(glm::dot(p, axes.u), glm::dot(p, axes.v));
         low = glm::min(low, q);
         high = glm::max(high, q);
-        largest = std::max(largest, central_depth(particles, i));  // a line that no raster can miss
+        // A line that no raster can miss.
+        largest = std::max(largest, central_depth(particles, i));
     }
     const double extent = std::max({high.x - low.x, high.y - low.y, 1e-300});
     const int side = affordable_side(kRasterSide, kMaxLineWork, [&](int n) {
@@ -87,7 +90,8 @@ EyeDepth eye_optical_depth(const ParticleSet& particles, const View& view) {
     const double tan_x = view.tan_half_fov * view.aspect, tan_y = view.tan_half_fov;
     struct Box {
         int x0, x1, y0, y1;
-        glm::dvec3 q;  // right, up, forward from the eye
+        // Right, up, forward from the eye.
+        glm::dvec3 q;
     };
     const auto box_of = [&](std::size_t i, int width, int height) {
         const glm::dvec3 p = particles.center[i] - view.eye;

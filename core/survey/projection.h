@@ -15,8 +15,9 @@ struct Interval {
 // Mara & McGuire 2013, "2D polyhedral bounds of a clipped, perspective-projected 3D sphere".
 Interval disc_slopes(double x, double z, double radius);
 
-// The pixels along one side of a picture that see slopes `low` to `high`, in pixels from the middle of the first one (within
-// +-1e7), and those of them whose middle does: first > last: none. tangent: of half the side's angle; up: rows count downward.
+// The pixels along one side of a picture that see slopes `low` to `high`, in pixels from the middle of the first one
+// (within +-1e7), and those of them whose middle does: first > last: none. tangent: of half the side's angle; up:
+// rows count downward.
 struct PixelSpan {
     double low, high;
     int first, last;

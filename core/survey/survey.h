@@ -18,7 +18,8 @@ namespace awan {
 // as a product of erf differences, renormalised over the cells it is cut to.
 struct DensityVolume {
     glm::dvec3 origin{0};  // corner of cell 0, scene units
-    double cell = 0;       // side of a (cubic) cell, scene units
+    // Side of a (cubic) cell, scene units.
+    double cell = 0;
     glm::ivec3 cells{0};
     std::vector<float> extinction;
 };
@@ -31,22 +32,29 @@ struct View {
     double aspect = 1;           // width / height
 };
 
-// What a ground does to the picture (core/survey/ground_view.h). All 0 where the scene has none, or where the cloud lies below it.
+// What a ground does to the picture (core/survey/ground_view.h). All 0 where the scene has none, or where the cloud
+// lies below it.
 struct GroundView {
-    double seen = 0;   // share of the picture's rays that meet it, clouds or not; 0 from below
-    double shade = 0;  // largest share of its light that the cloud's shadow takes, on those rays
-    double light = 0;  // fluence that it sends up, unshaded, over that of sun and sky at the cloud
-    bool matter_below = false;  // whether some of the cloud lies below it
+    // Share of the picture's rays that meet it, clouds or not; 0 from below.
+    double seen = 0;
+    // Largest share of its light that the cloud's shadow takes, on those rays.
+    double shade = 0;
+    // Fluence that it sends up, unshaded, over that of sun and sky at the cloud.
+    double light = 0;
+    // Whether some of the cloud lies below it.
+    bool matter_below = false;
 };
 
-// Of the haze in view (core/survey/haze_view.h), on a raster of rays; 0 without haze. Optical depths, largest of all rays,
-// kMostHazeDepth at most.
-inline constexpr double kMostHazeDepth = 1e6;  // level rays may have an infinite one
+// No depth of HazeFigures is above it; level rays may have an infinite one.
+inline constexpr double kMostHazeDepth = 1e6;
+// Of the haze in view (core/survey/haze_view.h), on a raster of rays; 0 without haze. Depths are the largest of all
+// rays.
 struct HazeFigures {
-    double depth_to_clouds = 0;  // from the eye to where a ray meets clouds
-    double depth_behind = 0;     // to the ground, or without end
-    double shaded =
-        0;  // the most light that the clouds' shadows take from one ray, over the mean pixel's (luminance)
+    // From the eye to where a ray meets clouds.
+    double depth_to_clouds = 0;
+    double depth_behind = 0;  // to the ground, or without end
+    // The most light that the clouds' shadows take from one ray, over the mean pixel's (luminance).
+    double shaded = 0;
 };
 
 struct Survey {
@@ -54,33 +62,42 @@ struct Survey {
     Bounds bounds;
     View view;
     DensityVolume volume;
-    Islands islands;                  // empty for a single cloud
-    double total_mass = 0;            // integral of extinction over space, unit^2
-    double max_extinction = 0;        // largest cell mean, 1/unit
-    double optical_depth_sun = 0;     // largest over parallel lines towards the sun
+    Islands islands;  // empty for a single cloud
+    // Integral of extinction over space, unit^2.
+    double total_mass = 0;
+    double max_extinction = 0;  // largest cell mean, 1/unit
+    // Largest over parallel lines towards the sun.
+    double optical_depth_sun = 0;
     double optical_depth_zenith = 0;  // largest over vertical lines
-    double optical_depth_eye = 0;     // largest over the picture's rays, from the eye outward
-    double mean_depth_eye = 0;  // of the rays that meet cloud (at least 5% of the largest alpha)
-    double covered = 0;         // share of the picture's rays that do
-    double particles_per_pixel = 0;  // that a ray passes within 4 s, mean over the picture
-    double sun_cosine =
-        0;  // between the way sunlight goes and from the cloud's middle to the eye: 1
-            //   looks into the sun
-    std::array<double, 4> s_sums{};  // sums over particles of s^0, s^1, s^2, s^3, unit^k
-    double max_sigma_s = 0;          // largest density * s of one particle (dimensionless)
-    double min_projected_px = 0;     // smallest and largest projected s in the picture, pixels;
-    double max_projected_px = 0;     //   infinite for a particle that holds the eye
-    DetailFigures detail;            // what detail would be made for
-    bool eye_inside = false;         // the eye is within 4 s of a particle
-    double model_error = 0;          // ParticleSet::error
+    // Largest over the picture's rays, from the eye outward.
+    double optical_depth_eye = 0;
+    // Of the rays that meet cloud (at least 5% of the largest alpha).
+    double mean_depth_eye = 0;
+    // Share of the picture's rays that meet cloud.
+    double covered = 0;
+    // Particles that a ray passes within 4 s, mean over the picture.
+    double particles_per_pixel = 0;
+    // Between the way sunlight goes and from the cloud's middle to the eye: 1 looks into the sun.
+    double sun_cosine = 0;
+    // Sums over particles of s^0, s^1, s^2, s^3, unit^k.
+    std::array<double, 4> s_sums{};
+    // Largest density * s of one particle (dimensionless).
+    double max_sigma_s = 0;
+    // Smallest and largest projected s in the picture, pixels; infinite for a particle that holds the eye.
+    double min_projected_px = 0;
+    double max_projected_px = 0;
+    DetailFigures detail;  // what detail would be made for
+    // The eye is within 4 s of a particle.
+    bool eye_inside = false;
+    double model_error = 0;  // ParticleSet::error
     GroundView ground;
     HazeFigures haze;
 };
 
-// Optical depths are sampled on a raster of 64 x 64 lines over the cloud or the picture, and on the lines through every
-// particle's own centre (its own depth alone). They are never too high, and low by < 2% when the raster's step is below the
-// smallest s that matters. Time is bounded: raster and volume are coarsened, down to 8 lines a side, until the work fits
-// (about 10 ms at 10,000 particles), and may then be 20% low.
+// Optical depths are sampled on a raster of 64 x 64 lines over the cloud or the picture, and on the lines through
+// every particle's own centre (its own depth alone). They are never too high, and low by < 2% when the raster's step
+// is below the smallest s that matters. Time is bounded: raster and volume are coarsened, down to 8 lines a side,
+// until the work fits (about 10 ms at 10,000 particles), and may then be 20% low.
 Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int threads,
                       const Deadline& deadline);
 

@@ -10,8 +10,8 @@
 namespace awan {
 namespace {
 
-constexpr double kCut =
-    4;  // in s; what lies beyond (0.03% of the mass) is folded back by renormalising
+// In s; what lies beyond (0.03% of the mass) is folded back by renormalising.
+constexpr double kCut = 4;
 
 struct Span {
     int first, last;  // cells, inclusive
@@ -99,6 +99,17 @@ DensityVolume density_volume(const ParticleSet& particles, int max_cells) {
             }
     }
     return volume;
+}
+
+double extinction_of_cell(const DensityVolume& volume, const glm::dvec3& place) {
+    const glm::ivec3 cell =
+        glm::clamp(glm::ivec3(glm::floor(place)), glm::ivec3(0), volume.cells - 1);
+    const auto across = static_cast<std::size_t>(volume.cells.x),
+               up = static_cast<std::size_t>(volume.cells.y);
+    const std::size_t at =
+        (static_cast<std::size_t>(cell.z) * up + static_cast<std::size_t>(cell.y)) * across +
+        static_cast<std::size_t>(cell.x);
+    return static_cast<double>(volume.extinction[at]);
 }
 
 }  // namespace awan

@@ -11,4 +11,8 @@ DensityVolume density_volume(const ParticleSet& particles, int max_cells);
 
 inline constexpr double kMaxVolumeWork = 1e7;  // about 10 ms
 
+// Mean extinction (1/unit) of the cell at a place that is given in cells from the volume's origin; beside the volume,
+// of the cell nearest to it. The volume is not empty.
+double extinction_of_cell(const DensityVolume& volume, const glm::dvec3& place);
+
 }  // namespace awan

@@ -12,7 +12,8 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kThinnest = 600;  // scale heights: e^-600 of the extinction is none
+// Scale heights: e^-600 of the extinction is none.
+constexpr double kThinnest = 600;
 
 }  // namespace
 

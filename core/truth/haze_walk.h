@@ -1,6 +1,6 @@
-// The scene's haze as the path tracer meets it: light that it scatters once to the eye, by sampling, and what it dims. Its
-// formulas of the layer are its own: the extinction along a ray is one or two exponentials in the distance, and their
-// integrals are written and inverted from the ray's start.
+// The scene's haze as the path tracer meets it: light that it scatters once to the eye, by sampling, and what it
+// dims. Its formulas of the layer are its own: the extinction along a ray is one or two exponentials in the distance,
+// and their integrals are written and inverted from the ray's start.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -16,8 +16,9 @@ namespace awan::truth {
 // What shines on the haze, and how it scatters. Lengths in scene units.
 struct HazeSetting {
     Haze haze;
-    glm::dvec3 sun{0};      // irradiance; 0 under a ground
-    glm::dvec3 ambient{0};  // mean radiance of what comes in from everywhere
+    glm::dvec3 sun{0};  // irradiance; 0 under a ground
+    // Mean radiance of what comes in from everywhere.
+    glm::dvec3 ambient{0};
     PhaseLaw phase;
     bool shaded = true;  // by the clouds
 };

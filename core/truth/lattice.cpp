@@ -9,8 +9,10 @@
 namespace awan::truth {
 namespace {
 
-constexpr int kSlab = 4;           // planes that one thread sums at a time
-constexpr double kCoarsest = 3.0;  // cells that s has at least on the lattice it is summed on
+// Planes that one thread sums at a time.
+constexpr int kSlab = 4;
+// Cells that s has at least on the lattice it is summed on.
+constexpr double kCoarsest = 3.0;
 
 std::size_t count(const glm::ivec3& n) {
     return static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) *

@@ -15,19 +15,19 @@ namespace awan::truth {
 struct LatticeGaussian {
     glm::dvec3 center{0};
     double s = 1;
-    double cut = 5;  // it is 0 farther than cut * s from its centre
+    // It is 0 farther than cut * s from its centre.
+    double cut = 5;
     double peak = 1;
 };
 
 // The smallest s that a lattice can hold; narrower Gaussians are widened to it, their mass kept.
 inline constexpr double kNarrowest = 0.9;
 
-// Values at all nodes, x fastest, then y, then z. Interpolating between nodes widens what it is given
-// by 1/6 cell^2 in each axis's variance; the Gaussians are narrowed by as much, so that the interpolated field has their
-// mass and their width. What is left is a ripple of the cells' period and mean 0, at most peak / (4 s^2).
-// Wide Gaussians (s >= 6 cells) are summed on lattices 2, 4, ... times coarser, and refined by
-// cubic interpolation (error < 0.2% of their peak). Bytes do not depend on threads.
-// Errors: kOverDeadline, kCancelled.
+// Values at all nodes, x fastest, then y, then z. Interpolating between nodes widens what it is given by 1/6 cell^2
+// in each axis's variance; the Gaussians are narrowed by as much, so that the interpolated field has their mass and
+// their width. What is left is a ripple of the cells' period and mean 0, at most peak / (4 s^2). Wide Gaussians (s >=
+// 6 cells) are summed on lattices 2, 4, ... times coarser, and refined by cubic interpolation (error < 0.2% of their
+// peak). Bytes do not depend on threads. Errors: kOverDeadline, kCancelled.
 Result<std::vector<float>> sum_on_lattice(const glm::ivec3& nodes,
                                           std::span<const LatticeGaussian> gaussians, int threads,
                                           const Deadline& deadline);

@@ -12,14 +12,17 @@
 namespace awan::truth {
 namespace {
 
-constexpr double kMaxSide = 176;  // cells along the longest side: larger lattices leave the caches
+// Cells along the longest side: larger lattices leave the caches.
+constexpr double kMaxSide = 176;
 constexpr double kMaxNodes = 12e6, kMaxColored = 6e6;  // of a lattice: 48 MB each
 constexpr double kMinSide = 64;
-constexpr double kCellsPerS = 10;   // wanted of the particles that matter
-constexpr double kAllowed = 0.008;  // of the largest extinction, by one particle
+// Wanted of the particles that matter.
+constexpr double kCellsPerS = 10;
+// Of the largest extinction, by one particle.
+constexpr double kAllowed = 0.008;
 
-// Particles that misplace more optical depth than this on a lattice are plainly seen. Lists of bricks are filled with these
-// up to so many entries, and with the others up to fewer: every entry costs each path that comes by.
+// Particles that misplace more optical depth than this on a lattice are plainly seen. Lists of bricks are filled with
+// these up to so many entries, and with the others up to fewer: every entry costs each path that comes by.
 constexpr double kMisplaced = 0.05;
 constexpr double kMaxPlainEntries = 1e6, kMaxFineEntries = 20e3;
 
@@ -283,7 +286,8 @@ double listed_depth(const Matter::Listed& one, const glm::dvec3& o, const glm::d
     const double a = std::max(from, along - half) - along, b = std::min(to, along + half) - along;
     if (!(a < b)) return 0;
     const double per = 1 / (std::sqrt(2.0) * one.s);
-    double part;  // same-sign arguments: no difference of two numbers near 1
+    // Arguments of one sign: no difference of two numbers near 1.
+    double part;
     if (a > 0)
         part = std::erfc(a * per) - std::erfc(b * per);
     else if (b < 0)

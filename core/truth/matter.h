@@ -1,17 +1,18 @@
 // The cloud's matter as the path tracer walks through it, in units of its own: lengths in cells of the
 // density lattice, from that lattice's first node; extinction per cell. Scene axes.
 //
-// Particles at least about two cells wide (in s) are summed on a lattice (lattice.h) of at most 176 cells a side. Of the
-// narrower ones, those that would be seen are kept as they are and summed exactly, by lists of those near each brick of the
-// lattice, as many as lists of bounded length hold (of those that misplace an optical depth of .05 some ten thousand or more,
-// of the others some hundreds); the rest are widened to about a cell, their mass kept.
+// Particles at least about two cells wide (in s) are summed on a lattice (lattice.h) of at most 176 cells a side. Of
+// the narrower ones, those that would be seen are kept as they are and summed exactly, by lists of those near each
+// brick of the lattice, as many as lists of bounded length hold (of those that misplace an optical depth of .05 some
+// ten thousand or more, of the others some hundreds); the rest are widened to about a cell, their mass kept.
 //
-// Error of the extinction: below .35% of the cloud's largest as long as the lists hold all that would be seen; with tens of
-// thousands of narrow, thin particles what is finer than a cell is smoothed. Its mean over a few cells is exact in any case. Of
-// a Gaussian's cut tails: 1e-5 of its peak. Optical depth towards the sun: below .5% or .005, whichever is larger.
+// Error of the extinction: below .35% of the cloud's largest as long as the lists hold all that would be seen; with
+// tens of thousands of narrow, thin particles what is finer than a cell is smoothed. Its mean over a few cells is
+// exact in any case. Of a Gaussian's cut tails: 1e-5 of its peak. Optical depth towards the sun: below .5% or .005,
+// whichever is larger.
 //
-// With detail (core/generate/detail.h) all particles are on the lattice, which then holds the smooth extinction; the lumps are
-// looked up where a path asks, so they are exact, but for the optical depth to the sun, tabulated by cells.
+// With detail (core/generate/detail.h) all particles are on the lattice, which then holds the smooth extinction; the
+// lumps are looked up where a path asks, so they are exact, but for the optical depth to the sun, tabulated by cells.
 #pragma once
 
 #include <array>
@@ -27,22 +28,28 @@
 
 namespace awan::truth {
 
-inline constexpr int kBrick = 4;  // cells along the side of a brick
+// Cells along the side of a brick.
+inline constexpr int kBrick = 4;
 
 struct Matter {
-    bool empty = true;  // no extinction anywhere; nothing below holds then
+    // No extinction anywhere; nothing below holds then.
+    bool empty = true;
     glm::dvec3 origin{0};
     double cell = 1;  // scene units
     glm::ivec3 nodes{2};
-    glm::dvec3 top{1};              // far corner, cells; the near one is 0
-    std::vector<float> extinction;  // per cell; EMPTY when all particles are listed
-    std::array<std::vector<float>, 3>
-        color;  // r g b: sums of extinction * colour; EMPTY when every particle is white
+    // Far corner, cells; the near one is 0.
+    glm::dvec3 top{1};
+    // Per cell; EMPTY when all particles are listed.
+    std::vector<float> extinction;
+    // Red, green, blue: sums of extinction * colour; EMPTY when every particle is white.
+    std::array<std::vector<float>, 3> color;
     bool colored = false;
-    std::shared_ptr<const DetailField> detail;  // null: `extinction` is all there is
+    // Null: `extinction` is all there is.
+    std::shared_ptr<const DetailField> detail;
 
     glm::ivec3 bricks{1};
-    std::vector<float> most;  // no lattice extinction in the brick, detail and all, is above it
+    // No lattice extinction in the brick, detail and all, is above it.
+    std::vector<float> most;
 
     struct Listed {
         glm::dvec3 center;  // cells
@@ -52,19 +59,24 @@ struct Matter {
         glm::vec3 color;
     };
     std::vector<Listed> listed;
-    std::vector<std::uint32_t> brick_begin, brick_items;  // of `listed`, by brick; EMPTY when it is
+    // Of `listed`, by brick; EMPTY when it is.
+    std::vector<std::uint32_t> brick_begin, brick_items;
 
     // Optical depth towards the sun on a lattice along its rays: p there = sun_axes * p + sun_origin.
     glm::dmat3 sun_axes{1};
     glm::dvec3 sun_origin{0};
     glm::ivec3 sun_nodes{2};
-    std::vector<float> sun_depth;  // EMPTY when all particles are listed
+    // EMPTY when all particles are listed.
+    std::vector<float> sun_depth;
     struct ListedToSun {
         glm::dvec3 center;
-        double s, depth, reach2;  // depth: of its whole central line
+        // depth: of its whole central line.
+        double s, depth, reach2;
     };
-    std::vector<ListedToSun> to_sun;  // as `listed`, in the sun's lattice
-    glm::ivec2 columns{0};            // of kBrick x kBrick cells of it
+    // As `listed`, in the sun's lattice.
+    std::vector<ListedToSun> to_sun;
+    // Of kBrick x kBrick cells of it.
+    glm::ivec2 columns{0};
     std::vector<std::uint32_t> column_begin, column_items;
 
     std::size_t brick(const glm::ivec3& b) const {

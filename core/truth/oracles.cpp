@@ -16,7 +16,8 @@ namespace {
 // 2 / sqrt(pi) * integral of exp(-x^2) from a to b, a <= b, to 1e-13 of itself.
 double erf_between(double a, double b) {
     if (!(a < b)) return 0;
-    if (b - a < 0.1) {  // a difference would lose digits: Gauss-Legendre, 8 points
+    // A difference would lose digits: Gauss-Legendre, 8 points.
+    if (b - a < 0.1) {
         static constexpr double kX[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
                                          0.9602898564975363};
         static constexpr double kW[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
@@ -91,7 +92,8 @@ double line_optical_depth(const ParticleSet& particles, const glm::dvec3& origin
         const double along = glm::dot(v, direction);
         const glm::dvec3 aside = v - along * direction;
         const double b2 = glm::dot(aside, aside) / (2 * s * s);
-        if (b2 > 740) continue;  // exp(-740) is below the smallest double
+        // exp(-740) is below the smallest double.
+        if (b2 > 740) continue;
         const double per = 1 / (std::sqrt(2.0) * s);
         depth += 0.5 * central_depth(particles, i) * std::exp(-b2) *
                  erf_between((from - along) * per, (to - along) * per);

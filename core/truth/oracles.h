@@ -1,7 +1,7 @@
 // Exact answers for what can be answered exactly, in double, from the particles themselves.
 #pragma once
 
-#include "core/draw/image.h"
+#include "core/base/image.h"
 #include "core/generate/particle_set.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"

@@ -2,42 +2,45 @@
 // sampling code with core/light and core/draw.
 //
 // Free flights, phase functions, sky and ground are sampled exactly. Errors that more samples do not take away: the
-// extinction is that of truth/matter.h (within .35% of the cloud's largest unless tens of thousands of
-// particles are narrower than 1/176 of the cloud), the
-// optical depth to the sun is tabulated (within .5% or .005), and paths end after kMaxOrders scatterings, which matters for
-// albedo > .9999 in optical depths (1 - g) tau > 300 only: they then lose what so long a path would still have brought,
-// below 2% of a pixel.
+// extinction is that of truth/matter.h (within .35% of the cloud's largest unless tens of thousands of particles are
+// narrower than 1/176 of the cloud), the optical depth to the sun is tabulated (within .5% or .005), and paths end
+// after kMaxOrders scatterings, which matters for albedo > .9999 in optical depths (1 - g) tau > 300 only: they then
+// lose what so long a path would still have brought, below 2% of a pixel.
 //
-// The ground (Scene's `ground`) is an infinite Lambertian plane, seen and felt from above only: from below it is not there.
-// Its light from the sun comes from all of the sun's disc (angular radius .2665 degrees, even): shadows have a penumbra. Everywhere
-// else the sun is a point.
+// The ground (Scene's `ground`) is an infinite Lambertian plane, seen and felt from above only: from below it is not
+// there. Its light from the sun comes from all of the sun's disc (angular radius .2665 degrees, even): shadows have a
+// penumbra. Everywhere else the sun is a point.
 #pragma once
 
 #include <cstdint>
 
 #include "core/base/deadline.h"
+#include "core/base/image.h"
 #include "core/base/progress.h"
-#include "core/draw/image.h"
 #include "core/generate/particle_set.h"
+#include "core/plan/eye_effects.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
 
 namespace awan {
 
 enum class SkySampling {
-    kEscape,     // paths that leave the cloud bring the sky's radiance from where they go
-    kNextEvent,  // the sky is looked for at every scattering, escaping paths bring nothing
+    // Paths that leave the cloud bring the sky's radiance from where they go.
+    kEscape,
+    // The sky is looked for at every scattering, escaping paths bring nothing.
+    kNextEvent,
 };
 
-inline constexpr std::uint32_t kMaxOrders = 100'000;  // scatterings a path may ever have
+// Scatterings a path may ever have.
+inline constexpr std::uint32_t kMaxOrders = 100'000;
 
 struct TruthOptions {
-    std::uint32_t samples = 64;    // paths a pixel, both halves together; even, >= 2
-    std::uint32_t max_orders = 0;  // scatterings a path may have; 0 = no end but the albedo's and
-                                   // the limit kMaxOrders
+    // Paths a pixel, both halves together; even, >= 2.
+    std::uint32_t samples = 64;
+    // Scatterings a path may have; 0 = no end but the albedo's and the limit kMaxOrders.
+    std::uint32_t max_orders = 0;
     SkySampling sky = SkySampling::kEscape;
-    bool aerial_perspective = true;  // the scene's haze, if it has any
-    bool light_shafts = true;        // and the clouds' shadows in it
+    EyeEffects eye_effects{};
     std::uint64_t seed = 1;
     int threads = 1;
 };
@@ -46,7 +49,8 @@ struct TruthOptions {
 // b) is an estimate of the squared error of x that noise does not inflate.
 struct TruthImage {
     Image half_a, half_b;
-    double scatterings = 0;  // a path that met the cloud, mean
+    // A path that met the cloud has so many, on average.
+    double scatterings = 0;
 };
 
 // Linear radiance as core/draw gives it: premultiplied, alpha = 1 - transmittance of clouds and haze (exact, by

@@ -9,10 +9,12 @@
 namespace awan::truth {
 namespace {
 
-constexpr double kStep = 0.7;         // cells
-constexpr double kStepDepth = 0.1;    // optical depth a step
-constexpr double kDetailStep = 0.05;  // of the largest bumps; the smallest are four times that
-constexpr double kDark = 30;          // optical depth: e^-30 of the light comes from behind it
+constexpr double kStep = 0.7;       // cells
+constexpr double kStepDepth = 0.1;  // optical depth a step
+// Of the largest bumps; the smallest are four times that.
+constexpr double kDetailStep = 0.05;
+// Optical depth: e^-30 of the light comes from behind it.
+constexpr double kDark = 30;
 
 // A listed particle that the ray meets, and where.
 struct Met {

@@ -10,8 +10,8 @@
 
 namespace awan::truth {
 
-// Optical depth along o + t d (cells), t from 0 to `end` (may be infinite), tabulated at steps of at most .7 cell and .1 of
-// depth as far as a depth of 30.
+// Optical depth along o + t d (cells), t from 0 to `end` (may be infinite), tabulated at steps of at most .7 cell and
+// .1 of depth as far as a depth of 30.
 class PrimaryRay {
   public:
     PrimaryRay(const Matter& matter, const glm::dvec3& o, const glm::dvec3& d, double end);
@@ -26,7 +26,8 @@ class PrimaryRay {
     std::vector<double> t_, depth_;  // as long as each other, rising
 };
 
-// Those particles that a ray from the eye may meet whose direction is between four corners' (unit); farther than 9 s they do not count. No colours.
+// Those particles that a ray from the eye may meet whose direction is between four corners' (unit); farther than 9 s
+// they do not count. No colours.
 ParticleSet particles_near(const ParticleSet& particles, const glm::dvec3& eye,
                            const std::array<glm::dvec3, 4>& corners);
 

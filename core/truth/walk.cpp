@@ -1,12 +1,13 @@
-// Delta tracking (Woodcock et al. 1965) through bricks with majorants of their own, next-event estimation of the sun, and,
-// against the noise of a narrow phase function, directions drawn from the sun's side.
+// Delta tracking (Woodcock et al. 1965) through bricks with majorants of their own, next-event estimation of the sun,
+// and, against the noise of a narrow phase function, directions drawn from the sun's side.
 //
-// The last of these is bidirectional path tracing (Veach 1997) in directions only: since the sun's rays are
-// parallel and the phase function is the same everywhere, a path's directions d_0 (from the eye), ..., d_(n-1), sun can be
-// drawn from either end, while its free flights are always drawn from the eye's. Technique m draws the last m directions
-// backwards from the sun, e_1 about it, e_2 about e_1, ...; the one scattering whose two directions were drawn from different
-// ends, number n - m, is weighted by its phase value p_(n-m). Its density is the product of all p_i but that one, so the
-// balance heuristic gives a path that any of the techniques drew, each tried with probability q, the weight
+// The last of these is bidirectional path tracing (Veach 1997) in directions only: since the sun's rays are parallel
+// and the phase function is the same everywhere, a path's directions d_0 (from the eye), ..., d_(n-1), sun can be
+// drawn from either end, while its free flights are always drawn from the eye's. Technique m draws the last m
+// directions backwards from the sun, e_1 about it, e_2 about e_1, ...; the one scattering whose two directions were
+// drawn from different ends, number n - m, is weighted by its phase value p_(n-m). Its density is the product of all
+// p_i but that one, so the balance heuristic gives a path that any of the techniques drew, each tried with
+// probability q, the weight
 //     transmittance / sum_m (q_m / p_(n-m)).
 // Plain next-event estimation (m = 0) alone weights it by p_n, whose relative variance in diffuse light is
 // 2 g^2 / (1 - g)^2 or so; a sum over a few m has that of a phase function of mean cosine g^(m+1).
@@ -25,7 +26,8 @@ using std::numbers::pi;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kSunDisc = 0.2665 * pi / 180;  // angular radius
-constexpr double kNoSun = 60;                   // optical depth: e^-60 of the sun is none
+// Optical depth: e^-60 of the sun is none.
+constexpr double kNoSun = 60;
 
 // t in [a, b] at which the listed particles of a brick have given optical depth `left` from a on.
 double where_listed(const Matter& m, std::size_t brick, const glm::dvec3& o, const glm::dvec3& d,
@@ -98,8 +100,8 @@ struct Walk {
     PathRandom& random;
     Tally& tally;
     glm::dvec3 radiance{0};
-    // Of scattering k since the start or the ground, at k mod kRing: its phase value, and the chance that each number of
-    // directions was tried from it.
+    // Of scattering k since the start or the ground, at k mod kRing: its phase value, and the chance that each number
+    // of directions was tried from it.
     static constexpr std::uint32_t kRing = 32;
     std::array<double, kRing> phase{}, tried{};
 
@@ -108,7 +110,7 @@ struct Walk {
     }
 
     // Chance of drawing directions from the sun at a place of that depth: there is little use of them where it does not
-    // shine. Measured on table 4.4: wider costs more time than it saves noise.
+    // shine. Measured on table 4.4 of Sunar et al. 2005: wider costs more time than it saves noise.
     static double worth(double depth) {
         return depth < 6 ? 1.0 : depth > 40 ? 0.0 : std::exp(0.2 * (6 - depth));
     }

@@ -44,11 +44,12 @@ int worthwhile_from_sun(double g);
 // What became of a path, for laws that tests hold it to. Weights, mean over r g b.
 struct Tally {
     double scatterings = 0;
-    double absorbed = 0, escaped = 0, cut_off = 0;  // cut off: by max_orders or kMaxTentative
+    // Cut off: by max_orders or kMaxTentative.
+    double absorbed = 0, escaped = 0, cut_off = 0;
 };
 
-// The sky's radiance from a direction (unit). A gradient, by a second opinion on core/shaders/sky.glsl: zenith and horizon
-// mixed by 1.09 u^2 / (u^2 + .09), u the sine of its elevation; the horizon's colour below it.
+// The sky's radiance from a direction (unit). A gradient, by a second opinion on core/shaders/sky.glsl: zenith and
+// horizon mixed by 1.09 u^2 / (u^2 + .09), u the sine of its elevation; the horizon's colour below it.
 glm::dvec3 sky_radiance(const Setting& setting, const glm::dvec3& direction);
 
 struct Flight {

@@ -47,7 +47,8 @@ Result<std::vector<NamedAccuracy>> measured(const std::vector<Scene>& scenes,
                                             const AccuracyCommand& command, std::string& subject) {
     ProgressLine line;
     const MachineSpeed speed = measure_speed();
-    std::optional<Device> device;  // opened when the first rung needs it
+    // Opened when the first rung needs it.
+    std::optional<Device> device;
     const RenderScene render = [&](const Scene& scene,
                                    const Deadline& deadline) -> Result<Rendered> {
         auto planned = plan_scene(scene, command.threads, deadline, speed);

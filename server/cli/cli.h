@@ -19,16 +19,23 @@ inline constexpr int kExitUsage = 2;
 struct RenderCommand {
     std::string scene;
     std::string output;
-    // Instead of what the document says.
+    // These and the next are in place of what the document says.
     std::optional<int> width, height;
-    std::string format;               // "", "png", "exr"; of an animation "webp", "apng"
-    std::optional<double> time;       // seconds
-    std::string frames;               // of the scene's sequence: "", "all", "3", "0-11,20"
-    double frames_per_second = 12;    // that an animation shows
-    std::string background;           // "", "sky", "transparent"
-    std::optional<std::string> rung;  // at most one of these three
+    // "", "png", "exr"; of an animation "webp", "apng".
+    std::string format;
+    // Seconds, in place of the document's.
+    std::optional<double> time;
+    // Of the scene's sequence: "", "all", "3", "0-11,20".
+    std::string frames;
+    // That an animation shows.
+    double frames_per_second = 12;
+    // "", "sky", "transparent".
+    std::string background;
+    // Of rung, error and time_ms at most one is set.
+    std::optional<std::string> rung;
     std::optional<double> error, time_ms;
-    std::string state;  // of an automaton, to begin with: a file, or ""
+    // A file with the state of an automaton to begin with, or "".
+    std::string state;
     int threads = 1;
     DeviceChoice device = DeviceChoice::kAuto;
 };
@@ -37,14 +44,20 @@ int run_render(const RenderCommand& command);
 struct AccuracyCommand {
     std::vector<std::string> scenes;
     std::vector<std::string> outputs;
-    std::string format;           // "", "json", "csv", "png"
-    std::string theme = "light";  // or "dark"
-    double scale = 1;             // of the plot
-    int side = 128;               // pixels of the reference's longer side
+    // "", "json", "csv", "png".
+    std::string format;
+    // "light" or "dark".
+    std::string theme = "light";
+    // The size of the plot, a factor.
+    double scale = 1;
+    // Pixels of the reference's longer side.
+    int side = 128;
     std::uint32_t samples = 384;
-    std::vector<std::string> rungs;  // empty: all but truth
+    // Empty: all but truth.
+    std::vector<std::string> rungs;
     int runs = 4;
-    double within_seconds = 0;  // of each scene; 0: as long as it takes
+    // Seconds that each scene may take; 0: as long as it takes.
+    double within_seconds = 0;
     int threads = 1;
     DeviceChoice device = DeviceChoice::kAuto;
 };
@@ -53,7 +66,8 @@ int run_accuracy(const AccuracyCommand& command);
 struct ParticlesCommand {
     std::string scene;
     std::string output = "-";
-    std::string format;  // "", "json", "csv", "ply", "awn"
+    // "", "json", "csv", "ply", "awn".
+    std::string format;
     std::string state;
     int threads = 1;
 };
@@ -71,7 +85,8 @@ int run_plan(const PlanCommand& command);
 struct StateCommand {
     std::string scene;
     std::string output;
-    std::optional<std::uint64_t> cloud;  // by its place in the scene; none: the only automaton
+    // The cloud's place in the scene; none: the only automaton.
+    std::optional<std::uint64_t> cloud;
     int threads = 1;
 };
 int run_state(const StateCommand& command);
@@ -79,13 +94,15 @@ int run_state(const StateCommand& command);
 struct ConvertCommand {
     std::string input;
     std::string output;
-    std::string format;  // "", "json", "awn"
+    // "", "json", "awn".
+    std::string format;
 };
 int run_convert(const ConvertCommand& command);
 
 struct ServeCommand {
     HttpOptions http;
-    std::size_t working = 2;  // requests computed at once
+    // Requests computed at once.
+    std::size_t working = 2;
     std::size_t queue = limits::kRenderQueue;
     int threads = 1;
     DeviceChoice device = DeviceChoice::kAuto;

@@ -97,7 +97,8 @@ Result<OutputFile> OutputFile::open(const std::string& path) {
         if (file.fd_ < 0) return io_error("write", path);
         return file;
     }
-    if (exists) {  // write where a link leads, and leave the link
+    // Write where a link leads, and leave the link.
+    if (exists) {
         const std::unique_ptr<char, void (*)(void*)> real(realpath(path.c_str(), nullptr), free);
         if (real) file.path_ = real.get();
     }

@@ -22,7 +22,8 @@ class OutputFile {
     static Result<OutputFile> open(const std::string& path);
     OutputFile(OutputFile&& other) noexcept;
     OutputFile& operator=(OutputFile&& other) noexcept;
-    ~OutputFile();  // without commit(): leaves no trace
+    // Without commit(): leaves no trace.
+    ~OutputFile();
 
     Status write(std::string_view bytes);
     Status commit();
@@ -31,12 +32,14 @@ class OutputFile {
     OutputFile() = default;
     int fd_ = -1;
     std::string path_;
-    std::string temporary_;  // "" when written directly
+    // "" when written directly.
+    std::string temporary_;
 };
 
 // Whether write_output could begin: said before long work, not after it.
 Status check_writable(const std::string& path);
 
+// Writes all of `bytes` to a file, or to standard output for "-".
 Status write_output(const std::string& path, std::string_view bytes);
 
 }  // namespace awan

@@ -19,7 +19,7 @@ std::optional<std::uint64_t> number(std::string_view text) {
     return value;
 }
 
-// Where the number goes: %d, or % 0 digit d.
+// Where in the name the number goes: at %d, or at %0Nd with one digit N.
 struct Place {
     std::size_t at, length, digits;
 };

@@ -1,5 +1,4 @@
-// awan: the command line. Flags become plain values here; commands.cpp and serve.cpp do the
-// work.
+// awan: the command line. Flags become plain values here; commands.cpp and serve.cpp do the work.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
@@ -8,8 +7,8 @@
 #include <thread>
 
 #include "core/pipeline.h"
-#include "core/plan/ladder.h"
 #include "core/scene/limits.h"
+#include "core/scene/rungs.h"
 #include "server/cli/cli.h"
 #include "server/service/problem.h"
 
@@ -82,7 +81,8 @@ Run add_serve(CLI::App& app) {
     command->threads = processors();
     auto listen = std::make_shared<std::string>("127.0.0.1:8080");
     CLI::App* serve = app.add_subcommand("serve", "answer HTTP");
-    serve->fallthrough();  // --config is the program's, and may stand after `serve`
+    // --config is the program's, and may stand after `serve`
+    serve->fallthrough();
     add(*serve, "--listen", *listen, "host:port, [v6]:port, host or port; port 0 is any free one")
         ->check([](const std::string& text) {
             return parse_listen(text) ? std::string() : text + " is not host:port";
@@ -146,6 +146,13 @@ Run add_render(CLI::App& app) {
     add_state(*render, command->state);
     add_threads(*render, command->threads);
     add_device(*render, command->device);
+    render->footer(
+        "Of a sequence:\n"
+        "  awan render growth.json -o growth.webp                        to look at; .apng too\n"
+        "  awan render growth.json --frames all -o growth.%04d.exr       numbered files\n"
+        "  awan render growth.json --frames 30-59 -o growth.%04d.exr     a farm's share of them\n"
+        "A frame depends on its time alone: rendered by itself, on another machine or on other\n"
+        "threads, it has the same bytes.");
     return [command] { return run_render(*command); };
 }
 
@@ -181,6 +188,12 @@ Run add_accuracy(CLI::App& app) {
         ->check(CLI::Range(0.0, 1e6));
     add_threads(*accuracy, command->threads);
     add_device(*accuracy, command->device);
+    accuracy->footer(
+        "Traces each scene's truth, renders every rung, times it at the scene's own size, and\n"
+        "draws error over time. The blue line is what nothing beats; hollow marks are what the\n"
+        "plan predicted; a mark with \"\u2264\" has an error lost in the reference's noise. Below "
+        "it:\n"
+        "each rung's picture and its difference to the truth, blue too dark, orange too bright.");
     return [command] { return run_accuracy(*command); };
 }
 
@@ -236,8 +249,13 @@ Run add_convert(CLI::App& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a write that fails, with a message
+    // Writing to a pipe that was closed then fails, with a message, instead of ending the process.
+    std::signal(SIGPIPE, SIG_IGN);
     CLI::App app("Awan renders clouds.", "awan");
+    app.footer(
+        "Every flag has an environment variable; awan COMMAND --help names it.\n"
+        "Exit codes: 0 fine, 2 bad usage, 3 a scene that cannot be, 4 could not render,\n"
+        "5 could not read or write.");
     app.set_version_flag("--version", std::string("awan ") + engine_version());
     app.require_subcommand(1);
     app.config_formatter(std::make_shared<ServeConfig>());
@@ -265,7 +283,8 @@ int main(int argc, char** argv) {
     try {
         for (const auto& [name, run] : commands)
             if (app.got_subcommand(name)) return run();
-    } catch (const std::exception& e) {  // std::bad_alloc, a thread that cannot be made
+        // E.g. std::bad_alloc, or a thread that cannot be made.
+    } catch (const std::exception& e) {
         return report_error("", Error{ErrorCode::kInternal, "", e.what()});
     }
     return kExitUsage;

@@ -14,7 +14,7 @@
 namespace awan {
 namespace {
 
-// What renders one after the other work with.
+// What the renders of one command share.
 struct Work {
     explicit Work(const RenderCommand& c) : command(c) {}
 
@@ -23,11 +23,12 @@ struct Work {
     std::optional<Device> device;
     ProgressLine progress;
     DetailTiles tiles;
-    std::string prefix;  // of what is said, e.g. "frame 3 of 12, "
+    // Put before what is said, e.g. "frame 3 of 12, ".
+    std::string prefix;
 };
 
 Result<Rendered> render_frame(const Scene& scene, Result<Planned> planned, Work& work) {
-    planned = ready_to_render(scene, std::move(planned), work.command.threads, &work.tiles);
+    planned = with_detail_made(scene, std::move(planned), work.command.threads, &work.tiles);
     if (!planned) return planned.error();
     if (const Status failed = open_for(planned->plan, work.command.device, work.device))
         return *failed;

@@ -18,8 +18,8 @@
 namespace awan {
 namespace {
 
-// A request's large arrays go back to the system when it ends. Left to itself, glibc raises its threshold to what was freed
-// last and keeps them: 340 MB stayed after renders of 200,000 particles, 228 MB do so.
+// A request's large arrays go back to the system when it ends. Left to itself, glibc raises its threshold to what was
+// freed last and keeps them: 340 MB stayed after renders of 200,000 particles, 228 MB do so.
 void give_memory_back() {
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
     mallopt(M_TRIM_THRESHOLD, 1 << 20);
@@ -97,8 +97,8 @@ std::optional<ListenAddress> parse_listen(const std::string& text) {
     const bool has_port =
         colon != std::string::npos && (bracket == std::string::npos || colon > bracket);
     std::string host = has_port ? text.substr(0, colon) : text;
-    const bool bare_v6 = !host.starts_with('[') &&
-                         host.find(':') != std::string::npos;  // which colon is the port's?
+    // Finds the colon that belongs to the port, if any.
+    const bool bare_v6 = !host.starts_with('[') && host.find(':') != std::string::npos;
     if (host.empty() || bare_v6 || host.starts_with('[') != host.ends_with(']'))
         return std::nullopt;
     if (!has_port) return ListenAddress{host, defaults.port};

@@ -5,7 +5,6 @@
 #include "core/generate/automaton/state_file.h"
 #include "core/generate/keyed_random.h"
 #include "core/scene/automaton.h"
-#include "core/scene/check_ranges.h"
 #include "core/scene/rules.h"
 #include "server/cli/cli.h"
 #include "server/cli/files.h"
@@ -14,7 +13,13 @@
 namespace awan {
 namespace {
 
-// As generate() gives it to the model.
+using automaton::AutomatonScratch;
+using automaton::check_start;
+using automaton::read_state;
+using automaton::run_automaton;
+using automaton::write_state;
+
+// The key that generate() gives to the model.
 std::uint64_t key_of(const SceneDraft& draft, std::size_t k) {
     return keyed(draft.clouds[k].seed.value_or(draft.seed), k);
 }
@@ -59,9 +64,10 @@ Status begin_with_state(const std::string& path, SceneDraft& draft) {
         if (!cloud.automaton || key_of(draft, k) != state->key) continue;
         AutomatonCloud resumed = *cloud.automaton;
         resumed.start = std::make_shared<const AutomatonState>(*std::move(state));
-        // Whether it fits is asked here, where the pointer can name the cloud; a draft that cannot be says so later.
+        // Whether the state fits is asked here, where the pointer can name the cloud. A draft that cannot be a scene
+        // says so later.
         const std::string at = "/clouds/" + std::to_string(k) + "/automaton";
-        if (!check_ranges(table_of<AutomatonCloud>(), &resumed, at) && !check_rules(resumed, at))
+        if (!check_model(resumed, at))
             if (Status wrong = check_start(resumed, resumed.start->key)) {
                 wrong->pointer = at;
                 return wrong;

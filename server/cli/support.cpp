@@ -62,7 +62,7 @@ Result<std::string> output_format(const std::string& output, const std::string& 
             return unknown("-o " + output + " and --format " + format + " contradict each other");
         return name;
     }
-    // Devices and pipes have no extension, but a format may be named.
+    // Devices and pipes have no extension, so a format may be named.
     if (!format.empty() && output.rfind('.') == std::string::npos) return format;
     return unknown("-o " + output + ": unknown extension");
 }

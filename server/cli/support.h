@@ -21,8 +21,10 @@ class ProgressLine {
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    void say(const std::string& what);  // what is done now; how far it has come is unknown
-    void done(double share);            // of the whole, 0..1
+    // What is done now; how far it has come is unknown.
+    void say(const std::string& what);
+    // How much of the whole is done, 0..1.
+    void done(double share);
 
   private:
     void show();
@@ -30,7 +32,8 @@ class ProgressLine {
     const bool shown_;
     std::mutex mutex_;
     std::string what_;
-    int percent_ = -1;  // -1: unknown
+    // -1 where it is unknown.
+    int percent_ = -1;
 };
 
 // Prints the message; the exit code of bad usage.
@@ -42,12 +45,13 @@ Result<std::string> output_format(const std::string& output, const std::string& 
                                   const std::vector<std::string>& known,
                                   const std::string& otherwise);
 
+// Whether output would go to a terminal, where bytes that are no text do harm.
 bool binary_to_terminal(const std::string& output);
 
 // Opens a device if there is none yet and the plan's rung needs one.
 Status open_for(const Plan& plan, DeviceChoice choice, std::optional<Device>& device);
 
-// `state`: a file to begin an automaton of the scene with, or "".
+// state: a file to begin an automaton of the scene with, or "".
 Result<Scene> read_valid_scene(const std::string& path, const std::string& state = "");
 
 // Gives the state in a file ("": none) to the automaton of the scene that it belongs to (state.cpp).

@@ -63,13 +63,6 @@ std::string allowed_names(const Table& table) {
     return names;
 }
 
-// The row that says by a bool that the object is not there; null: it has none.
-const Field* absence_of(const Table& table) {
-    for (const Field& field : table.fields)
-        if (field.access.holds == Holds::kAbsence) return &field;
-    return nullptr;
-}
-
 void set_absent(const Table& table, void* object, bool absent) {
     if (const Field* const field = absence_of(table))
         *static_cast<bool*>(field->access.put(object)) = absent;

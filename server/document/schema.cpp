@@ -4,10 +4,10 @@
 #include <limits>
 #include <map>
 
-#include "core/plan/ladder.h"
 #include "core/scene/fingerprint.h"
 #include "core/scene/implicit.h"
 #include "core/scene/limits.h"
+#include "core/scene/rungs.h"
 #include "core/scene/scene.h"
 #include "core/scene/spheres.h"
 #include "server/document/json.h"
@@ -89,12 +89,6 @@ std::string any_of(const std::vector<std::string>& schemas) {
     std::string out = R"({"oneOf":[)";
     for (std::size_t i = 0; i < schemas.size(); ++i) out += (i > 0 ? "," : "") + schemas[i];
     return out + "]}";
-}
-
-const Field* absence_of(const Table& table) {
-    for (const Field& field : table.fields)
-        if (field.access.holds == Holds::kAbsence) return &field;
-    return nullptr;
 }
 
 std::string object_schema(const Table& table, const void* standards, Schemas& schemas);
@@ -193,11 +187,10 @@ void add_default(const Field& field, const void* standards, std::string& out) {
             words("default", "auto", out);
             break;
         case Holds::kObject: {
-            const Field* const absence = absence_of(field.access.table());
-            if (value && absence && *static_cast<const bool*>(absence->access.member(value)))
-                words("default", absence->absent, out);
+            const Table& table = field.access.table();
+            if (value && is_absent(table, value)) words("default", absence_of(table)->absent, out);
             // None of its fields has one: they exclude each other.
-            if (&field.access.table() == &table_of<Accuracy>()) {
+            if (&table == &table_of<Accuracy>()) {
                 name("default", out);
                 out += '{';
                 member("error", kDefaultError, out);

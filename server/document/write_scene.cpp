@@ -8,16 +8,6 @@
 namespace awan {
 namespace {
 
-const Field* absence_of(const Table& table) {
-    for (const Field& field : table.fields)
-        if (field.access.holds == Holds::kAbsence) return &field;
-    return nullptr;
-}
-
-bool is_absent(const Field* absence, const void* object) {
-    return absence != nullptr && *static_cast<const bool*>(absence->access.member(object));
-}
-
 // How deep an object stands: the scene 0, a cloud or the sun 1, ...
 // `standards`: an object of the table with what need not be said.
 void append_object(const Table& table, const void* object, const void* standards, int depth,
@@ -126,7 +116,8 @@ bool is_standard(const Field& field, const void* value, const void* standard, co
         case Holds::kSwitch:
             return *static_cast<const Switch*>(value) == *static_cast<const Switch*>(standard);
         default:
-            return is_empty_list(field, value);
+            // A list that may be absent says something by being empty.
+            return !field.access.optional && is_empty_list(field, value);
     }
 }
 
@@ -158,15 +149,13 @@ void add_word(const char* word, const char* field, Members& members) {
 // Objects that are always there say nothing by being empty; those that need not be do.
 void add_object(const Field& field, const void* value, const void* standard, int depth,
                 Members& members) {
-    const Field* const absence = absence_of(field.access.table());
-    const bool absent = is_absent(absence, value);
-    const bool usually_absent = standard == nullptr || is_absent(absence, standard);
-    if (absent) {
-        if (!usually_absent) add_word(absence->absent, field.name, members);
+    const Table& table = field.access.table();
+    const bool usually_absent = standard == nullptr || is_absent(table, standard);
+    if (is_absent(table, value)) {
+        if (!usually_absent) add_word(absence_of(table)->absent, field.name, members);
         return;
     }
     std::string text;
-    const Table& table = field.access.table();
     append_object(table, value, standard ? standard : table.standard(), depth + 1, text);
     if (text != "{}" || usually_absent) members.name(field.name) += text;
 }

@@ -10,9 +10,12 @@
 
 namespace awan {
 
+// Names by which this server may be called, and pages that may call it.
 struct AccessRules {
-    std::vector<std::string> hosts;    // names without port, any case; IPv6 in brackets
-    std::vector<std::string> origins;  // scheme://host[:port]
+    // Names without port, in any case; IPv6 in brackets.
+    std::vector<std::string> hosts;
+    // scheme://host[:port].
+    std::vector<std::string> origins;
 };
 
 // 421 for a foreign Host: a page on evil.example whose name has been rebound to 127.0.0.1 must not

@@ -112,7 +112,8 @@ class HttpCodec::Impl : public httplib::Server {
             }
         };
         if (http10_) {
-            out.set_content_provider(type, provider);  // ends with the connection
+            // The body ends where the connection does.
+            out.set_content_provider(type, provider);
         } else {
             out.set_chunked_content_provider(type, provider);
         }
@@ -143,7 +144,7 @@ bool HttpCodec::exchange(const RequestHead& head, std::string body, Request requ
 }
 
 bool HttpCodec::refuse(const Response& response, ByteSink& sink) {
-    // Whatever came cannot be decoded; the answer is written as if it had been to this.
+    // What came cannot be decoded, so the answer is written as if it were to this request.
     return impl_->run(
         "GET / HTTP/1.1\r\nConnection: close\r\n\r\n", false,
         [&](const httplib::Request&) { return response; }, sink);

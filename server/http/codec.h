@@ -23,7 +23,8 @@ namespace awan {
 class ByteSink {
   public:
     virtual ~ByteSink() = default;
-    virtual bool write(std::string_view bytes) = 0;  // false: the connection is of no more use
+    // False: the connection is of no more use.
+    virtual bool write(std::string_view bytes) = 0;
 };
 
 // One a thread: it holds the request being answered.

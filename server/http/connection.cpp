@@ -63,7 +63,8 @@ bool send_unsent(Connection& c, std::atomic<std::size_t>& parked_in_all) {
         c.sent += static_cast<std::size_t>(n);
     }
     if (!c.unsent()) {
-        c.out = {};  // not clear(): a kept connection must not keep the memory of a large answer
+        // Not clear(): a kept connection must not keep the memory of a large answer.
+        c.out = {};
         c.sent = 0;
     }
     count_parked(c, parked_in_all);
@@ -72,7 +73,8 @@ bool send_unsent(Connection& c, std::atomic<std::size_t>& parked_in_all) {
 
 void count_parked(Connection& c, std::atomic<std::size_t>& parked_in_all) {
     const std::size_t rest = c.out.size() - c.sent;
-    parked_in_all += rest - c.parked;  // wraps when it shrinks, as unsigned numbers may
+    // Wraps when it shrinks, as unsigned numbers may.
+    parked_in_all += rest - c.parked;
     c.parked = rest;
 }
 

@@ -32,11 +32,16 @@ class Descriptor {
 
 // Reading -> Working -> Writing -> Reading again, or Lingering and the end.
 enum class Stand {
-    kHead,       // a head is awaited or half here
-    kBody,       // a body is half here
-    kWorking,    // its request is being answered, here or by a worker
-    kWriting,    // the rest of an answer waits for the client to take it
-    kLingering,  // answered for the last time; what still comes is thrown away
+    // A head is awaited, or half of it is here.
+    kHead,
+    // Half of a body is here.
+    kBody,
+    // Its request is being answered, here or by a worker.
+    kWorking,
+    // The rest of an answer waits for the client to take it.
+    kWriting,
+    // Answered for the last time; what still comes is thrown away.
+    kLingering,
 };
 
 // While it is kWorking it belongs to the worker that has it, except `stand`, `until`, `socket` and
@@ -45,24 +50,33 @@ struct Connection {
     using Clock = std::chrono::steady_clock;
 
     Descriptor socket;
-    std::string local_address;  // of this end, as a Host would write it
+    // The address of this end, as a Host header would have it.
+    std::string local_address;
     Stand stand = Stand::kHead;
-    Clock::time_point until;  // it is cut then (not while kWorking)
-    Clock::time_point since;  // when it began to wait for a head
+    // When it is cut (not while kWorking).
+    Clock::time_point until;
+    // When it began to wait for a head.
+    Clock::time_point since;
 
-    std::string in;  // received, not yet understood
+    // Bytes received and not yet understood.
+    std::string in;
     std::size_t scanned = 0;
     RequestHead head;
     std::string body;
-    std::size_t body_charged = 0;             // bytes counted for it in the budget of all bodies
-    std::shared_ptr<std::atomic<bool>> gone;  // the client has closed its side
-    Clock::time_point read_at;                // when its request was whole
+    // Bytes counted for it in the budget of all bodies.
+    std::size_t body_charged = 0;
+    // Becomes true when the client has closed its side.
+    std::shared_ptr<std::atomic<bool>> gone;
+    // When its request was complete.
+    Clock::time_point read_at;
     bool admitted = false;
     std::size_t served = 0;
 
-    std::string out;  // of the answer, not yet taken by the client
+    // Bytes of the answer that the client has not yet taken.
+    std::string out;
     std::size_t sent = 0;
-    std::size_t parked = 0;  // bytes counted for it among all parked bytes
+    // Bytes counted for it among all parked bytes.
+    std::size_t parked = 0;
     bool close_after = false;
 
     bool unsent() const { return sent < out.size(); }
@@ -90,7 +104,8 @@ class ConnectionSink : public ByteSink {
         : connection_(connection), parked_(parked_in_all), never_wait_(never_wait), until_(until) {}
 
     bool write(std::string_view bytes) override;
-    bool flush();  // to be called once after the last write
+    // To be called once after the last write.
+    bool flush();
 
   private:
     bool send_or_wait();

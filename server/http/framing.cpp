@@ -213,7 +213,8 @@ ParsedHead parse_head(std::string_view text) {
     ParsedHead parsed;
     RequestHead& head = parsed.head;
     bool first = true;
-    while (text.size() > 2) {  // the empty line is left
+    // What is left at the end is the empty line.
+    while (text.size() > 2) {
         const std::size_t end = text.find("\r\n");
         const std::string_view line = text.substr(0, end);
         text.remove_prefix(end + 2);

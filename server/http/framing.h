@@ -13,6 +13,7 @@
 
 namespace awan {
 
+// Why something is no request that is answered: status, and one sentence.
 struct FramingError {
     int status = 400;
     std::string detail;
@@ -23,13 +24,16 @@ struct RequestHead {
     std::string method;
     std::string target;
     bool http10 = false;
-    std::string host;  // Host, or the authority of an absolute target; "" only in HTTP/1.0
-    std::vector<std::pair<std::string, std::string>> headers;  // values trimmed
+    // Host, or the authority of an absolute target; "" only in HTTP/1.0.
+    std::string host;
+    // Names as they came, values trimmed.
+    std::vector<std::pair<std::string, std::string>> headers;
     std::size_t content_length = 0;
     bool keep_alive = true;
     bool expects_continue = false;
 
-    std::string_view header(std::string_view name) const;  // "" when absent; names ignore case
+    // "" when absent; names ignore case.
+    std::string_view header(std::string_view name) const;
 };
 
 // Bytes up to and including the empty line that ends a head, or nothing when it is not complete.

@@ -10,7 +10,7 @@ namespace awan {
 
 using Clock = Connection::Clock;
 
-// --- a request comes in
+// --- A request comes in
 
 void HttpServer::State::advance(Connection& c) {
     while (c.socket.get() >= 0 && c.stand == Stand::kHead && !c.in.empty()) {
@@ -40,7 +40,8 @@ void HttpServer::State::begin_request(Connection& c) {
     c.admitted = !draining;
     if (c.head.expects_continue || c.head.content_length > kLongBody) {
         std::optional<Response> refused;
-        c.close_after = true;  // the body may or may not follow: nobody could tell what comes next
+        // The body may or may not follow: nobody could tell what comes next.
+        c.close_after = true;
         answer_here(c, [&](const Request& request) {
             refused = service.refuse(request);
             if (refused) return *refused;
@@ -89,9 +90,9 @@ void HttpServer::State::dispatch(Connection& c) {
     });
 }
 
-// --- an answer goes out
+// --- An answer goes out
 
-// By the thread that polls (`here`) or by a worker.
+// Answers the connection's request, on the thread that polls (`here`) or on a worker.
 bool HttpServer::State::answer(Connection& c, HttpCodec& with, bool here) {
     Request request;
     request.deadline = {c.read_at + options.request_deadline, c.gone};

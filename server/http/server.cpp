@@ -56,7 +56,7 @@ void drain_counter(int fd) {
 HttpServer::State::State(Service& s, Metrics& m, HttpOptions o)
     : service(s), metrics(m), options(std::move(o)), wake(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
 
-// --- the turn
+// --- The turn of the loop
 
 void HttpServer::State::poll_once() {
     std::vector<pollfd> polled;
@@ -152,7 +152,7 @@ void HttpServer::State::take_back_done() {
     }
 }
 
-// --- connections come and go
+// --- Connections come and go
 
 void HttpServer::State::accept_all() {
     for (;;) {
@@ -200,7 +200,7 @@ void HttpServer::State::end(Connection& c) {
     c.socket.close();
 }
 
-// --- the end
+// --- The end
 
 void HttpServer::State::begin_drain() {
     draining = true;
@@ -258,8 +258,9 @@ void HttpServer::run() {
                                              const std::lock_guard lock(s.done_mutex);
                                              s.done.push_back({connection, alive});
                                              const std::uint64_t one = 1;
-                                             if (write(s.wake.get(), &one, sizeof one) < 0)
-                                                 return;  // it is awake already
+                                             // A failed write means that the pipe is full: the thread is awake
+                                             // already.
+                                             if (write(s.wake.get(), &one, sizeof one) < 0) return;
                                          };
                                      });
         s.workers = &workers;
@@ -279,7 +280,8 @@ void HttpServer::run() {
 void HttpServer::stop() {
     state_->stopping = true;
     const std::uint64_t one = 1;
-    if (write(state_->wake.get(), &one, sizeof one) < 0) return;  // it is awake already
+    // A failed write means that the pipe is full: the thread is awake already.
+    if (write(state_->wake.get(), &one, sizeof one) < 0) return;
 }
 
 }  // namespace awan

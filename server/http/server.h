@@ -18,9 +18,11 @@
 
 namespace awan {
 
+// Where and how to serve.
 struct HttpOptions {
     std::string host = "127.0.0.1";
-    int port = 8080;  // 0: any free port
+    // 0: any free port.
+    int port = 8080;
     // Threads that answer POSTs, one request each. Most of them wait for the render queue, so there
     // should be more than it has places: else it never fills and everybody waits for a worker.
     std::size_t workers = limits::kRenderQueue + 8;
@@ -46,6 +48,7 @@ struct HttpOptions {
     std::chrono::milliseconds drain_deadline = limits::kDrainDeadline;
 };
 
+// The transport in front of a Service.
 class HttpServer {
   public:
     HttpServer(Service& service, Metrics& metrics, HttpOptions options);
@@ -55,12 +58,13 @@ class HttpServer {
 
     // Binds and listens. Fails with kIo when the port is taken (no second server on one port).
     Status bind();
-    int port() const;  // after bind()
+    // The port it listens on; after bind().
+    int port() const;
 
     // Serves until stop(); then finishes what is in flight (at most drain_deadline). Call from one
     // thread.
     void run();
-    // Async-signal-unsafe but thread-safe: call from another thread.
+    // Thread-safe, but not for signal handlers: call it from another thread.
     void stop();
 
   private:

@@ -17,7 +17,7 @@
 
 namespace awan {
 
-// A body this long is worth a look at its head before it is sent.
+// A body as long as this is worth a look at its head before it is sent.
 inline constexpr std::size_t kLongBody = 1u << 20;
 
 struct HttpServer::State {
@@ -30,15 +30,18 @@ struct HttpServer::State {
     HttpOptions options;
     AccessRules rules;
     Descriptor listener;
-    Descriptor wake;  // written to when a worker has finished, and by stop()
+    // Written to when a worker has finished, and by stop(); it wakes the thread that polls.
+    Descriptor wake;
     int port = 0;
     std::atomic<bool> stopping{false};
 
     // All of the following belongs to the thread in run(), except what is said otherwise.
     HttpCodec codec;
     std::list<Connection> connections;
-    std::size_t body_bytes = 0;          // of all connections
-    std::atomic<std::size_t> parked{0};  // workers count too
+    // Bytes of the bodies of all connections.
+    std::size_t body_bytes = 0;
+    // Bytes of all answers that wait for their clients. Workers count too, hence atomic.
+    std::atomic<std::size_t> parked{0};
     bool draining = false;
     Clock::time_point drain_until;
     Clock::time_point accept_after;
@@ -48,7 +51,8 @@ struct HttpServer::State {
         Connection* connection;
         bool alive;
     };
-    std::vector<Done> done;  // guarded by done_mutex
+    // Guarded by done_mutex.
+    std::vector<Done> done;
 
     void accept_all();
     bool make_room();
@@ -69,7 +73,8 @@ struct HttpServer::State {
     void refuse(Connection& c, int status, std::string_view detail, std::string_view reason);
     void taken_back(Connection& c, bool alive);
     void written(Connection& c);
-    void end(Connection& c);  // closes it; it leaves the list at the end of the turn
+    // Closes it; it leaves the list at the end of the turn.
+    void end(Connection& c);
 };
 
 }  // namespace awan

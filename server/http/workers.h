@@ -20,7 +20,7 @@ class Workers {
         for (std::size_t i = 0; i < threads; ++i)
             threads_.emplace_back([this, make_worker] { run(make_worker()); });
     }
-    // Finishes what is queued.
+    // Finishes what is queued, then ends the threads.
     ~Workers() {
         {
             const std::lock_guard lock(mutex_);

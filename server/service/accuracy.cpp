@@ -5,7 +5,7 @@
 
 #include "core/accuracy/plot.h"
 #include "core/formats/numbers.h"
-#include "core/plan/ladder.h"
+#include "core/scene/rungs.h"
 #include "server/document/accuracy_text.h"
 #include "server/service/problem.h"
 #include "server/service/state.h"
@@ -15,13 +15,17 @@ namespace {
 
 using Clock = Deadline::Clock;
 
-// Of the time that a request has: the rest is for a prediction that was too low, and for the plot.
+// The share of a request's time that a sweep may take. The rest is for predictions that were too low, and for the
+// plot.
 constexpr double kShareOfDeadline = 0.75;
-constexpr int kRetrySeconds = 15;  // about half of a sweep
+// Seconds for Retry-After: about half of a sweep.
+constexpr int kRetrySeconds = 15;
+// What a query may ask of the reference at most: pixels along its longer side, paths a pixel, runs of each rung.
 constexpr int kLargestSide = 512;
 constexpr std::uint32_t kMostSamples = 1u << 20;
 constexpr int kMostRuns = 100;
-constexpr std::chrono::milliseconds kLook{20};  // how often a full queue is asked again
+// How often a full queue is asked again.
+constexpr std::chrono::milliseconds kLook{20};
 
 struct Query {
     AccuracyOptions options;
@@ -166,7 +170,8 @@ Response answer_accuracy(Service::State& state, const Request& request, const Sc
     const auto encode_start = Clock::now();
     Response response;
     response.headers = {{"Content-Type", std::string(type)},
-                        {"Cache-Control", "no-store"},  // times are never the same again
+                        // Times differ from one sweep to the next, so nothing is to be kept.
+                        {"Cache-Control", "no-store"},
                         {"Vary", "Accept"}};
     if (type == "image/png") {
         const AccuracyPlot plot{"", &named.report};

@@ -19,7 +19,8 @@ constexpr std::array<double, 14> kBounds = {.0005, .001, .0025, .005, .01, .025,
                                             .1,    .25,  .5,    1,    2.5, 10,   30};
 
 struct Histogram {
-    std::array<std::uint64_t, kBounds.size()> below{};  // cumulative
+    // Of each bound: how many took at most that long.
+    std::array<std::uint64_t, kBounds.size()> below{};
     std::uint64_t count = 0;
     double sum = 0;
 
@@ -55,8 +56,10 @@ void append_histogram(std::string& out, const std::string& name, const std::stri
 
 struct Metrics::State {
     mutable std::mutex mutex;
-    std::map<std::pair<std::string, int>, std::uint64_t> requests;  // route, status / 100
-    std::map<std::string, Histogram, std::less<>> seconds;          // by route
+    // How many requests, by route and hundreds of the status.
+    std::map<std::pair<std::string, int>, std::uint64_t> requests;
+    // How long they took, by route; and how long stages took, by stage.
+    std::map<std::string, Histogram, std::less<>> seconds;
     std::map<std::string, Histogram, std::less<>> stages;
     std::map<std::string, std::uint64_t, std::less<>> refused;
 };

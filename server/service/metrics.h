@@ -8,6 +8,7 @@
 
 namespace awan {
 
+// What /metrics shows.
 class Metrics {
   public:
     Metrics();
@@ -18,7 +19,8 @@ class Metrics {
     // `route` is a route's pattern ("/v1/presets/{name}"), or "other"; never the client's text.
     void request_done(std::string_view route, int status, double seconds);
     void stage_done(std::string_view stage,
-                    double milliseconds);  // generate, survey, light, draw, encode, queue
+                    // stage: "generate", "survey", "light", "draw", "encode" or "queue".
+                    double milliseconds);
     // A connection or request that never reached a route: "framing", "access", "timeout",
     // "connections", "requests", "memory".
     void connection_refused(std::string_view reason);

@@ -133,7 +133,8 @@ std::string make_etag(std::initializer_list<std::string_view> parts) {
                 hash ^= static_cast<unsigned char>(c);
                 hash *= 0x100000001b3u;
             }
-            hash ^= 0xff;  // parts do not run into one another
+            // Parts do not run into one another.
+            hash ^= 0xff;
             hash *= 0x100000001b3u;
         }
     }

@@ -10,8 +10,10 @@
 
 namespace awan {
 
+// A file that is served as it is.
 struct Page {
-    std::string path;  // "/", "/main.js", "/openapi.json"
+    // E.g. "/", "/main.js", "/openapi.json".
+    std::string path;
     std::string_view content_type;
     std::string text;
     std::string etag;
@@ -20,6 +22,7 @@ struct Page {
 // Every page, and `/` for index.html.
 std::vector<Page> make_pages();
 
+// A scene of web/presets.
 struct Preset {
     PresetEntry entry;
     std::string etag;

@@ -19,11 +19,12 @@ int exit_code_of(ErrorCode code);
 // A short title of a status, e.g. "Not Found"; also of 413, 421, 431.
 std::string_view status_title(int status);
 
+// An error as a problem document. pointer: "" where none belongs to it.
 Response problem(int status, std::string_view detail, std::string_view pointer,
                  std::string_view request_id);
 Response problem(const Error& error, std::string_view request_id);
 
-// With `Retry-After`, for 429 and 503.
+// A problem with the header Retry-After, for 429 and 503.
 Response problem_retry(int status, std::string_view detail, int retry_after_seconds,
                        std::string_view request_id);
 

@@ -72,12 +72,15 @@ OpenRenderer device_renderer(DeviceChoice choice, int threads) {
 
 struct RenderThread::State {
     mutable std::mutex mutex;
-    mutable std::condition_variable changed;  // queue, results and `info`
-    std::size_t places = 0;                   // how many there are
+    // Notified when the queue, a result or `info` changes.
+    mutable std::condition_variable changed;
+    // How many places there are, and how many are taken.
+    std::size_t places = 0;
     std::size_t taken = 0;
     std::deque<Job*> queue;
     Info info;
-    double typical_ms = 50;  // running mean of a render
+    // The running mean of a render's time.
+    double typical_ms = 50;
     bool stopping = false;
     std::thread thread;
 
@@ -218,7 +221,8 @@ RenderJobResult RenderThread::render(const Place& place, const Scene& scene, Pla
     while (!job.result) {
         state_->changed.wait_for(lock, kLook);
         const auto waiting = std::find(state_->queue.begin(), state_->queue.end(), &job);
-        if (job.result || waiting == state_->queue.end()) continue;  // done, or running
+        // The job is done, or running.
+        if (job.result || waiting == state_->queue.end()) continue;
         if (auto over = deadline.over()) {
             state_->queue.erase(waiting);
             return {*over, ms_since(job.queued_at)};

@@ -9,6 +9,7 @@
 
 namespace awan {
 
+// What came of a render, and how long it waited in the queue.
 struct RenderJobResult {
     Result<Rendered> rendered;
     double queue_ms = 0;
@@ -24,10 +25,11 @@ using OpenRenderer = std::function<Result<Renderer>()>;
 // Lights that are kept while cameras move: about ten of the largest rungs', hundreds of the common.
 inline constexpr std::size_t kLightCacheBytes = 256u << 20;
 
-// Opens the device and draws once, so that the first request finds it warm. One render runs at a time; the rungs that need
-// no device use `threads`.
+// Opens the device and draws once, so that the first request finds it warm. One render runs at a time; the rungs that
+// need no device use `threads`.
 OpenRenderer device_renderer(DeviceChoice choice, int threads);
 
+// The thread and its queue. Thread-safe.
 class RenderThread {
     struct State;
 
@@ -37,18 +39,24 @@ class RenderThread {
     // runs.
     RenderThread(OpenRenderer open, std::size_t queue_length);
     RenderThread(DeviceChoice choice, int threads, std::size_t queue_length);
-    ~RenderThread();  // stops; what is queued fails with kCancelled
+    // Stops; what is queued fails with kCancelled.
+    ~RenderThread();
     RenderThread(const RenderThread&) = delete;
     RenderThread& operator=(const RenderThread&) = delete;
 
     struct Info {
         enum class State { kStarting, kReady, kNoRenderer } state = State::kStarting;
-        DeviceInfo device;   // when kReady
-        std::string reason;  // when kNoRenderer
+        // Set when kReady.
+        DeviceInfo device;
+        // Set when kNoRenderer.
+        std::string reason;
     };
-    Info info() const;                // never waits for a render
-    std::size_t waiting() const;      // places taken: renders planned, queued or running
-    void wait_until_started() const;  // for the command line and tests
+    // How the renderer stands. Never waits for a render.
+    Info info() const;
+    // How many places are taken: by renders that are planned, queued or running.
+    std::size_t waiting() const;
+    // Waits until the renderer is open or could not be opened; for the command line and tests.
+    void wait_until_started() const;
     // The same for a request: the error when `deadline` is over before.
     Status wait_until_started(const Deadline& deadline) const;
 
@@ -70,7 +78,8 @@ class RenderThread {
         explicit Place(State* state) : state_(state) {}
         State* state_ = nullptr;
     };
-    Place take_place();  // false when the queue is full
+    // False when the queue is full.
+    Place take_place();
 
     // Runs the two passes on the render thread and waits for them. A job whose deadline passes or
     // whose client goes while it waits is answered then and never started.

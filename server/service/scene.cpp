@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "core/scene/fingerprint.h"
 #include "core/formats/awn.h"
 #include "core/formats/image_file.h"
 #include "core/formats/particle_files.h"
 #include "core/generate/generate.h"
+#include "core/scene/fingerprint.h"
 #include "core/scene/validate.h"
 #include "server/document/json.h"
 #include "server/document/scene_text.h"
@@ -71,7 +71,8 @@ struct ParticleText {
     std::string_view type;
     ParticleSet particles;
     std::uint64_t seed = 1;
-    WorkBudget::Lease lease;  // held until the last piece is written
+    // Held until the last piece is written.
+    WorkBudget::Lease lease;
     std::size_t next = 0;
 
     void append_head(std::string& out) const {
@@ -181,7 +182,7 @@ Result<std::string> encode(const Image& image, const Scene& scene, std::string_v
     return encode_png(image, scene->image.exposure.value_or(auto_exposure(scene)));
 }
 
-// A number of a header.
+// A number as text for a header.
 std::string number_text(const char* format, double value) {
     std::array<char, 64> text{};
     const int length = std::snprintf(text.data(), text.size(), format, value);
@@ -192,8 +193,7 @@ std::string seconds_text(double ms) {
     return number_text("%.2g s", ms / 1000);
 }
 
-// Predictions may be wrong by this much; what is still too slow then is refused before it costs
-// anything.
+// A prediction may be this many times too long. What would be too slow even then is refused before it costs anything.
 constexpr double kHopeless = 3;
 
 // Why a plan cannot be carried out before the deadline, and what could be; nothing when it may.
@@ -253,7 +253,8 @@ Response answer_render(Service::State& state, const Request& request, const Scen
     if (!planned) return fail(planned.error(), request);
     if (const auto reason = hopeless(planned->plan, request.deadline))
         return problem(504, *reason, "", request.id);
-    pass.leave();  // the passes run on the render thread; others may compute meanwhile
+    // The passes run on the render thread; others may compute meanwhile.
+    pass.leave();
     RenderJobResult job =
         state.renderer.render(place, scene, std::move(planned).value(), request.deadline);
     timing.queue_ms = waited_ms + job.queue_ms;
@@ -330,7 +331,8 @@ Response answer_scene_request(Service::State& state, const Request& request) {
     if (request.path == "/v1/plan") return answer_plan(state, request, *scene);
     const auto type = best_offer(joined_header(request, "Accept"), offers_of(request.path));
     if (request.path == kAccuracyPath) {
-        pass.leave();  // a sweep takes long, and there is one at most: others compute beside it
+        // A sweep takes long, and there is one at most: others compute beside it.
+        pass.leave();
         return answer_accuracy(state, request, *scene, *type);
     }
     return answer_particles(state, request, *scene, *type, pass);

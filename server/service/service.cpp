@@ -15,7 +15,8 @@ namespace {
 
 using Clock = Deadline::Clock;
 
-constexpr int kDrainRetrySeconds = 5;  // by then another instance, or this one anew, is up
+// Seconds for Retry-After. By then another instance, or this one started anew, is up.
+constexpr int kDrainRetrySeconds = 5;
 
 bool same(std::string_view a, std::string_view b) {
     return a.size() == b.size() && strncasecmp(a.data(), b.data(), a.size()) == 0;
@@ -108,7 +109,7 @@ Response get(Service::State& state, const Route& route, const Request& request) 
     if (route.pattern == "/metrics")
         return text_answer("text/plain; version=0.0.4; charset=utf-8",
                            state.metrics.text(state.renderer.waiting(), not_ready(state).empty()));
-    // /version
+    // Here the path is /version.
     const RenderThread::Info info = state.renderer.info();
     const bool ready = info.state == RenderThread::Info::State::kReady;
     const bool starting = info.state == RenderThread::Info::State::kStarting;

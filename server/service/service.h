@@ -1,5 +1,4 @@
-// Request -> response: routing, content types, statuses, headers. No sockets (server/http/server.h) and no
-// GL.
+// Request -> response: routing, content types, statuses, headers. No sockets (server/http/server.h) and no GL.
 #pragma once
 
 #include <atomic>
@@ -17,22 +16,32 @@
 
 namespace awan {
 
+// A request as the transport has understood it.
 struct Request {
-    std::string method;                                      // upper case
-    std::string path;                                        // decoded, without the query
-    std::vector<std::pair<std::string, std::string>> query;  // decoded names and values
+    // In upper case.
+    std::string method;
+    // Decoded, without the query.
+    std::string path;
+    // Decoded names and values.
+    std::vector<std::pair<std::string, std::string>> query;
     std::vector<std::pair<std::string, std::string>> headers;
     std::string body;
-    std::string id;     // X-Request-Id: the client's if it is 1..128 of [A-Za-z0-9._-], else made
-    Deadline deadline;  // its `cancelled` becomes true when the client goes away
-    bool admitted = false;  // it came before the server began to drain, and is finished
+    // The id that is echoed in X-Request-Id: the client's if it is 1..128 of [A-Za-z0-9._-], else a new one.
+    std::string id;
+    // Its `cancelled` becomes true when the client goes away.
+    Deadline deadline;
+    // It came before the server began to drain, and is finished.
+    bool admitted = false;
 
-    std::string_view header(std::string_view name) const;  // "" when absent; names ignore case
+    // "" when absent; names ignore case.
+    std::string_view header(std::string_view name) const;
 };
 
+// An answer for the transport to write.
 struct Response {
     int status = 200;
-    std::vector<std::pair<std::string, std::string>> headers;  // without Content-Length
+    // Content-Length is not among them; the transport adds it.
+    std::vector<std::pair<std::string, std::string>> headers;
     std::string body;
     // Instead of `body`: appends the next piece to its argument; false when that was the last. Must
     // not throw.
@@ -40,16 +49,23 @@ struct Response {
     // Nobody waits for it any more: it need not be written.
     bool abandoned = false;
 
-    std::string_view header(std::string_view name) const;  // "" when absent; names ignore case
+    // "" when absent; names ignore case.
+    std::string_view header(std::string_view name) const;
 };
 
+// How much the service may do at once.
 struct ServiceOptions {
-    int threads = 1;          // for one request: generate, survey, and the rungs without a device
-    MachineSpeed speed;       // for what is predicted
-    std::size_t working = 2;  // requests that generate, survey or encode at once; more wait
-    std::size_t work_bytes = limits::kWorkBytes;  // server/service/work_budget.h
+    // Threads of one request, for generate, survey, and the rungs without a device.
+    int threads = 1;
+    // Scales the times that are predicted.
+    MachineSpeed speed;
+    // Requests that generate, survey or encode at once; more wait.
+    std::size_t working = 2;
+    // See server/service/work_budget.h.
+    std::size_t work_bytes = limits::kWorkBytes;
 };
 
+// Answers requests.
 class Service {
   public:
     Service(RenderThread& renderer, Metrics& metrics, ServiceOptions options);

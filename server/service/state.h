@@ -36,7 +36,7 @@ class WorkGate {
             inside_ = true;
             return std::nullopt;
         }
-        // Without waiting; false when there is no place.
+        // Does not wait; false when there is no place.
         bool try_enter() {
             const std::lock_guard lock(gate_.mutex_);
             if (gate_.free_ == 0) return false;
@@ -72,7 +72,8 @@ struct Service::State {
     std::atomic<bool> draining{false};
     WorkBudget budget;
     WorkGate gate;
-    WorkGate sweeps{1};  // measurements of accuracy: two at once would measure each other
+    // At most one measurement of accuracy: two at once would measure each other.
+    WorkGate sweeps{1};
     DetailTiles tiles;
     const std::vector<Page> pages = make_pages();
     const std::vector<Preset> presets = make_presets();

@@ -13,6 +13,7 @@
 
 namespace awan {
 
+// A number of bytes that requests take from and give back to. Thread-safe.
 class WorkBudget {
   public:
     explicit WorkBudget(std::size_t bytes) : bytes_(bytes) {}

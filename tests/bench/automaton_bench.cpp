@@ -1,5 +1,6 @@
-// Cellular automata against the figures of their source: document 001, on a 2.4 GHz Core 2 Duo, gives .3 s for a step of
-// 256 x 20 x 256 cells with its smoothing and .3 s for the tables of probability of 100 ellipsoids; Dobashi et al. .5 s a step.
+// Cellular automata against the figures of their source: Upchurch 2009, on a 2.4 GHz Core 2 Duo, gives .3 s for a step
+// of 256 x 20 x 256 cells with its smoothing and .3 s for the tables of probability of 100 ellipsoids; Dobashi et al.
+// 2000 .5 s a step.
 //   build/release/tests/automaton_bench
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
@@ -15,6 +16,15 @@
 
 namespace awan {
 namespace {
+
+using automaton::AutomatonGrid;
+using automaton::AutomatonScratch;
+using automaton::FallOff;
+using automaton::first_ellipsoids;
+using automaton::make_fall_off;
+using automaton::PlaneSmoother;
+using automaton::run_automaton;
+using automaton::step_automaton;
 
 constexpr double kSourceMs = 300;
 
@@ -117,13 +127,13 @@ void DefaultCloud(benchmark::State& state) {
     double particles = 0;
     for (auto _ : state)
         particles = static_cast<double>(
-            automaton_particles(cloud, request, {})->particles.positions.size());
+            automaton::make_particles(cloud, request, {})->particles.positions.size());
     state.counters["particles"] = particles;
 }
 BENCHMARK(DefaultCloud)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-// What blocks of cells cost a picture: rms over rms of cloud pixels, beside one Gaussian a cell. Arguments: side of a block;
-// 0: all of the field in the picture, 1: one cloud from near by; the metaballs' radius, tenths of a cell.
+// What blocks of cells cost a picture: rms over rms of cloud pixels, beside one Gaussian a cell. Arguments: side of a
+// block; 0: all of the field in the picture, 1: one cloud from near by; the metaballs' radius, tenths of a cell.
 void Blocks(benchmark::State& state) {
     SceneDraft draft;
     draft.top_level_cubes = false;
@@ -169,7 +179,7 @@ void LargestGrid(benchmark::State& state) {
     request.time = 1;
     double particles = 0, error = 0;
     for (auto _ : state) {
-        const auto made = automaton_particles(cloud, request, {});
+        const auto made = automaton::make_particles(cloud, request, {});
         particles = static_cast<double>(made->particles.positions.size());
         error = made->error;
     }

@@ -12,7 +12,7 @@
 
 namespace awan::bench {
 
-// The light pass as the papers describe it (Harris 2001): particles in the sun's order, for each
+// The light pass as the papers describe it (Harris & Lastra 2001): particles in the sun's order, for each
 // one a glReadPixels of the light where its centre is, then a quad blended into the light buffer
 // (512 x 512, R32F).
 class ReadbackLight {

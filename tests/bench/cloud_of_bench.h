@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/draw/image.h"
+#include "core/base/image.h"
 #include "tests/scenes.h"
 
 namespace awan::bench {

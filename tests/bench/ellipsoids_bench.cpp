@@ -1,4 +1,4 @@
-// Gardner's look at 800 x 600 and his ellipsoids as matter. The source's own figure is in words only (document 002: "image
+// Gardner's look at 800 x 600 and his ellipsoids as matter. Gardner 1985 gives a figure in words only ("image
 // generation can be performed by small computers in a reasonable amount of time"); it has no table to set ours beside.
 //   build/release/tests/ellipsoids_bench
 #include <benchmark/benchmark.h>
@@ -12,6 +12,10 @@
 
 namespace awan {
 namespace {
+
+using ellipsoids::texture_at;
+using ellipsoids::texture_function;
+using ellipsoids::TextureFunction;
 
 constexpr const char* kSource = "source: \"a reasonable amount of time\", no figure";
 

@@ -1,4 +1,4 @@
-// Filling cubes on one core, against the source's figure and against a plain pseudo-random fill.
+// Filling cubes on one core, against the figure of Sunar et al. 2005 and against a plain pseudo-random fill.
 //   build/release/tests/fill_bench
 #include <random>
 

@@ -1,5 +1,5 @@
-// Implicit clouds. Document 004 states no time for a density; for scale, its animator spends "less than one minute to generate and
-// animate the implicit particles for 200 frames" (300 ms a frame), which GrowFrames is beside.
+// Implicit clouds. Ebert 2002 states no time for a density; for scale, his animator spends "less than one minute to
+// generate and animate the implicit particles for 200 frames" (300 ms a frame), which GrowFrames is beside.
 //   build/release/tests/implicit_bench
 #include <benchmark/benchmark.h>
 
@@ -11,6 +11,13 @@
 
 namespace awan {
 namespace {
+
+using implicit::Box;
+using implicit::box_of;
+using implicit::grown;
+using implicit::ImplicitField;
+using implicit::prepare_field;
+using implicit::row_densities;
 
 ImplicitCloud of_preset(std::int64_t preset) {
     ImplicitCloud cloud;
@@ -52,7 +59,7 @@ void CumulusParticles(benchmark::State& state) {
     request.threads = static_cast<int>(state.range(1));
     double particles = 0, error = 0;
     for (auto _ : state) {
-        const Result<ModelParticles> made = implicit_particles(cloud, request, {});
+        const Result<ModelParticles> made = implicit::make_particles(cloud, request, {});
         particles = static_cast<double>(made->particles.positions.size());
         error = made->error;
     }
@@ -71,7 +78,7 @@ void GrowFrames(benchmark::State& state) {
         time = time > 59 ? 0 : time + 0.3;
         benchmark::DoNotOptimize(grown(growth, 1, time));
     }
-    state.SetLabel("the source: up to 300 ms a frame");
+    state.SetLabel("Ebert 2002: up to 300 ms a frame");
 }
 BENCHMARK(GrowFrames)->Unit(benchmark::kMillisecond);
 

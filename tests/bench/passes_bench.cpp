@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/base/instruction_sets.h"
 #include "core/base/parallel.h"
 #include "core/draw/draw.h"
 #include "core/light/light.h"
@@ -135,10 +136,8 @@ BENCHMARK(EyePassAgainstInstancedQuads)
 
 // The bare arithmetic of a fragment: two exponentials and the blend of four channels, as many lanes
 // at a time as the machine has, everything in the first cache.
-#ifndef AWAN_SANITIZED
-__attribute__((target_clones("avx512f", "avx2", "default")))
-#endif
-float blend_row(float* left, float* light, int count, float start, float step, float tau) {
+AWAN_INLINE float blend_row_body(float* left, float* light, int count, float start, float step,
+                                 float tau) {
     for (int i = 0; i < count; ++i) {
         const float x = start + step * static_cast<float>(i);
         // exp(y) = 2^(y log2 e) by exponent bits and a cubic; y is never below -20 here
@@ -157,6 +156,9 @@ float blend_row(float* left, float* light, int count, float start, float step, f
     }
     return left[count / 2];
 }
+AWAN_KERNEL(float, blend_row,
+            (float* left, float* light, int count, float start, float step, float tau),
+            (left, light, count, start, step, tau))
 
 // Fragments that a picture needs: those within 4 s of a particle and not behind what is opaque.
 double needed_fragments(const Setting& set) {

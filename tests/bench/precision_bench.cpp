@@ -1,13 +1,18 @@
 // What pictures and light are kept in and how finely light is solved: chosen from these figures (table 4.4, g = .85,
 // transport-32; "change": nRMSE of the picture; lit / backlit).
-//   Transmittance and radiance: float32. Optical depth 1 in 1e5 layers, blended: float32 is off by 6e-6; half by 3% at 1e3
-//     layers and does not fall at all from 1e4 on, 8 bit not at all from 1e3 on. double (1e-13) buys nothing that is seen.
-//   Light grid and sun's depth: float32, though half would do: it changes the picture by 7e-5 / 3e-5, a five-hundredth of
+//   Transmittance and radiance: float32. Optical depth 1 in 1e5 layers, blended: float32 is off by 6e-6; half by 3% at
+//   1e3
+//     layers and does not fall at all from 1e4 on, 8 bit not at all from 1e3 on. double (1e-13) buys nothing that is
+//     seen.
+//   Light grid and sun's depth: float32, though half would do: it changes the picture by 7e-5 / 3e-5, a five-hundredth
+//   of
 //     transport-32's own error. 2.3 + 2.8 MB would become half of that; while lights are so small, the conversions are
 //     not worth their code. Where memory counts (many kept lights of transport-64), half is the first thing to try.
-//   SunDepth: 3 cells to one of the grid (96): 0.1% / 0.5% from 192. 64 cells: 0.2% / 1.5%; 32: 1.0% / 6.0%. It is a small
+//   SunDepth: 3 cells to one of the grid (96): 0.1% / 0.5% from 192. 64 cells: 0.2% / 1.5%; 32: 1.0% / 6.0%. It is a
+//   small
 //     part of the light pass's time at any of these.
-//   Tolerance of the solve: 1e-3 (22 sweeps): 0.25% / 0.05%. 1e-2 (15 sweeps): 1.1% / 0.1%; 3e-4 (27): 0.04% / <.01%. All are
+//   Tolerance of the solve: 1e-3 (22 sweeps): 0.25% / 0.05%. 1e-2 (15 sweeps): 1.1% / 0.1%; 3e-4 (27): 0.04% / <.01%.
+//   All are
 //     below the grid's own 2-5%.
 //   Steps of the march: step_error 0.01: 0.09% / 0.04%; 0.0025: 0.02% / 0.01%, for half as much time again.
 //   build/release/tests/precision_bench
@@ -24,7 +29,8 @@
 namespace awan {
 namespace {
 
-// --- blending ------------------------------------------------------------------------------------------------------------
+// --- blending
+// ------------------------------------------------------------------------------------------------------------
 
 float as_float(double x) {
     return static_cast<float>(x);
@@ -78,7 +84,8 @@ void ThinLayers(benchmark::State& state) {
 }
 BENCHMARK(ThinLayers)->Arg(1000)->Arg(10000)->Arg(100000)->Unit(benchmark::kMillisecond);
 
-// --- what the light is kept in -------------------------------------------------------------------------------------------
+// --- what the light is kept in
+// -------------------------------------------------------------------------------------------
 
 struct Stage {
     Scene scene;
@@ -114,7 +121,8 @@ TransportLight halved(TransportLight light, bool moments, bool sun) {
     return light;
 }
 
-// Argument: sun in front, or behind. Counters: change of the picture by float16 moments, sun's depth, both; MB in float32.
+// Argument: sun in front, or behind. Counters: change of the picture by float16 moments, sun's depth, both; MB in
+// float32.
 void HalfPrecisionLight(benchmark::State& state) {
     const Stage stage = stage_of(state.range(0) != 0);
     const TransportLight light = light_of(stage, stage.planned.plan.transport);
@@ -139,7 +147,8 @@ BENCHMARK(HalfPrecisionLight)
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 
-// --- how finely it is solved ---------------------------------------------------------------------------------------------
+// --- how finely it is solved
+// ---------------------------------------------------------------------------------------------
 
 // Light with `settings` against light with `finest`: change of the picture, ms of the light pass.
 void change_of(benchmark::State& state, TransportSettings settings, TransportSettings finest) {

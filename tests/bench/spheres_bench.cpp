@@ -1,5 +1,5 @@
-// Clouds of spheres beside the source's own figures: document 003, table 1, pictures of 800 x 600 by ray tracing on one core of a
-// Core 2 Duo E6600. The look draws what the source drew; the volume path lights the same cloud as real clouds are.
+// Clouds of spheres beside the figures of Ostroushko et al. 2010, table 1, pictures of 800 x 600 by ray tracing on one
+// core of a Core 2 Duo E6600. The look draws what they drew; the volume path lights the same cloud as real clouds are.
 //   build/release/tests/spheres_bench
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
@@ -16,7 +16,7 @@
 namespace awan {
 namespace {
 
-// Milliseconds of the source's table 1, by the number of levels: 15,625, 390,625 and 9,765,625 spheres.
+// Milliseconds of their table 1, by the number of levels: 15,625, 390,625 and 9,765,625 spheres.
 double source_ms(std::int64_t levels) {
     return levels == 6 ? 4750 : levels == 8 ? 9203 : 22116;
 }

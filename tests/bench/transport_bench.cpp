@@ -175,9 +175,9 @@ void AMillionParticlesAgainstTenThousand(benchmark::State& state) {
 }
 BENCHMARK(AMillionParticlesAgainstTenThousand)->Unit(benchmark::kMillisecond)->Iterations(3);
 
-// CPU time of transport-32 at 800 x 600 over what the path tracer would need until its noise is transport-32's error. The
-// error is against a small reference; the tracer's time and noise per sample are measured there too, and noise goes with
-// 1 / sqrt(samples), time with samples and pixels.
+// CPU time of transport-32 at 800 x 600 over what the path tracer would need until its noise is transport-32's error.
+// The error is against a small reference; the tracer's time and noise per sample are measured there too, and noise goes
+// with 1 / sqrt(samples), time with samples and pixels.
 void EqualErrorAgainstPaths(benchmark::State& state) {
     const Scene small = test::valid(bench::table_draft("transport-32", 80, 60));
     const Scene large = test::valid(bench::table_draft("transport-32"));

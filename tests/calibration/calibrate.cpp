@@ -53,8 +53,7 @@ struct Reference {
 Reference reference_of(const Scene& scene, const Planned& planned, const Options& options) {
     Reference reference;
     TruthOptions truth;
-    truth.aerial_perspective = planned.plan.on(Effect::kAerialPerspective);
-    truth.light_shafts = planned.plan.on(Effect::kLightShafts);
+    truth.eye_effects = planned.plan.eye_effects();
     truth.threads = options.threads;
     truth.samples = options.noise < 1 ? 16 : 2;
     for (int round = 0; round < (options.noise < 1 ? 3 : 1); ++round) {
@@ -124,7 +123,7 @@ void measure(const Options& options, int index, Device& device, std::FILE* out) 
         planned.survey.optical_depth_eye, planned.survey.optical_depth_sun, scene->medium.g,
         scene->medium.albedo, planned.survey.sun_cosine, reference.noise, reference.noise,
         reference.samples, 1e3 * reference.seconds, 1e3 * reference.seconds);
-    const Rung& truth = *find_rung("truth");
+    const Rung& truth = rung_of(RungId::kTruth);
     for (const double figure : error_figures(truth, scene, planned.survey))
         std::fprintf(out, ",%.6g", figure);
     for (const double figure : time_figures(truth, scene, planned.survey, reference.samples))

@@ -10,7 +10,7 @@
 #include "core/generate/automaton/run.h"
 #include "core/generate/models.h"
 
-namespace awan {
+namespace awan::automaton {
 
 Result<AutomatonState> run_automaton(const AutomatonCloud& cloud, std::uint64_t key,
                                      std::uint64_t step, int threads, const Deadline& deadline,
@@ -35,7 +35,7 @@ Status check_start(const AutomatonCloud& cloud, std::uint64_t key) {
     const AutomatonState& start = *cloud.start;
     if (start.key != key) return wrong("another seed, or another place among the scene's clouds");
     if (start.rules != rules_key(cloud)) return wrong("an automaton with other parameters");
-    // What a file says of itself and no automaton of these rules could have.
+    // Refuses a state from a file that no automaton of these rules could be in.
     const AutomatonGrid grid(cloud.cells);
     if (start.nx != grid.nx || start.ny != grid.ny || start.nz != grid.nz ||
         start.ellipsoids.size() != first_ellipsoids(cloud, key).size() ||
@@ -44,11 +44,13 @@ Status check_start(const AutomatonCloud& cloud, std::uint64_t key) {
     return std::nullopt;
 }
 
-Result<ModelParticles> automaton_particles(const AutomatonCloud& cloud, const ModelRequest& request,
-                                           const Deadline& deadline) {
+Result<ModelParticles> make_particles(const AutomatonCloud& cloud, const ModelRequest& request,
+                                      const Deadline& deadline) {
     const double steps = automaton_steps_at(cloud, request.time);
     const double whole = std::floor(steps);
-    constexpr double kQuick = 0x1p26;  // cells times steps: 50 ms of one core
+    // Cells times steps that take about 50 ms of one core. Above that, a coarse answer is found without growing the
+    // cloud.
+    constexpr double kQuick = 0x1p26;
     if (request.coarse && cloud.cells.x * cloud.cells.y * cloud.cells.z * (whole + 2) > kQuick)
         return coarse_automaton(cloud, request.key, static_cast<std::uint64_t>(whole), deadline);
     AutomatonScratch scratch;
@@ -63,7 +65,8 @@ Result<ModelParticles> automaton_particles(const AutomatonCloud& cloud, const Mo
         to.push_back(from.cld);
         to.insert(to.end(), from.earlier.begin(), from.earlier.end());
     };
-    // Before step 0 the sky was clear: as many fields as there are to be smoothed over.
+    // Before step 0 the sky was clear: empty fields are put in for the steps that were not made, as many as are
+    // smoothed over.
     const AutomatonGrid grid(cloud.cells);
     const auto complete = [&](std::vector<std::vector<std::uint64_t>>& fields,
                               std::vector<CloudBits>& to) {
@@ -88,4 +91,4 @@ Result<ModelParticles> automaton_particles(const AutomatonCloud& cloud, const Mo
     return particles;
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -13,10 +13,11 @@
 #include "core/generate/automaton/metaball.h"
 #include "core/scene/automaton.h"
 
-namespace awan {
+namespace awan::automaton {
 namespace {
 
-struct Moments {  // of the matter of one block, in cells, from the corner of the grid
+// Mass, first and second moments of the matter in one block, in cells from the corner of the grid.
+struct Moments {
     double mass = 0, square = 0;
     glm::dvec3 first{0};
 };
@@ -26,7 +27,7 @@ struct Piece {
     std::vector<float> radii, densities;
 };
 
-// Density of cells, plane by plane, between two steps.
+// The densities of cells, plane by plane, interpolated between two steps.
 class Densities {
   public:
     Densities(const AutomatonCloud& cloud, const AutomatonGrid& grid, const CellDensity& density)
@@ -63,10 +64,11 @@ class Densities {
 struct Making {
     const AutomatonCloud& cloud;
     const AutomatonGrid grid;
-    double variance;  // of a cell's Gaussian, in cells^2
+    // The variance of a single cell's Gaussian, cells^2.
+    double variance;
 
-    // A block's Gaussian. Wider ones, of s = .5 or .6 of a side, as a smooth lattice would ask for, make a picture's error two
-    // to four times as large.
+    // Adds a block's Gaussian. Wider ones, of s = .5 or .6 of a side, as a smooth lattice would ask for, make a
+    // picture's error two to four times as large.
     void add(const Moments& block, Piece& piece) const {
         const glm::dvec3 middle = block.first / block.mass;
         const double within = std::max(block.square / block.mass - glm::dot(middle, middle), 0.0);
@@ -79,7 +81,7 @@ struct Making {
     }
 };
 
-// Planes first to last - 1, whole blocks of them.
+// Planes first .. last - 1, which are whole blocks.
 void make_piece(const Making& making, const CellDensity& density, std::size_t block,
                 std::size_t first, std::size_t last, Piece& piece) {
     const AutomatonGrid& grid = making.grid;
@@ -108,10 +110,12 @@ void make_piece(const Making& making, const CellDensity& density, std::size_t bl
     }
 }
 
-// Pictures of a block's Gaussians beside those of its cells, rms over rms: the largest that automaton_bench (Blocks) finds of
-// clouds some 20 cells across, which is as fine as they get; from 16 on little of such a cloud is left.
+// How far pictures of blocks' Gaussians are from those of the cells', root mean square of the difference over that of
+// the picture: the largest that automaton_bench (Blocks) finds of clouds some 20 cells across, which is as fine as
+// they get. From 16 on little of such a cloud is left.
 double error_of_blocks(std::size_t block) {
-    constexpr std::array<double, 5> kErrors = {0, 0.04, 0.14, 0.32, 0.6};  // of 1, 2, 4, 8, 16
+    // Of blocks of 1, 2, 4, 8 and 16 cells.
+    constexpr std::array<double, 5> kErrors = {0, 0.04, 0.14, 0.32, 0.6};
     const auto doublings = static_cast<std::size_t>(std::countr_zero(block));
     return doublings < kErrors.size() ? kErrors[doublings] : 1;
 }
@@ -126,14 +130,14 @@ Result<CellParticles> cells_to_particles(const AutomatonCloud& cloud, const Cell
                         kMetaballVariance * cloud.metaball_radius * cloud.metaball_radius};
     const double work = static_cast<double>(grid.all_words()) * 64 * 2;
     for (std::size_t block = 1;; block *= 2) {
-        // Each piece begins with smoothing a few planes of its neighbours'.
+        // Planes of one piece of work: 16 or more, since each begins with smoothing a few planes of its neighbours'.
         const std::size_t planes = (16 + block - 1) / block * block;
         std::vector<Piece> pieces((grid.nz + planes - 1) / planes);
         std::atomic<std::uint64_t> count{0};
         std::atomic<bool> late{false};
         parallel_for(useful_threads(threads, work), pieces.size(), [&](std::size_t n) {
             if (late.load(std::memory_order_relaxed) || deadline.over()) late = true;
-            // That they are too many does not depend on which are counted first.
+            // They are already too many; that does not depend on which pieces were counted first.
             if (late.load(std::memory_order_relaxed) || count > most) return;
             make_piece(making, density, block, n * planes, std::min((n + 1) * planes, grid.nz),
                        pieces[n]);
@@ -160,4 +164,4 @@ Result<CellParticles> cells_to_particles(const AutomatonCloud& cloud, const Cell
     }
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

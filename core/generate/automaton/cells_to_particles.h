@@ -8,17 +8,21 @@
 #include "core/generate/automaton/smooth.h"
 #include "core/generate/models.h"
 
-namespace awan {
+namespace awan::automaton {
 
+// The density of an automaton's cells between two steps.
 struct CellDensity {
-    // cld after the steps to smooth over, the last one first; `next` one step later, as many, or empty.
+    // The cloud bits (cld) after the steps to smooth over, the last one first; `next` the same one step later, or
+    // empty.
     std::vector<CloudBits> now, next;
-    double share_of_next = 0;  // 0..1
+    // How far between the two, 0..1.
+    double share_of_next = 0;
 };
 
-// One Gaussian a cell: a metaball of the cell's density, of integral one cell (metaball.h), as the Gaussian of the same mass
-// and second moment. Where those of cells are more than `most`, one a block of 2x2x2 cells, 4x4x4, ...: mass and centre of
-// mass stay, the second moment's trace too. `error` says what the blocks cost; `block` is the side of one, in cells.
+// One Gaussian a cell: a metaball of the cell's density whose integral is that of one cell (metaball.h), as the
+// Gaussian of the same mass and second moment. Where that makes more than `most`, one Gaussian a block of 2x2x2
+// cells, of 4x4x4, ...: mass and centre of mass stay, the trace of the second moment too. `error` says what the
+// blocks cost; `block` is the side of one, in cells.
 struct CellParticles {
     ReadyParticles particles;
     double error = 0;
@@ -27,4 +31,4 @@ struct CellParticles {
 Result<CellParticles> cells_to_particles(const AutomatonCloud& cloud, const CellDensity& density,
                                          std::uint64_t most, int threads, const Deadline& deadline);
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -6,13 +6,14 @@
 #include "core/generate/automaton/parcels.h"
 #include "core/scene/automaton.h"
 
-namespace awan {
+namespace awan::automaton {
 
 Result<ModelParticles> coarse_automaton(const AutomatonCloud& cloud, std::uint64_t key,
                                         std::uint64_t steps, const Deadline& deadline) {
     const std::vector<AutomatonEllipsoid> first = first_ellipsoids(cloud, key);
     std::vector<AutomatonEllipsoid> ellipsoids = first;
-    constexpr double kMostMoves = 1e7;  // some 50 ms
+    // Ellipsoids times steps that take some 50 ms. Above that they are left where they began.
+    constexpr double kMostMoves = 1e7;
     const double moves = static_cast<double>(steps) * static_cast<double>(first.size()) *
                          static_cast<double>(cloud.wind.ellipsoids.size());
     if (moves > 0 && moves <= kMostMoves)
@@ -31,7 +32,7 @@ Result<ModelParticles> coarse_automaton(const AutomatonCloud& cloud, std::uint64
     };
     for (const AutomatonEllipsoid& one : ellipsoids) {
         const glm::dvec3 radii = glm::min(one.radii, cloud.cells);
-        // Never larger than the grid's middle, so that bounds stay the grid's.
+        // Never larger than the middle of the grid allows, so that bounds stay the grid's.
         const double radius = std::max(0.4 * std::min({radii.x, radii.y, radii.z}), 0.5);
         add(one.center, radius);
         for (int axis = 0; axis < 3; ++axis)
@@ -44,4 +45,4 @@ Result<ModelParticles> coarse_automaton(const AutomatonCloud& cloud, std::uint64
     return made;
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -6,17 +6,16 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/base/instruction_sets.h"
 #include "core/base/parallel.h"
 
-// The same bits by wider instructions where there are any: nothing here is contracted or reordered.
-#define AWAN_CLONES __attribute__((target_clones("avx2", "default")))
-
-namespace awan {
+namespace awan::automaton {
 namespace {
 
-constexpr float kOutside = 2;  // a square of a distance that no cell within an ellipsoid has
+// The square of a distance that no cell within an ellipsoid has: those are below 1.
+constexpr float kOutside = 2;
 
-// A bit matrix of 8 rows, a byte each, turned about its diagonal (Warren, Hacker's Delight 2, 7-3).
+// A matrix of 8 x 8 bits, a row a byte, mirrored about its diagonal (Warren 2012, section 7-3).
 std::uint64_t transposed(std::uint64_t x) {
     std::uint64_t t = (x ^ (x >> 7)) & 0x00aa00aa00aa00aau;
     x ^= t ^ (t << 7);
@@ -26,7 +25,7 @@ std::uint64_t transposed(std::uint64_t x) {
     return x ^ t ^ (t << 28);
 }
 
-// Of eight bytes, 0 or 1: a bit each.
+// Eight bytes that are 0 or 1 as the eight bits of one byte.
 std::uint64_t gathered(std::uint64_t bytes) {
     return bytes * 0x0102040810204080u >> 56;
 }
@@ -37,12 +36,12 @@ std::uint64_t eight_bytes(const std::uint8_t* bytes) {
     return x;
 }
 
-// `square`: d^2 of 64 cells. The word of those inside, and their digits.
-AWAN_CLONES std::uint64_t pack(const float* square, std::uint64_t* planes) {
+// square: d^2 of 64 cells. Gives the word of those inside, and writes their digits.
+AWAN_INLINE std::uint64_t pack_body(const float* square, std::uint64_t* planes) {
     alignas(64) std::array<std::int32_t, 64> digits;
     alignas(64) std::array<std::uint8_t, 64> outside, high, low;
-    // In float: a last bit of d decides nothing that shows, and IEEE's root is the same everywhere. Loops of one thing each
-    // become vector instructions.
+    // In float: the last bit of d decides nothing that shows, and IEEE's square root is the same everywhere. One loop
+    // for each step, so that they become vector instructions.
     alignas(64) std::array<float, 64> d;
     for (std::size_t i = 0; i < 64; ++i) d[i] = square[i] < 1.0F ? square[i] : 1.0F;
     for (std::size_t i = 0; i < 64; ++i) d[i] = std::sqrt(d[i]);
@@ -54,7 +53,8 @@ AWAN_CLONES std::uint64_t pack(const float* square, std::uint64_t* planes) {
     for (std::size_t group = 0; group < 8; ++group)
         inside |= (gathered(eight_bytes(&outside[8 * group])) ^ 255) << (8 * group);
     if (inside == 0) return 0;
-    // Eight cells' bytes turned are eight planes' bytes; eight of those turned are planes.
+    // Eight cells' bytes, mirrored, are a byte each of eight planes; eight of those together are the words of the
+    // planes.
     std::array<std::array<std::uint8_t, 8>, kDistancePlanes> bytes;
     for (std::size_t half = 0; half < 2; ++half)
         for (std::size_t group = 0; group < 8; ++group) {
@@ -65,35 +65,45 @@ AWAN_CLONES std::uint64_t pack(const float* square, std::uint64_t* planes) {
     std::memcpy(planes, bytes.data(), sizeof bytes);
     return inside;
 }
+AWAN_KERNEL(std::uint64_t, pack, (const float* square, std::uint64_t* planes), (square, planes))
 
-// Cells of a row that anything was written to.
+// The cells of a row that anything was written to: first .. last - 1.
 struct Reach {
-    std::size_t first = SIZE_MAX, last = 0;  // `last` is not one of them
+    // It starts empty.
+    std::size_t first = SIZE_MAX, last = 0;
 };
 
-// Squares of distances along a row: from `start`, in steps of one cell of `inverse` radii, with `rest` across.
-AWAN_CLONES void keep_smallest(float start, float inverse, float rest, std::int32_t count,
-                               float* out) {
+// Keeps in `out` the smaller of what is there and d^2, along a row of cells i:
+//   d^2 = ((start + i) inverse)^2 + rest,    inverse: a cell in radii, rest: the part across the row.
+AWAN_INLINE void keep_smallest_body(float start, float inverse, float rest, std::int32_t count,
+                                    float* out) {
     for (std::int32_t i = 0; i < count; ++i) {
         const float along = (start + static_cast<float>(i)) * inverse;
         const float d2 = along * along + rest;
         out[i] = d2 < out[i] ? d2 : out[i];
     }
 }
+AWAN_KERNEL(void, keep_smallest,
+            (float start, float inverse, float rest, std::int32_t count, float* out),
+            (start, inverse, rest, count, out))
 
-AWAN_CLONES void keep_first(float start, float inverse, float rest, std::int32_t count,
-                            float* out) {
+// Writes d^2 where no ellipsoid has been yet: the first one that holds a cell counts.
+AWAN_INLINE void keep_first_body(float start, float inverse, float rest, std::int32_t count,
+                                 float* out) {
     for (std::int32_t i = 0; i < count; ++i) {
         const float along = (start + static_cast<float>(i)) * inverse;
         const float d2 = along * along + rest;
         out[i] = out[i] < 1.0F ? out[i] : d2;
     }
 }
+AWAN_KERNEL(void, keep_first,
+            (float start, float inverse, float rest, std::int32_t count, float* out),
+            (start, inverse, rest, count, out))
 
-// Of a row: the part of it within the ellipsoid, squares of distances.
+// Adds to a row the part of it within the ellipsoid, as squares of distances.
 void add_row(const AutomatonEllipsoid& ellipsoid, double rest, AutomatonOverlap overlap,
              std::size_t nx, float* square, Reach& reach) {
-    // A cell to spare on either side: the test is that of the square.
+    // One cell more on either side than the ellipsoid reaches: which cells lie within is decided by their squares.
     const double half = std::sqrt(1 - rest) * ellipsoid.radii.x + 1;
     const double side = static_cast<double>(nx);
     const double x = ellipsoid.center.x - 0.5;
@@ -164,4 +174,4 @@ Status make_fall_off(const AutomatonGrid& grid, const std::vector<AutomatonEllip
     return std::nullopt;
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -1,6 +1,6 @@
-// How deep every cell lies in its ellipsoid, as bits: what document 001 keeps as three tables of probabilities. All three
-// follow from the distance d from the centre, so that d alone is kept: 16 digits a cell, in words of 64 cells, as the
-// comparison with random bits wants them (random_bits.h).
+// How deep every cell lies in its ellipsoid, as bits. Upchurch 2009 keeps three tables of probabilities. All three
+// follow from the distance d from the centre, so d alone is kept: 16 binary digits a cell, in words of 64 cells, as
+// the comparison with random bits wants them (random_bits.h).
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,22 @@
 #include "core/generate/automaton/random_bits.h"
 #include "core/scene/automaton.h"
 
-namespace awan {
+namespace awan::automaton {
 
+// How deep every cell lies in its ellipsoid.
 struct FallOff {
-    std::vector<std::uint64_t> inside;  // a bit a cell: within an ellipsoid, not below the base
-    // Of word w of `inside`: kDistancePlanes words from w * kDistancePlanes, the digits of floor(d 2^16), highest first.
-    // Only where word w is not 0.
+    // A bit a cell: whether it lies within an ellipsoid and not below the base.
+    std::vector<std::uint64_t> inside;
+    // The digits of floor(d 2^16), highest first: word w of `inside` has kDistancePlanes words here, from w *
+    // kDistancePlanes on. Set only where word w is not 0.
     std::vector<std::uint64_t> distance;
-    std::vector<std::uint8_t> row_inside;  // whether any cell of the row is
+    // Of each row: whether any of its cells is inside.
+    std::vector<std::uint8_t> row_inside;
 };
 
-// Over all rows; `into` may hold an older one.
+// Fills `into` for all rows; it may hold an older one, whose memory is used again.
 Status make_fall_off(const AutomatonGrid& grid, const std::vector<AutomatonEllipsoid>& ellipsoids,
                      AutomatonOverlap overlap, double base, int threads, const Deadline& deadline,
                      FallOff& into);
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -4,7 +4,7 @@
 
 #include "core/generate/keyed_random.h"
 
-namespace awan {
+namespace awan::automaton {
 namespace {
 
 constexpr std::uint64_t kFirst = 0x70617263656c7331u, kAgain = 0x70617263656c7332u;
@@ -17,7 +17,8 @@ double between(double low, double high, double share) {
     return low + (high - low) * share;
 }
 
-// Uniform where an ellipsoid of that radius lies within 0..side; the middle where none does.
+// Where along an axis an ellipsoid of that radius may lie within 0..side, `share` of the way; the middle where it is
+// too wide.
 double place(double side, double radius, double share) {
     return side > 2 * radius ? between(radius, side - radius, share) : side / 2;
 }
@@ -74,7 +75,7 @@ bool move_ellipsoids(const AutomatonCloud& cloud, const std::vector<AutomatonEll
             const double change =
                 between(-cloud.wind.mutation, cloud.wind.mutation, uniform(own, a));
             const double half = cloud.cells[axis] / 2;
-            // Never narrower than a quarter of a cell, so that it still has a middle.
+            // Changed by chance, but never narrower than a quarter of a cell, so that it still has a middle.
             double& radius = ellipsoid.radii[axis];
             radius = std::max(first[n].radii[axis] * (1 + change), 0.25);
             if (axis != 1 || !random.level || !is_random) radius = std::min(radius, half);
@@ -86,4 +87,4 @@ bool move_ellipsoids(const AutomatonCloud& cloud, const std::vector<AutomatonEll
     return moved;
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

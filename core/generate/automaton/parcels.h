@@ -6,15 +6,16 @@
 
 #include "core/scene/automaton.h"
 
-namespace awan {
+namespace awan::automaton {
 
-// The listed ones, then the random ones: in the grid as far as their radii allow, those that are too wide are narrowed to it.
+// The listed ellipsoids, then the random ones. As far as their radii allow they lie within the grid; those too wide
+// for it are narrowed to it.
 std::vector<AutomatonEllipsoid> first_ellipsoids(const AutomatonCloud& cloud, std::uint64_t key);
 
-// Moves them as in step `step` (0, 1, ...) by the cloud's wind bands; one that has left the grid in x comes back at the
-// upwind side, touching it from within. True when any moved. `first`: those of the beginning.
+// Moves them as in step `step` (0, 1, ...) by the cloud's wind bands. One that has left the grid along x comes back
+// at the upwind side, touching it from within, with other radii. True when any moved. first: those of the beginning.
 bool move_ellipsoids(const AutomatonCloud& cloud, const std::vector<AutomatonEllipsoid>& first,
                      std::uint64_t key, std::uint64_t step,
                      std::vector<AutomatonEllipsoid>& ellipsoids);
 
-}  // namespace awan
+}  // namespace awan::automaton

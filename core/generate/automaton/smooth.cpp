@@ -4,10 +4,10 @@
 #include <cstring>
 #include <utility>
 
-namespace awan {
+namespace awan::automaton {
 namespace {
 
-// Of eight bits: eight bytes, 0 or 1, that of bit 0 first in memory.
+// Of each byte: its eight bits as eight bytes that are 0 or 1, that of bit 0 first in memory.
 constexpr std::array<std::uint64_t, 256> make_bytes_of_bits() {
     std::array<std::uint64_t, 256> bytes{};
     for (std::size_t bits = 0; bits < 256; ++bits)
@@ -22,7 +22,7 @@ void add_bits(std::uint64_t bits, std::uint64_t* bytes) {
         bytes[group] += kBytesOfBits[bits >> (8 * group) & 255];
 }
 
-// out = (assign) or += in, of n counts.
+// out = in (assign) or out += in, for n counts.
 template <typename From>
 void add_row(const From* in, std::size_t n, bool assign, std::uint16_t* out) {
     if (assign)
@@ -56,7 +56,7 @@ double PlaneSmoother::most() const {
     return static_cast<double>((2 * i0_ + 1) * (2 * j0_ + 1) * (2 * k0_ + 1) * fields_.size());
 }
 
-// Bytes hold it: 9 cells of 8 steps are 72. False when all are 0, and then nothing is written.
+// A byte holds such a sum: 9 cells of 8 steps are 72. False when all are 0, and then nothing is written.
 bool PlaneSmoother::sum_along_x(std::size_t row, std::uint8_t* out) const {
     bool any = false;
     const std::size_t words = grid_.words;
@@ -115,4 +115,4 @@ PlaneSmoother::Plane PlaneSmoother::plane(std::size_t k) {
     return {counts_.data(), rows_.data(), stride_};
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

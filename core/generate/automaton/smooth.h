@@ -1,4 +1,5 @@
-// From bits to a density: Dobashi et al.'s q (document 001, "Continuous Density Distribution"), weights 1.
+// From bits to a density: the smoothing q of Dobashi et al. 2000 (Upchurch 2009, "Continuous Density Distribution"),
+// with all weights 1.
 #pragma once
 
 #include <array>
@@ -7,32 +8,36 @@
 
 #include "core/generate/automaton/grid.h"
 
-namespace awan {
+namespace awan::automaton {
 
 using CloudBits = const std::vector<std::uint64_t>*;
 
-// How many of the cells around each are clouds, plane after plane: sums along x, then y, then z, of whole numbers, so that
-// no order shows. Cells beyond the grid are none.
+// Counts how many of the cells around each are clouds, plane after plane: sums of whole numbers along x, then y, then
+// z, so that their order does not show. Cells beyond the grid are none.
 class PlaneSmoother {
   public:
-    // fields: cld after each of the last steps, 1 to kMaxAutomatonHistory of them, each grid.all_words() long, not owned;
-    // reach: i0, j0, k0, at most kMaxAutomatonSmooth each.
+    // fields: the cloud bits (cld) after each of the last steps, 1 to kMaxAutomatonHistory of them, each
+    // grid.all_words() long, not owned. reach: i0, j0, k0, the half sides of the box, at most kMaxAutomatonSmooth
+    // each.
     PlaneSmoother(const AutomatonGrid& grid, std::vector<CloudBits> fields,
                   std::array<std::size_t, 3> reach);
 
     struct Plane {
-        const std::uint16_t* counts;  // [j * stride + i], i < nx; valid until the next call
-        const std::uint8_t* rows;  // 0: all counts of row j are 0 (and may not have been written)
+        // The count of cell (i, j) is counts[j * stride + i]; valid until the next call.
+        const std::uint16_t* counts;
+        // Of row j: 0 where all its counts are 0, and then they may not have been written.
+        const std::uint8_t* rows;
         std::size_t stride;
     };
-    // Cheap when called for k, k + 1, k + 2, ...
+    // Plane k. Cheap when called for k, k + 1, k + 2, ...
     Plane plane(std::size_t k);
 
-    // The largest count there can be: density is counts / most().
+    // The largest count there can be: the density is counts / most().
     double most() const;
 
   private:
-    struct Sums {  // over x and y
+    // Sums over x and y of one plane.
+    struct Sums {
         std::size_t k = SIZE_MAX;
         std::vector<std::uint16_t> counts;
         std::vector<std::uint8_t> rows;
@@ -43,11 +48,14 @@ class PlaneSmoother {
     AutomatonGrid grid_;
     std::vector<CloudBits> fields_;
     std::size_t i0_, j0_, k0_, stride_;
-    std::vector<Sums> ring_;            // plane k is in ring_[k % size]
-    std::vector<std::uint8_t> x_sums_;  // of one plane
+    // The planes that the box reaches; plane k is in ring_[k % size].
+    std::vector<Sums> ring_;
+    // Sums along x of one plane.
+    std::vector<std::uint8_t> x_sums_;
     std::vector<std::uint8_t> x_rows_;
-    std::vector<std::uint16_t> counts_;  // of the answer
+    // The plane that is handed out.
+    std::vector<std::uint16_t> counts_;
     std::vector<std::uint8_t> rows_;
 };
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -9,12 +9,12 @@
 #include "core/generate/automaton/parcels.h"
 #include "core/generate/automaton/random_bits.h"
 
-namespace awan {
+namespace awan::automaton {
 namespace {
 
 using Word = std::uint64_t;
 
-// Keys of the random numbers of a step, by what they decide.
+// The keys of the random numbers of a step, one for each thing that they decide.
 struct Keys {
     Keys(std::uint64_t key, std::uint64_t step) {
         const std::uint64_t own = keyed(keyed(key, 0x6175746f6d61746fu), step);
@@ -35,14 +35,15 @@ Rules rules_of(const AutomatonCloud& cloud) {
             chance_of(cloud.outside_extinction)};
 }
 
-// Of lanes within ellipsoids, with probability p (1 - d): two independent events, p and not d.
+// The cells of `lanes`, which lie within ellipsoids, that get an event of probability p (1 - d). It is two
+// independent events: one of probability p, and one "not d".
 Word supplied(Word lanes, Chance p, const Word* distance, std::uint64_t key,
               std::uint64_t distance_key, std::uint64_t word) {
     const Word some = lanes_that_happen(lanes, p, key, word);
     return some & ~lanes_below(some, distance, distance_key, word);
 }
 
-// act of a row and of its eight neighbours in y and z; null beyond the grid.
+// The activation bits (act) of a row and of its eight neighbours in y and z; null beyond the grid.
 struct Neighbours {
     const Word* own;
     const Word* others[7];
@@ -77,7 +78,7 @@ Word near_act(const Neighbours& near, std::size_t w, std::size_t words) {
     return any;
 }
 
-// Bits of a row by `by` cells towards +x; what leaves is lost, 0 comes in.
+// Shifts the bits of a row by `by` cells towards +x. What leaves is lost; zeros come in.
 void shift_row(Word* row, std::size_t words, std::int64_t by, Word last_mask) {
     const auto bits = static_cast<std::uint64_t>(std::abs(by));
     const std::size_t whole = static_cast<std::size_t>(bits / 64);
@@ -98,11 +99,11 @@ void shift_row(Word* row, std::size_t words, std::int64_t by, Word last_mask) {
     row[words - 1] &= last_mask;
 }
 
-// Whole cells by which layer j shifts in step `step`: the fraction is saved up.
+// By how many whole cells layer j shifts in step `step`. The fraction is saved up for later steps.
 std::int64_t shift_of(const AutomatonSpeed& speed, std::size_t j, std::uint64_t step) {
     const double y = static_cast<double>(j) + 0.5;
     const double v = speed.constant + speed.linear * y + speed.quadratic * y * y;
-    // More than the widest grid empties the row as well.
+    // A shift of more than the widest grid empties the row just as well.
     const double one = std::clamp(v, -2048.0, 2048.0);
     const double before = std::floor(one * static_cast<double>(step));
     return static_cast<std::int64_t>(std::floor(one * static_cast<double>(step + 1)) - before);
@@ -117,7 +118,7 @@ struct Stepping {
     std::vector<Word>& next_act;
 };
 
-// True when the row has any bit set afterwards.
+// One step of a row. True when it has any bit set afterwards.
 bool step_row(const Stepping& s, std::size_t j, std::size_t k) {
     const Neighbours near = neighbours(s.grid, s.state.act, j, k);
     const std::size_t first = s.grid.row(j, k) * s.grid.words;
@@ -163,7 +164,7 @@ Status fall_off_of(const AutomatonCloud& cloud, const AutomatonGrid& grid, int t
     return std::nullopt;
 }
 
-// The rows of a scratch that has seen no step of this state.
+// Finds which rows have any bit set, for a scratch that has seen no step of this state.
 void find_lives(const AutomatonGrid& grid, const AutomatonState& state, AutomatonScratch& scratch) {
     scratch.row_lives.assign(grid.rows(), 0);
     for (std::size_t row = 0; row < grid.rows(); ++row) {
@@ -257,4 +258,4 @@ Status step_automaton(const AutomatonCloud& cloud, int threads, const Deadline& 
     return std::nullopt;
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

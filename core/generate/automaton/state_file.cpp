@@ -7,14 +7,16 @@
 #include "core/generate/keyed_random.h"
 #include "core/scene/limits.h"
 
-namespace awan {
+namespace awan::automaton {
 namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::uint64_t kMagic = 0x314154534e415741u;  // "AWANSTA1"
+// The bytes "AWANSTA1".
+constexpr std::uint64_t kMagic = 0x314154534e415741u;
 constexpr std::uint64_t kVersion = 1;
-constexpr std::size_t kHead = 10;  // words before the ellipsoids
+// The words before the ellipsoids.
+constexpr std::size_t kHead = 10;
 
 class Writer {
   public:
@@ -39,7 +41,7 @@ class Writer {
     std::uint64_t sum_ = kMagic;
 };
 
-// Precondition of all: that many words are left.
+// Reads words one after the other. Precondition of every call: that many words are left.
 class Reader {
   public:
     explicit Reader(std::string_view bytes) : bytes_(bytes) {}
@@ -82,7 +84,8 @@ bool is_side(std::uint64_t cells) {
 }
 
 bool possible(const AutomatonEllipsoid& ellipsoid) {
-    constexpr double kFar = 1e15;  // a wind's reach in one step
+    // Farther than winds can carry anything in all steps.
+    constexpr double kFar = 1e15;
     for (int axis = 0; axis < 3; ++axis) {
         if (!(std::abs(ellipsoid.center[axis]) <= kFar)) return false;
         if (!(ellipsoid.radii[axis] > 0 &&
@@ -160,4 +163,4 @@ Result<AutomatonState> read_state(std::string_view bytes) {
     return state;
 }
 
-}  // namespace awan
+}  // namespace awan::automaton

@@ -1,4 +1,5 @@
-// Ellipsoids and a sky plane as matter: where the source makes a surface more or less translucent, extinction is more or less.
+// Ellipsoids and a sky plane as matter: where Gardner 1985 makes a surface more or less translucent, the extinction
+// is more or less.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -8,7 +9,7 @@
 #include "core/generate/ellipsoids/texture.h"
 #include "core/generate/models.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 namespace {
 
 void add_one(const glm::dvec3& p, double radius, double density, ReadyParticles& particles) {
@@ -17,8 +18,8 @@ void add_one(const glm::dvec3& p, double radius, double density, ReadyParticles&
     particles.densities.push_back(static_cast<float>(density));
 }
 
-// Touching the ellipsoid from inside, at the ends of its axes and between them: its bounds, however the cloud is turned, within a
-// tenth.
+// Particles that touch the ellipsoid from inside, at the ends of its axes and between them. They give its bounds
+// within a tenth, however the cloud is turned.
 void add_outline(const PlacedEllipsoid& one, double density, ReadyParticles& particles) {
     constexpr double kInset = 0.1;
     const double radius = kInset * std::min({one.radii.x, one.radii.y, one.radii.z});
@@ -32,7 +33,7 @@ void add_outline(const PlacedEllipsoid& one, double density, ReadyParticles& par
             }
 }
 
-// The corners of the plane's slab.
+// Particles at the corners of the plane's slab.
 void add_corners(const SkyPlane& plane, ReadyParticles& particles) {
     const double half = plane.extent / 2;
     const double radius =
@@ -52,7 +53,7 @@ void append(const ReadyParticles& more, ReadyParticles& all) {
 ModelParticles coarse_particles(const EllipsoidsCloud& cloud,
                                 const std::vector<PlacedEllipsoid>& ellipsoids) {
     ModelParticles made;
-    // Of many ellipsoids one round particle each will do.
+    // Of more ellipsoids than this, one round particle each will do.
     constexpr std::size_t kFew = 64;
     for (const PlacedEllipsoid& one : ellipsoids) {
         if (ellipsoids.size() <= kFew) {
@@ -68,8 +69,8 @@ ModelParticles coarse_particles(const EllipsoidsCloud& cloud,
 
 }  // namespace
 
-Result<ModelParticles> ellipsoids_particles(const EllipsoidsCloud& cloud,
-                                            const ModelRequest& request, const Deadline& deadline) {
+Result<ModelParticles> make_particles(const EllipsoidsCloud& cloud, const ModelRequest& request,
+                                      const Deadline& deadline) {
     const std::vector<PlacedEllipsoid> ellipsoids = placed_ellipsoids(cloud, request.key);
     if (request.coarse) return coarse_particles(cloud, ellipsoids);
     ModelParticles made;
@@ -98,4 +99,4 @@ Result<ModelParticles> ellipsoids_particles(const EllipsoidsCloud& cloud,
     return made;
 }
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

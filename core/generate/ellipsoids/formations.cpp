@@ -5,10 +5,10 @@
 
 #include "core/generate/keyed_random.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 namespace {
 
-// Numbers in (0, 1) for one ellipsoid, by what they are for.
+// Random numbers in (0, 1) for one ellipsoid, by what each is for.
 struct Draws {
     std::uint64_t key;
     double operator()(std::uint64_t purpose) const {
@@ -17,7 +17,7 @@ struct Draws {
 };
 enum Purpose : std::uint64_t { kSizeX, kSizeY, kSizeZ, kParent, kTurn, kTilt, kWhich };
 
-// From the centre to the surface along a unit vector.
+// How far it is from the centre to the surface along a unit vector.
 double reach(const PlacedEllipsoid& one, const glm::dvec3& direction) {
     const glm::dvec3 d(direction.x * one.turn.cos - direction.z * one.turn.sin, direction.y,
                        direction.z * one.turn.cos + direction.x * one.turn.sin);
@@ -25,20 +25,20 @@ double reach(const PlacedEllipsoid& one, const glm::dvec3& direction) {
     return 1 / std::sqrt(glm::dot(u, u));
 }
 
-// Level, by degrees from +z towards +x.
+// The level unit vector at that azimuth, degrees from +z towards +x.
 glm::dvec3 level(double degrees) {
     const SinCos turn = exact_sincos_degrees(degrees);
     return {turn.sin, 0, turn.cos};
 }
 
-// Up to `spread` degrees from upward, to any side.
+// A random direction up to `spread` degrees from upward, to any side.
 glm::dvec3 upward(const Formation& formation, const Draws& draws) {
     const SinCos tilt = exact_sincos_degrees(formation.spread * draws(kTilt));
     const glm::dvec3 side = level(360 * draws(kTurn));
     return {side.x * tilt.sin, tilt.cos, side.z * tilt.sin};
 }
 
-// Along `heading` and back, with `spread` to both sides.
+// A random level direction, along `heading` or back, up to `spread` degrees to either side.
 glm::dvec3 onward(const Formation& formation, const Draws& draws) {
     const double way = draws(kWhich) < 0.5 ? 0 : 180;
     return level(formation.heading + way + formation.spread * (2 * draws(kTurn) - 1));
@@ -51,7 +51,7 @@ glm::dvec3 drawn_radii(const Formation& formation, const Draws& draws) {
     return formation.radii * glm::dvec3(one(kSizeX), one(kSizeY), one(kSizeZ));
 }
 
-// One of the earlier ones, first .. last.
+// A random one of the earlier ellipsoids first .. last.
 int earlier(const Draws& draws, int first, int last) {
     return first + std::min(static_cast<int>(draws(kParent) * (last - first + 1)), last - first);
 }
@@ -60,7 +60,7 @@ void add_formation(std::vector<PlacedEllipsoid>& all, const Formation& formation
                    const Translucence& translucence, std::uint64_t key) {
     const int first = static_cast<int>(all.size());
     const int count = static_cast<int>(formation.count);
-    // Of a combined one about a third is the patch below.
+    // How many lie in the patch below. Of a combined formation about a third do.
     const int base = formation.kind == FormationKind::kHorizontal ? count
                      : formation.kind == FormationKind::kVertical ? 1
                                                                   : (count + 2) / 3;
@@ -72,8 +72,8 @@ void add_formation(std::vector<PlacedEllipsoid>& all, const Formation& formation
         one.translucence = translucence;
         if (i > 0) {
             const bool lies = i < base;
-            // A row goes on from one of its last three; towers stand on the patch, more of them in its middle, and on
-            // what stands already.
+            // A row goes on from one of its last three. Towers stand on the patch, more of them in its middle, and on
+            // what stands there already.
             const int last = first + i - 1;
             one.linked_to = lies ? earlier(draws, std::max(first, last - 2), last)
                             : formation.kind == FormationKind::kVertical
@@ -81,7 +81,7 @@ void add_formation(std::vector<PlacedEllipsoid>& all, const Formation& formation
                                 : earlier(draws, first, last);
             const PlacedEllipsoid& parent = all[static_cast<std::size_t>(one.linked_to)];
             if (!lies) {
-                // Smaller with every step up, as turrets are.
+                // Smaller with every step upward, as turrets are.
                 const double rise = parent.center.y - formation.center.y;
                 const double shrink =
                     std::max(0.45, 0.88 - 0.06 * std::max(rise, 0.0) / formation.radii.y);
@@ -117,4 +117,4 @@ std::vector<PlacedEllipsoid> placed_ellipsoids(const EllipsoidsCloud& cloud, std
     return all;
 }
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

@@ -1,5 +1,5 @@
-// The ellipsoids of a cloud: those given, and those of its formations (document 002: linked ellipsoids, horizontal, vertical and
-// combined).
+// The ellipsoids of a cloud: those given, and those of its formations (the linked ellipsoids of Gardner 1985:
+// horizontal, vertical and combined).
 #pragma once
 
 #include <cmath>
@@ -11,16 +11,19 @@
 #include "core/base/exact_math.h"
 #include "core/scene/ellipsoids.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 
-// Of the cloud, in its own coordinates.
+// An ellipsoid in the cloud's own coordinates.
 struct PlacedEllipsoid {
     glm::dvec3 center{0}, radii{1};
-    SinCos turn{0, 1};          // about y, as Motion has it
-    Translucence translucence;  // its own where it has one
-    int linked_to = -1;         // an earlier one that it overlaps; -1: to none
+    // Its turn about y, as that of Motion (motion.h).
+    SinCos turn{0, 1};
+    // Its own where it has one, else the cloud's.
+    Translucence translucence;
+    // The index of an earlier one that it overlaps; -1: of none.
+    int linked_to = -1;
 
-    // Where it is the unit sphere about the origin.
+    // A point of the cloud in the coordinates in which the ellipsoid is the unit sphere about the origin.
     glm::dvec3 to_unit(const glm::dvec3& p) const {
         const glm::dvec3 d = p - center;
         return glm::dvec3(d.x * turn.cos - d.z * turn.sin, d.y, d.z * turn.cos + d.x * turn.sin) /
@@ -31,7 +34,7 @@ struct PlacedEllipsoid {
         return center +
                glm::dvec3(p.x * turn.cos + p.z * turn.sin, p.y, p.z * turn.cos - p.x * turn.sin);
     }
-    // Half the sides of its box.
+    // Half the sides of its axis-aligned box.
     glm::dvec3 half_box() const {
         const double a = radii.x * turn.cos, b = radii.z * turn.sin;
         const double c = radii.z * turn.cos, d = radii.x * turn.sin;
@@ -39,20 +42,21 @@ struct PlacedEllipsoid {
     }
 };
 
-// Formations first, then the ellipsoids given; in the document's order. key: ModelRequest's.
+// Formations first, then the ellipsoids given, each in the order of the scene. key: that of ModelRequest.
 std::vector<PlacedEllipsoid> placed_ellipsoids(const EllipsoidsCloud& cloud, std::uint64_t key);
 
-// The normalised limb curve in space: 1 at the centre, 0 on the surface. Document 002 has it in the picture, g(x, z), from the
-// conic that is the silhouette's; of the line of sight that passes the centre at a distance b (where the ellipsoid is the
-// unit sphere) it is 1 - b^2. The largest value of 1 - |p|^2 on that line is the same number: what a picture of the volume
-// shows along it at the most is what the source draws. |p|^2 may be above 1.
+// The normalised limb curve in space: 1 at the centre, 0 on the surface. Gardner 1985 has it in the picture, as g(x,
+// z), from the conic that is the silhouette. Where the ellipsoid is the unit sphere, g of a line of sight that passes
+// the centre at distance b is 1 - b^2. The largest value of 1 - |p|^2 on that line is the same number: the most that
+// a picture of the volume shows along it is what Gardner draws. unit_distance_squared: |p|^2; may be above 1.
 inline double limb_in_space(double unit_distance_squared) {
     return 1 - unit_distance_squared;
 }
 
-// TR reaches 1 there and is 0 at threshold + range (opacity(), texture.h).
+// The value of the texture at which the cloud begins to be opaque, for a value g of the limb curve. Opacity is 1 at
+// this + range (opacity(), texture.h).
 inline double threshold_at(const Translucence& t, double g) {
     return t.threshold + (t.threshold_edge - t.threshold) * (1 - g);
 }
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

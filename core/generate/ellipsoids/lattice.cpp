@@ -6,11 +6,11 @@
 
 #include "core/base/parallel.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 namespace {
 
-// A cell sees the texture over a blob of this standard deviation: what is finer than two cells is gone, instead of turning up
-// as something coarser.
+// A cell sees the texture over a blob of this standard deviation, in cells. What is finer than two cells is then
+// gone, instead of turning up as something coarser.
 constexpr double kCellBlur = 0.5;
 constexpr float kLeastOpacity = 1e-3f;
 
@@ -27,9 +27,10 @@ glm::dvec3 sample(const LatticeField& lattice, int i, int j, int k) {
 }
 
 struct Range {
-    int first, last;  // last is one past
+    // Indices first .. last - 1.
+    int first, last;
 };
-// Samples that may lie within `half` of `center`, along one axis.
+// The samples that may lie within `half` of `center`, along one axis.
 Range samples_within(double center, double half, double origin, double cell, int count) {
     const double low = std::floor((center - half - origin) / cell);
     const double high = std::ceil((center + half - origin) / cell) + 1;
@@ -37,11 +38,11 @@ Range samples_within(double center, double half, double origin, double cell, int
             static_cast<int>(std::clamp(high, 0.0, static_cast<double>(count)))};
 }
 
-// Of one upright layer.
+// Fills layer k, which is upright, of the lattice.
 void fill_layer(LatticeField& lattice, int k, const std::vector<PlacedEllipsoid>& ellipsoids,
                 const TextureFunction& texture, const Blur& blur) {
     const std::size_t first = lattice.index(0, 0, k);
-    // The texture of a cell is the same for all ellipsoids that hold it.
+    // Values of the texture that are known already: a cell's is the same for all ellipsoids that hold it.
     const std::size_t size = lattice.index(0, 0, k + 1) - first;
     std::vector<TextureValue> known(size);
     std::vector<char> is_known(size, 0);
@@ -70,18 +71,19 @@ void fill_layer(LatticeField& lattice, int k, const std::vector<PlacedEllipsoid>
     }
 }
 
-// Opacity of the plane's slab where its texture is `value`, at a distance from its middle of `off` half thicknesses.
+// Opacity of the plane's slab where its texture is `value`. off: distance from the middle height, in half
+// thicknesses.
 double opacity_in_slab(const SkyPlane& plane, const TextureValue& value, double off) {
     return opacity(value, plane.threshold + plane.range * off * off, plane.range);
 }
 
-// Fades out towards the sides of the square.
+// A factor that fades the slab out towards the sides of its square.
 double edge_of(const SkyPlane& plane, const glm::dvec3& p) {
     const double out = std::max(std::abs(p.x), std::abs(p.z)) / (plane.extent / 2);
     return std::clamp((1 - out) * 10, 0.0, 1.0);
 }
 
-// Mean over a cell's height, of which the slab may fill a part. Heights from the plane.
+// The mean over a cell's height, of which the slab may fill a part. low, high: from the plane's height.
 double opacity_of_cell(const SkyPlane& plane, const TextureValue& value, double low, double high) {
     const double half = plane.thickness / 2;
     const double from = std::max(low, -half), to = std::min(high, half);
@@ -166,4 +168,4 @@ ReadyParticles particles_of(LatticeField opacity, double density, int threads) {
     return lattice_particles(opacity, options, threads);
 }
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

@@ -1,4 +1,4 @@
-// Matter of ellipsoids and of the sky plane on cubic cells.
+// The matter of ellipsoids and of the sky plane, on cubic cells.
 #pragma once
 
 #include <vector>
@@ -8,29 +8,31 @@
 #include "core/generate/ellipsoids/texture.h"
 #include "core/generate/lattice_particles.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 
-// Opacity, 0..1, at the middles of cells: `resolution` of them along the longest side of the ellipsoids' box. Where ellipsoids
-// overlap the most opaque one counts: they are joined, not stacked. No cells for no ellipsoids.
+// Opacity, 0..1, at the middles of cells, `resolution` of them along the longest side of the ellipsoids' box. Where
+// ellipsoids overlap the most opaque one counts: they are joined, not stacked. No ellipsoids give no cells.
 LatticeField opacity_of(const std::vector<PlacedEllipsoid>& ellipsoids, std::uint64_t resolution,
                         const TextureFunction& texture, int threads, const Deadline& deadline);
 
-// A slab around the plane. At its middle height it is as opaque as the source's plane, so that on a vertical line the largest opacity
-// is the source's; towards its faces the threshold rises by `range`, which makes the sheet thin where its texture is. A cell
-// has the mean over its height, less where the slab is thinner. Fades out over the outer tenth of the square.
+// The opacity of a slab around the plane. At its middle height it is as opaque as Gardner's plane, so that the
+// largest opacity on a vertical line is the plane's; towards its faces the threshold rises by `range`, which makes
+// the sheet thin where its texture is. A cell has the mean over its height, less where the slab is thinner than the
+// cell. It fades out over the outer tenth of the square.
 LatticeField opacity_of(const SkyPlane& plane, const TextureFunction& texture, int threads,
                         const Deadline& deadline);
 
-// Mean opacity of the slab over its thickness, on the upright line through `place`, where the texture is `value`.
+// The mean opacity of the slab over its thickness, on the vertical line through `place`, where the texture is
+// `value`.
 double column_opacity(const SkyPlane& plane, const TextureValue& value, const glm::dvec3& place);
 
-// Times `density`, as Gaussians. Cells of hardly any opacity are left out, and the blur of a Gaussian is taken back
-// (lattice_particles.h).
+// Opacity times `density` as Gaussians. Cells of hardly any opacity are left out, and the blur of a Gaussian is taken
+// back (LatticeOptions::sharpen, lattice_particles.h).
 ReadyParticles particles_of(LatticeField opacity, double density, int threads);
 
-// What cells and Gaussians lose: rms error of the optical depths of vertical lines (8 x 8 of them, through middles of
-// cells) against the ellipsoids or the plane themselves, over the rms depth. 0 where there is nothing. `particles`: of the lattice, of
-// `density`.
+// What cells and Gaussians lose: the error of the optical depths of vertical lines (8 x 8 of them, through middles of
+// cells) against the ellipsoids or the plane themselves, root mean square over root mean square. 0 where there is
+// nothing. particles: made of the lattice with `density`.
 double sampling_error(const LatticeField& lattice, const ReadyParticles& particles, double density,
                       const std::vector<PlacedEllipsoid>& ellipsoids,
                       const TextureFunction& texture, int threads, const Deadline& deadline);
@@ -39,4 +41,4 @@ double sampling_error(const LatticeField& lattice, const ReadyParticles& particl
                       const SkyPlane& plane, const TextureFunction& texture, int threads,
                       const Deadline& deadline);
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

@@ -7,22 +7,28 @@
 #include "core/base/parallel.h"
 #include "core/generate/ellipsoids/lattice.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 namespace {
 
-constexpr int kLines = 8;  // along either axis
+// Lines along either side of the raster; steps of the integral along a line.
+constexpr int kLines = 8;
 constexpr int kStepsPerCell = 4;
-constexpr int kReach = 3;  // cells; a Gaussian has 3e-5 of itself left there
+// How far Gaussians are looked for beside a line, cells. One has 3e-5 of itself left there.
+constexpr int kReach = 3;
 
-// Upright lines of the lattice, at middles of columns.
+// A vertical line through the middle of a column of cells.
 struct Line {
-    int x = 0, z = 0;      // column
-    glm::dvec3 bottom{0};  // of the lattice there
-    double height = 0;     // of the lattice
-    int steps = 0;         // kStepsPerCell a cell
+    // Which column.
+    int x = 0, z = 0;
+    // Where it enters the lattice.
+    glm::dvec3 bottom{0};
+    // How far it is to the top of the lattice.
+    double height = 0;
+    // Steps along it, kStepsPerCell a cell.
+    int steps = 0;
 };
 
-// The texture and the ellipsoids as they are.
+// The depth along a line by the texture and the ellipsoids themselves.
 double depth_of(const Line& line, const std::vector<PlacedEllipsoid>& ellipsoids,
                 const TextureFunction& texture) {
     glm::dvec3 p = line.bottom;
@@ -52,7 +58,7 @@ double depth_of(const Line& line, const std::vector<PlacedEllipsoid>& ellipsoids
     return depth;
 }
 
-// Sums of the Gaussians' densities over upright columns.
+// Sums of the Gaussians' densities over vertical columns of cells.
 std::vector<double> columns_of(const LatticeField& lattice, const ReadyParticles& particles) {
     const auto width = static_cast<std::size_t>(lattice.nx);
     std::vector<double> columns(width * static_cast<std::size_t>(lattice.nz), 0.0);
@@ -65,7 +71,7 @@ std::vector<double> columns_of(const LatticeField& lattice, const ReadyParticles
     return columns;
 }
 
-// The Gaussians' depth there, over the density where opaque.
+// The Gaussians' optical depth along column (x, z), over the density where opaque.
 double lattice_depth(const LatticeField& lattice, int x, int z, const std::vector<double>& columns,
                      const std::array<double, 2 * kReach + 1>& weights) {
     double depth = 0;
@@ -108,7 +114,7 @@ double error_of(const LatticeField& lattice, const ReadyParticles& particles, do
         wrong += (made[i] - exact[i]) * (made[i] - exact[i]);
         all += exact[i] * exact[i];
     }
-    // Nothing met by a line: nothing lost that they show.
+    // Where no line meets anything, there is nothing to lose.
     return all > 0 ? std::sqrt(wrong / all) : 0;
 }
 
@@ -130,4 +136,4 @@ double sampling_error(const LatticeField& lattice, const ReadyParticles& particl
     });
 }
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

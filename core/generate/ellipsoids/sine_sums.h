@@ -6,32 +6,33 @@
 
 #include "core/scene/limits.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 
-inline constexpr double kCoefficientRatio = 0.707;  // C(i+1) / Ci, as printed
+// C(i+1) / Ci as Gardner 1985 prints it.
+inline constexpr double kCoefficientRatio = 0.707;
 
-// Two numbers at once, the same bits as one by one.
+// Two numbers at once. They get the same bits as one by one.
 using Pair = double __attribute__((vector_size(16)));
 
-// x to the nearest integer, for |x| < 2^51; one addition each way, rounded as IEEE 754 has it. A double or a Pair, here and
-// below.
+// The integer nearest to x, |x| < 2^51: adding 1.5 * 2^52 and taking it away again rounds, as IEEE 754 has it.
+// Number, here and below: a double or a Pair.
 template <typename Number>
 inline Number nearest(Number x) {
     constexpr double kShift = 0x1.8p52;
     return (x + kShift) - kShift;
 }
 
-// Part of a turn, -1/2 .. 1/2; exact. Any |turns| < 2^51.
+// The part of a turn that is left beside whole ones, -1/2 .. 1/2; exact. |turns| < 2^51.
 template <typename Number>
 inline Number part_of_turn(Number turns) {
     return turns - nearest(turns);
 }
 
-// sin(2 pi r), |r| <= 1/2, within 1e-9 (the first term left out, at a quarter turn): no image and no float density shows
-// less.
+// sin(2 pi r), |r| <= 1/2, within 1e-9 (the first term left out, at a quarter turn): less than shows in any image or
+// float density.
 template <typename Number>
 inline Number sin_of_part(Number r) {
-    // Folded to -1/4 .. 1/4.
+    // The argument mirrored into -1/4 .. 1/4, where the sine is the same.
     const Number low = r < -0.25 ? -0.5 - r : r;
     const Number folded = r > 0.25 ? 0.5 - r : low;
     const Number x = folded * 6.283185307179586;
@@ -49,13 +50,14 @@ inline double sin_turns(double turns) {
     return sin_of_part(part_of_turn(turns));
 }
 
-// The sines of one term and their arguments, from the turns of half its frequency, each -1/2 .. 1/2, that become those of
-// the next term's.
+// The sines of one term. The half turns, i.e. arguments of half the term's frequency, -1/2 .. 1/2, become those of
+// the next term.
 struct TermSines {
     double x, z;
 };
 inline TermSines clean_term(double& half_x, double& half_z, double& half_y) {
-    const double height = 0.5 * sin_of_part(half_y);  // pi sin(FX Z/2), in turns
+    // The phase shift from above, pi sin(FX Z/2), in turns.
+    const double height = 0.5 * sin_of_part(half_y);
     const Pair across = {half_z, half_x};
     const Pair phase = 0.25 * sin_of_part(across) + height;
     const Pair half = {half_x, half_z};
@@ -67,10 +69,10 @@ inline TermSines clean_term(double& half_x, double& half_z, double& half_y) {
     return {sines[0], sines[1]};
 }
 
-// 1 / (the largest value of (A + floor)(B + floor), both factors >= 0), A and B the clean sums of `terms` terms. By a search from
-// coarse to fine, a quarter of a millisecond to one; keeping 25 times as many places finds no more. Nor does dense sampling
-// (ellipsoids_texture_test).
+// k = 1 / (the largest value of (A + floor)(B + floor), both factors >= 0), where A and B are the clean sums of
+// `terms` terms. Found by a search from coarse to fine that takes a quarter of a millisecond to one. Keeping 25 times
+// as many places finds no more, nor does dense sampling (ellipsoids_texture_test).
 double scale_to_one(std::size_t terms, double floor, bool in_space,
                     const std::array<double, limits::kMaxTextureTerms>& coefficient);
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

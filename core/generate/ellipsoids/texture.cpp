@@ -6,17 +6,18 @@
 
 #include "core/generate/ellipsoids/sine_sums.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 namespace {
 
-// Turns of a place, -1/2 .. 1/2. Any finite product; beyond 2^52 there is no part of a turn left, and 0 is as good as any.
+// A place in turns, -1/2 .. 1/2. Any finite product: beyond 2^52 there are no digits of a part of a turn left, and 0
+// is as good as any.
 double turns_of(double place, double turns_a_unit) {
     const double turns = place * turns_a_unit;
     const double part = turns - std::floor(turns);
     return part >= 0.5 ? part - 1 : part;
 }
 
-// Document 000 (4.6): the phase, not the frequency, times the height.
+// With the phases of Sunar et al. 2005 (4.6), where the phase stands in the place of the frequency before the height.
 TermSines printed_term(double& half_x, double& half_z, double height) {
     using std::numbers::pi;
     double phase_x = pi / 2 * sin_of_part(half_z), phase_z = pi / 2 * sin_of_part(half_x);
@@ -27,7 +28,7 @@ TermSines printed_term(double& half_x, double& half_z, double height) {
     return {sin_turns(half_x + phase_x / (2 * pi)), sin_turns(half_z + phase_z / (2 * pi))};
 }
 
-// What blur leaves of a sine.
+// The share of a sine that is left by a blur of that variance, radians^2.
 double kept(double variance) {
     double one = 1 / (1 + variance / 16);
     one *= one;
@@ -66,7 +67,7 @@ TextureValue texture_at(const TextureFunction& texture, const glm::dvec3& place,
     double half_x = turns_of(at.x, texture.turns_x), half_z = turns_of(at.z, texture.turns_z);
     double half_y = texture.in_space ? turns_of(at.y, texture.turns_x) : 0;
     double a = texture.floor, b = texture.floor, lost_a = 0, lost_b = 0;
-    // Where even the finest term keeps more than .9995 of itself it is a point that is seen.
+    // Where even the finest term keeps more than .9995 of itself, what is seen is a point.
     const auto finest = static_cast<double>(1u << (2 * (texture.terms - 1)));
     const bool blurred = std::max(blur_x, blur_z) * finest > 1e-3;
     for (std::size_t i = 0; i < texture.terms; ++i) {
@@ -97,12 +98,14 @@ TextureValue texture_at(const TextureFunction& texture, const glm::dvec3& place,
 
 double blur_along(const TextureFunction& texture, bool along_z, const glm::dvec3& step) {
     using std::numbers::pi;
-    // Frequencies of the first term: its own, the one that shifts it from across (half as high: F0), and from above.
+    // Frequencies of the first term: its own; that of the phase from across, half as high (F0); that of the phase
+    // from above.
     const double fx = texture.turns_x * 4 * pi, fz = texture.turns_z * 4 * pi;
     const double own = along_z ? fz * step.z : fx * step.x;
     const double across = along_z ? fx * step.x : fz * step.z;
     const double upward = texture.in_space ? fx * step.y : 0;
-    // d/dX: F; d/dY: pi/2 * F/2 * cos; d/dZ: pi * F/2 * cos; the mean of a squared cosine is 1/2.
+    // By how much the argument changes along each axis. d/dX: F; d/dY: pi/2 * F/2 * cos; d/dZ: pi * F/2 * cos. The
+    // mean of a squared cosine is 1/2.
     return own * own + pi * pi / 32 * across * across + pi * pi / 8 * upward * upward;
 }
 
@@ -119,7 +122,7 @@ double blur_of_blob(const TextureFunction& texture, bool along_z, double sigma) 
 double opacity(const TextureValue& value, double threshold, double range) {
     const double half = std::sqrt(3 * value.variance);
     if (!(half > 1e-9)) return std::clamp((value.mean - threshold) / range, 0.0, 1.0);
-    // Mean of max(0, T - x) over T even in mean -+ half.
+    // The mean of max(0, T - x) over values T spread evenly over mean - half .. mean + half.
     const auto above = [&](double x) {
         const double reach = value.mean + half - x;
         if (reach <= 0) return 0.0;
@@ -128,4 +131,4 @@ double opacity(const TextureValue& value, double threshold, double range) {
     return std::clamp((above(threshold) - above(threshold + range)) / range, 0.0, 1.0);
 }
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

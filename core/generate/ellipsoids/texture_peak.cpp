@@ -3,18 +3,19 @@
 
 #include "core/generate/ellipsoids/sine_sums.h"
 
-namespace awan {
+namespace awan::ellipsoids {
 namespace {
 
 using Coefficients = std::array<double, limits::kMaxTextureTerms>;
 
-// Turns of half the first frequency.
+// A place, in turns of half the first frequency, and how promising it is.
 struct Place {
-    std::array<double, 3> turns{};  // x, z, y
+    // Along x, z, and y.
+    std::array<double, 3> turns{};
     double rank = 0;
 };
 
-// (A + lift)(B + lift) of the first `terms` terms.
+// (A + lift)(B + lift), the sums A and B of the first `terms` terms.
 double product(const Place& place, std::size_t terms, double lift,
                const Coefficients& coefficient) {
     double x = part_of_turn(place.turns[0]), z = part_of_turn(place.turns[1]);
@@ -29,7 +30,8 @@ double product(const Place& place, std::size_t terms, double lift,
 }
 
 bool better(const Place& a, const Place& b) {
-    return a.rank != b.rank ? a.rank > b.rank : a.turns < b.turns;  // no two are equal
+    // A total order, since no two places are the same.
+    return a.rank != b.rank ? a.rank > b.rank : a.turns < b.turns;
 }
 
 void keep_best(std::vector<Place>& places, std::size_t count) {
@@ -37,7 +39,7 @@ void keep_best(std::vector<Place>& places, std::size_t count) {
     if (places.size() > count) places.resize(count);
 }
 
-// Each place becomes those a step of -+ `step` away along every axis.
+// Each place becomes those that are a step of -+ `step` away along every axis.
 std::vector<Place> split(const std::vector<Place>& places, std::size_t axes, double step) {
     std::vector<Place> finer;
     for (const Place& place : places)
@@ -50,7 +52,7 @@ std::vector<Place> split(const std::vector<Place>& places, std::size_t axes, dou
     return finer;
 }
 
-// Uphill along the axes, in steps that halve when none helps.
+// Goes uphill along the axes, in steps that halve when none helps.
 void climb(Place& place, std::size_t axes, std::size_t terms, double floor, double step,
            const Coefficients& coefficient) {
     for (int halvings = 0; halvings < 14; step /= 2, ++halvings)
@@ -75,13 +77,14 @@ double scale_to_one(std::size_t terms, double floor, bool in_space,
                     const Coefficients& coefficient) {
     const std::size_t axes = in_space ? 3 : 2;
     constexpr std::size_t kKept = 40, kClimbed = 4;
-    // One period, cut into 4 along each axis; with every further term cells become half as wide, as its sine is.
+    // One period, cut into 4 cells along each axis. With every further term the cells become half as wide, as its
+    // sine is.
     std::vector<Place> places(1);
     double step = 0.5;
     for (int level = 0; level < 2; ++level) places = split(places, axes, step /= 2);
     for (std::size_t used = 1; used <= terms; ++used) {
         places = split(places, axes, step /= 2);
-        // What the terms to come may add: most of their sum, as one finds them at the best places.
+        // What the terms to come may add: most of their sum, which is what one finds at the best places.
         double lift = floor;
         for (std::size_t i = used; i < terms; ++i) lift += 0.7 * coefficient[i];
         for (Place& place : places) place.rank = product(place, used, lift, coefficient);
@@ -94,8 +97,8 @@ double scale_to_one(std::size_t terms, double floor, bool in_space,
         climb(place, axes, terms, floor, step, coefficient);
         most = std::max(most, place.rank);
     }
-    return 1 /
-           most;  // most > 0: at one place at least both first sines are above all others' doubt
+    // most > 0: there is a place where both first sines exceed all that the other terms could take away.
+    return 1 / most;
 }
 
-}  // namespace awan
+}  // namespace awan::ellipsoids

@@ -8,10 +8,11 @@
 
 #include "core/base/exact_math.h"
 
-namespace awan {
+namespace awan::implicit {
 namespace {
 
-// Times where a value is given, and what it is there.
+// A value at a time. of(key) gives the value of a key frame, or none where the key does not say; `standard` holds
+// where no key says.
 template <typename T, typename Of>
 T at_time(const ImplicitPrimitive& primitive, const T& standard, bool smooth, double time, Of of) {
     const ImplicitKey *before = nullptr, *after = nullptr;
@@ -30,7 +31,7 @@ T at_time(const ImplicitPrimitive& primitive, const T& standard, bool smooth, do
 glm::dmat3 turn(const glm::dvec3& degrees) {
     const SinCos x = exact_sincos_degrees(degrees.x), y = exact_sincos_degrees(degrees.y),
                  z = exact_sincos_degrees(degrees.z);
-    // Columns.
+    // Rotations about the axes, by columns.
     const glm::dmat3 about_x({1, 0, 0}, {0, x.cos, x.sin}, {0, -x.sin, x.cos});
     const glm::dmat3 about_y({y.cos, 0, -y.sin}, {0, 1, 0}, {y.sin, 0, y.cos});
     const glm::dmat3 about_z({z.cos, z.sin, 0}, {-z.sin, z.cos, 0}, {0, 0, 1});
@@ -63,7 +64,7 @@ Element piece(Element::Kind kind, const glm::dvec3& from, const glm::dvec3& to, 
     e.core = static_cast<float>(core / frame.unit);
     e.inverse = static_cast<float>(frame.unit / radius);
     e.weight = static_cast<float>(weight);
-    // A cylinder's rim is at most as far from its axis' end as that.
+    // No point of a cylinder's rim is farther than this from the end of its axis.
     const glm::dvec3 reach((core + radius) / frame.unit);
     e.box.add(a, reach);
     e.box.add(b, reach);
@@ -131,7 +132,7 @@ void add_elements(const ImplicitPrimitive& primitive, bool smooth, double time, 
 }
 
 Box box_at_all_times(const ImplicitPrimitive& primitive) {
-    // Interpolation stays between its keys: every centre with every radius covers it.
+    // Interpolation stays between its keys, so the box of every centre with every radius covers all times.
     ImplicitPrimitive one = primitive;
     one.keys.clear();
     double largest = 0;
@@ -154,4 +155,4 @@ Box box_at_all_times(const ImplicitPrimitive& primitive) {
     return box;
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

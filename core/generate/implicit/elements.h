@@ -1,4 +1,4 @@
-// The pieces of a cloud's macrostructure at one time: what its primitives and its growth come to.
+// The pieces of a cloud's macrostructure (Ebert 2002) at one time: what its primitives and its growth come to.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 #include "core/generate/implicit/lanes.h"
 #include "core/scene/implicit.h"
 
-namespace awan {
+namespace awan::implicit {
 
-// Axis-aligned; empty where min > max.
+// An axis-aligned box; empty where min > max.
 struct Box {
     glm::dvec3 min{1e300}, max{-1e300};
 
@@ -22,45 +22,53 @@ struct Box {
 };
 bool touch(const Box& a, const Box& b);
 
-// A coordinate system for floats: places are (p - middle) / unit.
+// A coordinate system for floats: a place p is (p - middle) / unit in it.
 struct Frame {
     glm::dvec3 middle{0};
     double unit = 1;
 };
 
-// Where density falls off from: a ball (the affine image of one), or the pieces of a skeleton, one behind the other.
+// What density falls off from: a ball (or the affine image of one, an ellipsoid), or a piece of a skeleton. The
+// pieces of one skeleton stand one behind the other.
 struct Element {
     enum class Kind : std::uint8_t { kBall, kSegment, kCylinder };
     Kind kind = Kind::kBall;
-    bool last = true;  // of its skeleton
-    glm::vec3 at{0};   // centre, or one end; in the frame, like all lengths here
-    glm::vec3 row
-        [3]{};  // of a ball: the inverse of its axes; of the others row[0] is the unit vector to the other end
-    float length = 0;   // of the piece
-    float core = 0;     // solid as far as that
-    float inverse = 1;  // 1 / radius of influence
+    // Whether it is the last piece of its skeleton.
+    bool last = true;
+    // The centre of a ball, one end of a piece. In the frame, like all lengths here.
+    glm::vec3 at{0};
+    // Of a ball: the inverse of its axes. Of a piece: row[0] is the unit vector towards its other end.
+    glm::vec3 row[3]{};
+    // The length of a piece.
+    float length = 0;
+    // Within this distance it is solid.
+    float core = 0;
+    // 1 / radius of influence.
+    float inverse = 1;
     float weight = 1;
-    Box box;  // outside it is nothing; in the frame
+    // The element has no density outside of it; in the frame.
+    Box box;
 };
 
-// At a time, seconds. Elements of one skeleton stand together, the last marked.
+// Appends the elements of a primitive at a time, seconds. Those of one skeleton stand together, the last marked.
 void add_elements(const ImplicitPrimitive& primitive, bool smooth, double time, const Frame& frame,
                   std::vector<Element>& elements);
 
-// A sphere, as a growth's particles are; `center` and `radius` in units.
+// A sphere, as the particles of a growth are. center, radius: units.
 Element sphere_element(const glm::dvec3& center, double radius, double weight, const Frame& frame);
 
-// Around the primitive at every time there is, units.
+// A box around the primitive at all times together, units.
 Box box_at_all_times(const ImplicitPrimitive& primitive);
 
-// Wyvill's cubic of a^2 >= 0: h(a) = (1 - a^2)^2 (1 - 4/9 a^2), which is the printed -4/9 a^6 + 17/9 a^4 - 22/9 a^2 + 1 and
-// exactly 0 from a = 1 on.
+// The cubic of Wyvill, McPheeters & Wyvill 1986, of a^2 >= 0: h(a) = (1 - a^2)^2 (1 - 4/9 a^2). That is the printed
+// -4/9 a^6 + 17/9 a^4 - 22/9 a^2 + 1, and exactly 0 from a = 1 on.
 AWAN_INLINE lanes::Floats wyvill(const lanes::Floats& a2) {
     const lanes::Floats s = lanes::min(a2, lanes::all(1.0f)), t = 1.0f - s;
     return t * t * (1.0f - s * (4.0f / 9));
 }
 
-// Density of elements list[0 .. count) at p in the frame: the sum of weight times h, at least 0.
+// The density of elements list[0 .. count) at p, in the frame: the sum of weight h(d / radius), at least 0. d is the
+// distance from the element's solid part; of an ellipsoid, whose radii differ, it is measured where it is a sphere.
 AWAN_INLINE lanes::Floats macro_density(const Element* elements, const std::uint32_t* list,
                                         int count, const lanes::Vec& p) {
     using lanes::Floats;
@@ -94,7 +102,7 @@ AWAN_INLINE lanes::Floats macro_density(const Element* elements, const std::uint
             const Floats past = lanes::max(lanes::max(-along, along - e.length), Floats{});
             d2 = side * side + past * past;
         }
-        // Of a skeleton the closest piece counts.
+        // Of a skeleton only the closest piece counts.
         nearest = lanes::min(nearest, d2);
         if (!e.last) continue;
         sum += e.weight * wyvill(nearest * (e.inverse * e.inverse));
@@ -103,4 +111,4 @@ AWAN_INLINE lanes::Floats macro_density(const Element* elements, const std::uint
     return lanes::max(sum, Floats{});
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

@@ -6,13 +6,16 @@
 
 #include "core/scene/limits.h"
 
-namespace awan {
+namespace awan::implicit {
 namespace {
 
 using lanes::all;
 using lanes::Floats;
 using lanes::Vec;
 
+// The warps below take a point p to where the matter was that is seen at p.
+
+// By the table of vectors v, trilinear between its entries: p - v(p).
 AWAN_INLINE void warp_by_flow(const PreparedFlow& flow, Vec& p) {
     for (int lane = 0; lane < lanes::kCount; ++lane) {
         const float at[3] = {p.x[lane], p.y[lane], p.z[lane]};
@@ -41,13 +44,16 @@ AWAN_INLINE void warp_by_flow(const PreparedFlow& flow, Vec& p) {
     }
 }
 
+// Along the line from the attractor's place q, by Wyvill's cubic h: p + strength h(|p - q| / reach) (p - q).
 AWAN_INLINE void warp_by_attractor(const PreparedAttractor& a, Vec& p) {
     const Floats x = p.x - a.at.x, y = p.y - a.at.y, z = p.z - a.at.z;
     const Floats h = a.strength * wyvill((x * x + y * y + z * z) * (a.inverse * a.inverse));
     p.x += h * x, p.y += h * y, p.z += h * z;
 }
 
-// Rodrigues' rotation, by minus the angle: what is seen here was there.
+// About the vortex' axis k through its place q, by the angle a = -angle h(|p - q| / reach). Rodrigues' rotation of d =
+// p - q:
+//   q + cos a d + sin a (k x d) + (1 - cos a) (k . d) k.
 AWAN_INLINE void warp_by_vortex(const PreparedVortex& v, Vec& p) {
     const Floats x = p.x - v.at.x, y = p.y - v.at.y, z = p.z - v.at.z;
     const Floats turns = -v.turns * wyvill((x * x + y * y + z * z) * (v.inverse * v.inverse));
@@ -59,17 +65,20 @@ AWAN_INLINE void warp_by_vortex(const PreparedVortex& v, Vec& p) {
     p.z = v.at.z + (c * z + s * (k.x * y - k.y * x) + along * k.z);
 }
 
+// Where in the noise a point lies: stretched along the jet stream, and moved along the noise's path.
 AWAN_INLINE Vec in_noise_space(const ImplicitField& f, const Vec& p) {
     const glm::vec3& axis = f.stretch_axis;
     const Floats less = (p.x * axis.x + p.y * axis.y + p.z * axis.z) * f.stretch_less;
     Vec n{(p.x + less * axis.x) * f.noise_scale, (p.y + less * axis.y) * f.noise_scale,
           (p.z + less * axis.z) * f.noise_scale};
-    // The path's offset is in the octaves' lattices.
+    // The path's offset is in the octaves' lattices already; this is the rest of what the path does to the place.
     const Floats peach = noise(f.path_noise, n);
     n.x += peach * f.path_scale.x, n.y += peach * f.path_scale.y, n.z += peach * f.path_scale.z;
     return n;
 }
 
+// The point moved by turbulence: all along (1, -1, 1) by t, as Ebert 2002 prints it, or along each axis by a noise of
+// its own.
 AWAN_INLINE Vec displaced(const ImplicitField& f, const Vec& p, const Vec& n, const Floats& t) {
     const float most = f.displacement;
     if (!(most > 0)) return p;
@@ -82,6 +91,7 @@ AWAN_INLINE Vec displaced(const ImplicitField& f, const Vec& p, const Vec& n, co
             p.z + most * lanes::clamp(b.z, -1, 1)};
 }
 
+// All warps. The jet stream blows what is at the top so far, and what is at the bottom not at all.
 AWAN_INLINE void warp(const ImplicitField& f, const Floats& t, Vec& p) {
     const Floats height = lanes::clamp((p.y - f.jet_floor) * f.jet_slope, 0, 1);
     const Floats more = f.jet_turbulence * lanes::min(t, all(1.0f));
@@ -93,6 +103,8 @@ AWAN_INLINE void warp(const ImplicitField& f, const Floats& t, Vec& p) {
     for (const PreparedVortex& v : f.vortices) warp_by_vortex(v, p);
 }
 
+// Mackerel: 1 - depth (1 - s_x s_y s_z), s = (1 + sin(2 pi x / wavelength + turbulence t)) / 2 along each axis that has
+// a wavelength.
 AWAN_INLINE Floats ripples(const ImplicitField& f, const Vec& p, const Floats& t) {
     Floats product = all(1.0f);
     const auto along = [&](float inverse, const Floats& x) __attribute__((always_inline)) {
@@ -106,7 +118,10 @@ AWAN_INLINE Floats ripples(const ImplicitField& f, const Vec& p, const Floats& t
     return 1.0f - f.ripple_depth * (1.0f - product);
 }
 
-// Of sixteen points in the frame.
+// The density at sixteen points p, in the frame (Ebert 2002, procedure cumulus()): turbulence t moves the point, the
+// primitives there give m, and
+//   density = (p1 m (p3 + (1 - p3) t) * ripples * base)^p2,    p1 amount, p2 exponent, p3 blend,
+// cut at limits::kMaxImplicitDensity.
 AWAN_INLINE Floats density(const ImplicitField& f, const std::uint32_t* list, int count,
                            const Vec& p) {
     const Vec n = in_noise_space(f, p);
@@ -118,7 +133,7 @@ AWAN_INLINE Floats density(const ImplicitField& f, const std::uint32_t* list, in
     Floats x = f.amount * (m * f.blend + (1.0f - f.blend) * t * m);
     if (f.ripple_depth > 0) x *= ripples(f, p, t);
     if (f.has_base) {
-        // Wavy by a quarter of what the displacement does there.
+        // The base is wavy, by a quarter of what the displacement does there.
         const Floats s =
             lanes::clamp((0.75f * p.y + 0.25f * moved.y - f.base) * f.base_inverse, 0, 1);
         x *= s * s * (3.0f - 2.0f * s);
@@ -130,9 +145,9 @@ AWAN_INLINE Floats density(const ImplicitField& f, const std::uint32_t* list, in
     return lanes::min(x, all(static_cast<float>(limits::kMaxImplicitDensity)));
 }
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void run_row(
-    const ImplicitField& f, const std::uint32_t* list, int count, const glm::dvec3& first,
-    double step, int cells, float* out) {
+// The densities of `cells` points from `first` on, `step` apart along x; all in the frame.
+AWAN_INLINE void run_row_body(const ImplicitField& f, const std::uint32_t* list, int count,
+                              const glm::dvec3& first, double step, int cells, float* out) {
     for (int begin = 0; begin < cells; begin += lanes::kCount) {
         Vec p{Floats{}, all(static_cast<float>(first.y)), all(static_cast<float>(first.z))};
         for (int lane = 0; lane < lanes::kCount; ++lane)
@@ -142,6 +157,10 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) void run_row(
             out[begin + lane] = d[lane];
     }
 }
+AWAN_KERNEL(void, run_row,
+            (const ImplicitField& f, const std::uint32_t* list, int count, const glm::dvec3& first,
+             double step, int cells, float* out),
+            (f, list, count, first, step, cells, out))
 
 }  // namespace
 
@@ -164,4 +183,4 @@ double density_at(const ImplicitField& field, const glm::dvec3& p) {
     return static_cast<double>(density);
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

@@ -7,10 +7,11 @@
 #include "core/generate/implicit/noise.h"
 #include "core/generate/keyed_random.h"
 
-namespace awan {
+namespace awan::implicit {
 namespace {
 
-double uniform(std::uint64_t key, std::uint64_t number) {  // -1 .. 1
+// Random, uniform in -1 .. 1.
+double uniform(std::uint64_t key, std::uint64_t number) {
     return 2 * unit_open(static_cast<std::uint32_t>(keyed(key, number) >> 32)) - 1;
 }
 
@@ -20,15 +21,15 @@ glm::dvec3 uniform_vector(std::uint64_t key, std::uint64_t number) {
     return {x, y, z};
 }
 
-// How strong the turbulence is where a particle is, and where it pushes.
+// How strong the turbulence is where a particle is, and the force with which it pushes.
 struct Air {
     double strength;
     glm::dvec3 force;
 };
 
-// Of up to sixteen particles. Bumps of the turbulence are twice a particle's radius.
-__attribute__((target_clones("avx512f", "avx2", "default"))) void air_around(
-    const Octaves& octaves, const GrownParticle* particles, int count, Air* air) {
+// The air at up to sixteen particles. Bumps of the turbulence are twice a particle's radius wide.
+AWAN_INLINE void air_around_body(const Octaves& octaves, const GrownParticle* particles, int count,
+                                 Air* air) {
     lanes::Vec at{};
     for (int i = 0; i < count; ++i) {
         const glm::dvec3& p = particles[i].position;
@@ -45,6 +46,9 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) void air_around(
         air[i].force.z = static_cast<double>(push.z[i]);
     }
 }
+AWAN_KERNEL(void, air_around,
+            (const Octaves& octaves, const GrownParticle* particles, int count, Air* air),
+            (octaves, particles, count, air))
 
 class Colony {
   public:
@@ -63,9 +67,10 @@ class Colony {
 
     std::vector<GrownParticle> particles;
 
-    // From `time` over dt seconds.
+    // One step of the simulation, from `time` over dt seconds.
     void step(double time, double dt) {
-        const std::size_t count = particles.size();  // children move from the next step on
+        // Children born in this step move from the next one on.
+        const std::size_t count = particles.size();
         Air air[lanes::kCount];
         for (std::size_t first = 0; first < count; first += lanes::kCount) {
             const std::size_t last = std::min(count, first + lanes::kCount);
@@ -81,13 +86,14 @@ class Colony {
   private:
     void move(std::size_t i, const Air& air, double time, double dt) {
         GrownParticle& p = particles[i];
-        // Drag taken at the step's end, which no length of step makes unstable.
+        // The drag is taken at the step's end (implicit Euler), which is stable for steps of any length.
         p.velocity += dt * (growth_.force + growth_.turbulence * air.force);
         p.velocity /= 1 + growth_.drag * dt;
         p.position = glm::clamp(p.position + dt * p.velocity, -kGrowthReach, kGrowthReach);
         p.fertility += dt * growth_.rate * air.strength;
         if (p.fertility < 1) return;
-        p.fertility = std::min(p.fertility - 1, 1.0);  // one child a step
+        // At most one child a step.
+        p.fertility = std::min(p.fertility - 1, 1.0);
         if (particles.size() < growth_.most) bear(i, time + dt);
     }
 
@@ -96,7 +102,7 @@ class Colony {
         const GrownParticle& p = particles[parent];
         child.key = keyed(p.key, 100 + static_cast<std::uint64_t>(particles.size()));
         child.size = p.size * growth_.shrink;
-        // At the parent's side, rather above than below.
+        // At the parent's side, above rather than below.
         glm::dvec3 away = uniform_vector(child.key, 0);
         away.y = 0.6 * away.y + 0.35;
         child.position = glm::clamp(p.position + 0.8 * p.size * away, -kGrowthReach, kGrowthReach);
@@ -124,7 +130,7 @@ std::vector<GrownParticle> grown(const ImplicitGrowth& growth, std::uint64_t key
     for (int i = 0; i < whole; ++i) colony.step(i * dt, dt);
     const double part = std::min(at - whole, 1.0);
     if (whole == kGrowthSteps || part <= 0) return colony.particles;
-    // Where they are between two steps; who is born in this one is not there yet.
+    // Where the particles are between two steps. Whoever is born in this one is not there yet.
     std::vector<GrownParticle> now = colony.particles;
     colony.step(whole * dt, dt);
     for (std::size_t i = 0; i < now.size(); ++i) {
@@ -160,4 +166,4 @@ Box growth_box(const ImplicitGrowth& growth, std::uint64_t key) {
     return box;
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

@@ -1,4 +1,4 @@
-// The particle system of a growing cloud (document 004, "Implicit primitive animation"): particles are primitives.
+// The particle system of a growing cloud (Ebert 2002, "Implicit primitive animation"): its particles are primitives.
 #pragma once
 
 #include <cstdint>
@@ -8,33 +8,41 @@
 #include "core/generate/implicit/elements.h"
 #include "core/scene/implicit.h"
 
-namespace awan {
+namespace awan::implicit {
 
+// A particle of the growth at one time.
 struct GrownParticle {
-    glm::dvec3 position{0};  // radii, from the growth's centre
-    glm::dvec3 velocity{0};  // radii a second
-    double size = 1;         // full-grown, radii
-    double birth = 0;        // seconds; of seeds before 0, so that they show at 0
-    double share = 0;        // 0..1: how far it has grown
-    bool dormant = false;    // at rest for ever; it stays
-    double fertility = 0;    // a child at 1
+    // From the growth's centre, in radii.
+    glm::dvec3 position{0};
+    // In radii a second.
+    glm::dvec3 velocity{0};
+    // When it is full-grown, in radii.
+    double size = 1;
+    // Seconds. Seeds are born before 0, so that they show at 0.
+    double birth = 0;
+    // 0..1: how far it has grown.
+    double share = 0;
+    // It has come to rest, and stays for ever.
+    bool dormant = false;
+    // Rises with the turbulence; at 1 the particle has a child.
+    double fertility = 0;
     std::uint64_t key = 0;
 };
 
-// From time 0 on there are this many equal steps in the growth's duration, whatever time is asked for.
+// The growth's duration is divided into this many equal steps from time 0 on, whatever time is asked for.
 inline constexpr int kGrowthSteps = 240;
-// No particle comes farther from the centre along an axis, radii.
+// No particle comes farther from the centre along an axis than this, in radii.
 inline constexpr double kGrowthReach = 150;
 
-// All particles there are at `time` (before 0: as at 0; after the duration: as at its end), in the order of their birth. A
-// particle once born is in every later answer, at the same index. Depends on the growth, the key and the time alone: the
-// steps are always those from time 0, and between two of them places are interpolated.
+// All particles that there are at `time` (before 0: as at 0; after the duration: as at its end), in the order of
+// their birth. A particle once born is in every later answer, at the same index. It depends on the growth, the key
+// and the time alone: the steps are always those from time 0, and between two of them places are interpolated.
 std::vector<GrownParticle> grown(const ImplicitGrowth& growth, std::uint64_t key, double time);
 
-// As an element; its weight and radius grow with its share.
+// A particle as an element. Its weight and radius grow with its share.
 Element element_of(const GrownParticle& particle, const ImplicitGrowth& growth, const Frame& frame);
 
-// Around all particles at all times, units.
+// A box around all particles at all times, units.
 Box growth_box(const ImplicitGrowth& growth, std::uint64_t key);
 
-}  // namespace awan
+}  // namespace awan::implicit

@@ -6,10 +6,10 @@
 #include "core/generate/models.h"
 #include "core/scene/limits.h"
 
-namespace awan {
+namespace awan::implicit {
 
-Result<ModelParticles> implicit_particles(const ImplicitCloud& cloud, const ModelRequest& request,
-                                          const Deadline& deadline) {
+Result<ModelParticles> make_particles(const ImplicitCloud& cloud, const ModelRequest& request,
+                                      const Deadline& deadline) {
     const std::uint64_t resolution =
         request.coarse ? limits::kMinImplicitResolution : cloud.resolution;
     ModelParticles made;
@@ -35,4 +35,4 @@ Result<ModelParticles> implicit_particles(const ImplicitCloud& cloud, const Mode
     return made;
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

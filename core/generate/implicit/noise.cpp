@@ -5,7 +5,7 @@
 
 #include "core/generate/keyed_random.h"
 
-namespace awan {
+namespace awan::implicit {
 namespace {
 
 void split(double at, std::uint32_t& shift, float& part) {
@@ -19,7 +19,7 @@ void split(double at, std::uint32_t& shift, float& part) {
 Octaves octaves_of(std::uint64_t key, int count, double gain, double cell, double x, double y,
                    double z) {
     Octaves octaves;
-    // Of |noise|: its variance.
+    // Of |noise|: mean, root mean square, and variance.
     constexpr double kMean = kMeanAbsNoise, kRms = kRmsNoise;
     constexpr double kVariance = kRms * kRms - kMean * kMean;
     double weight = 1, frequency = 1, left_out = 0;
@@ -46,4 +46,4 @@ Octaves octaves_of(std::uint64_t key, int count, double gain, double cell, doubl
     return octaves;
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

@@ -1,5 +1,5 @@
-// Gradient noise on a keyed lattice (Perlin, "Improving noise", 2002: his twelve gradients, each as often as the others, and
-// his fade; the lattice's hash is our own and has no period but 2^32), and its octaves.
+// Gradient noise on a keyed lattice, and its octaves. It is that of Perlin 2002, with his twelve gradients, each as
+// often as the others, and his fade; the lattice's hash is our own and has no period but 2^32.
 #pragma once
 
 #include <array>
@@ -7,14 +7,14 @@
 
 #include "core/generate/implicit/lanes.h"
 
-namespace awan {
+namespace awan::implicit {
 
-// Coordinates farther out see what is here: a float has no digits for a place in a cell there.
-inline constexpr float kNoiseReach = 4194304.0f;  // 2^22
-// Mean of |noise| and its rms, over all places and keys (measured, implicit_noise_test).
+// 2^22. Coordinates farther out see what is here: a float has no digits left for a place in a cell there.
+inline constexpr float kNoiseReach = 4194304.0f;
+// The mean of |noise| and its root mean square, over all places and keys (measured, implicit_noise_test).
 inline constexpr float kMeanAbsNoise = 0.2195f, kRmsNoise = 0.2694f;
 
-// One lattice: coordinates are shifted by whole cells and a place in a cell, exactly however far that is.
+// One lattice. Coordinates are shifted by whole cells and a place in a cell, which is exact however far that is.
 struct NoiseLattice {
     std::uint32_t key = 0;
     std::uint32_t shift_x = 0, shift_y = 0, shift_z = 0;
@@ -27,25 +27,32 @@ using lanes::Bits;
 using lanes::Floats;
 using lanes::Ints;
 
+// Perlin's quintic: 0 at 0, 1 at 1, with its first two derivatives 0 at both.
 AWAN_INLINE Floats fade(const Floats& t) {
     return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
 }
 
-// The dot product of (x, y, z) with one of the twelve edges of a cube, by the low ten bits. Perlin takes four bits and four of
-// the edges twice: gradients then have 1.2 times the variance along y that they have along x and z.
+// The dot product of (x, y, z) with one of the twelve edges of a cube, chosen by the low ten bits. Perlin 2002 takes
+// four bits and four of the edges twice; gradients then have 1.2 times the variance along y that they have along x
+// and z.
 AWAN_INLINE Floats edge(const Bits& hash, const Floats& x, const Floats& y, const Floats& z) {
     const Bits ten = hash & 1023u;
-    const Bits h = ((ten << 3) + (ten << 2)) >> 10;  // 0 .. 11
+    // An edge, 0 .. 11.
+    const Bits h = ((ten << 3) + (ten << 2)) >> 10;
     const Floats u = h < 4u ? y : x;
     const Floats v = h < 8u ? z : y;
     return lanes::floats(lanes::bits(u) ^ (h << 31)) +
            lanes::floats(lanes::bits(v) ^ ((h & 2u) << 30));
 }
 
+// The cell of the lattice that a point lies in.
 struct Cell {
-    Floats x, y, z;     // within it, 0 .. 1
-    Bits hx, hy, hz;    // of its low corner
-    Floats fx, fy, fz;  // faded
+    // The place within the cell, 0 .. 1.
+    Floats x, y, z;
+    // The hashes of the cell's low corner.
+    Bits hx, hy, hz;
+    // The place faded: the weights of the interpolation.
+    Floats fx, fy, fz;
 };
 
 inline constexpr std::uint32_t kX = 0x8da6b343u, kY = 0xd8163841u, kZ = 0xcb1ab31fu;
@@ -98,7 +105,7 @@ AWAN_INLINE lanes::Floats noise(const NoiseLattice& lattice, const lanes::Vec& p
     return mix(mix(row[0], row[1], c.fy), mix(row[2], row[3], c.fy), c.fz);
 }
 
-// Three of them that have nothing to do with each other, by other bits of one hash.
+// Three noises that have nothing to do with each other, by other bits of one hash.
 AWAN_INLINE lanes::Vec noise3(const NoiseLattice& lattice, const lanes::Vec& p) {
     using namespace noise_detail;
     const Cell c = cell_of(lattice, p);
@@ -120,17 +127,18 @@ AWAN_INLINE lanes::Vec noise3(const NoiseLattice& lattice, const lanes::Vec& p) 
 
 inline constexpr int kMostOctaves = 10;
 
-// Octave o has features 2^o times as small and is `weight[o]` strong; 1/f at a gain of .5.
+// Octave o has features 2^o times as small as the first and is `weight[o]` strong; a gain of .5 makes 1/f noise.
 struct Octaves {
     int count = 0;
     std::array<NoiseLattice, kMostOctaves> lattice;
     std::array<float, kMostOctaves> frequency{};
     std::array<float, kMostOctaves> weight{};
-    // Of what octaves too fine for the lattice would add to the turbulence: its mean, and what it varies by.
+    // What the octaves that are too fine for the lattice would add to the turbulence: the mean, and the root mean
+    // square of what varies.
     float rest = 0, rest_rms = 0;
 };
 
-// Turbulence (Perlin 1985): the sum of |noise|, >= 0.
+// Turbulence of Perlin 1985: the sum of |noise| over the octaves, >= 0.
 AWAN_INLINE lanes::Floats turbulence(const Octaves& octaves, const lanes::Vec& p) {
     lanes::Floats sum = lanes::all(octaves.rest);
     for (int o = 0; o < octaves.count; ++o) {
@@ -142,7 +150,7 @@ AWAN_INLINE lanes::Floats turbulence(const Octaves& octaves, const lanes::Vec& p
     return sum;
 }
 
-// Fractional Brownian motion, three of them: sums of noise, around 0.
+// Fractional Brownian motion: the sum of noise over the octaves, around 0. Three of them.
 AWAN_INLINE lanes::Vec brownian3(const Octaves& octaves, const lanes::Vec& p) {
     lanes::Vec sum{lanes::Floats{}, lanes::Floats{}, lanes::Floats{}};
     for (int o = 0; o < octaves.count; ++o) {
@@ -154,9 +162,9 @@ AWAN_INLINE lanes::Vec brownian3(const Octaves& octaves, const lanes::Vec& p) {
     return sum;
 }
 
-// The octaves of `key` that a lattice of cells of `cell` can show, seen from a place moved by (x, y, z), all in sizes of the
-// largest octave. An octave fades out where its size comes down from 3 cells to 1.5.
+// The octaves of `key` that a lattice of cells of `cell` can show, seen from a place moved by (x, y, z), all lengths
+// in sizes of the largest octave. An octave fades out while its size comes down from 3 cells to 1.5.
 Octaves octaves_of(std::uint64_t key, int count, double gain, double cell, double x, double y,
                    double z);
 
-}  // namespace awan
+}  // namespace awan::implicit

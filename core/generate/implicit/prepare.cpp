@@ -10,13 +10,13 @@
 #include "core/generate/implicit/growth.h"
 #include "core/generate/keyed_random.h"
 
-namespace awan {
+namespace awan::implicit {
 namespace {
 
-// What is random in a cloud, each by a key of its own.
+// What is random in a cloud, each with a key of its own.
 enum Purpose : std::uint64_t { kGrowthKey, kTurbulenceKey, kMovingKey, kPathKey };
 
-// Largest value of u f(h(u)) over 0 <= u <= 1, f rising, a little more rather than less.
+// An upper bound, and hardly more, of u f(h(u)) over 0 <= u <= 1, where f rises.
 template <typename F>
 double most_over_ball(const F& f) {
     double most = 0;
@@ -38,8 +38,9 @@ Box widened(const Box& box, const glm::dvec3& low, const glm::dvec3& high) {
     return {box.min + low, box.max + high};
 }
 
-// The box and what lies within `ball` and at most `most` from it: where matter of the box is seen after a warp that moves
-// nothing outside the ball, and where points of it come to by a vortex, which leaves all within that is within.
+// The box, and what lies within `ball` and at most `most` away from it. It says where matter of the box is seen after
+// a warp that moves nothing outside the ball, and where a vortex, which leaves within all that is within, takes
+// points of the box.
 Box warped_within(const Box& box, const Box& ball, double most) {
     Box result = box;
     const Box wide = widened(box, glm::dvec3(-most), glm::dvec3(most));
@@ -108,14 +109,14 @@ void prepare_warps(const ImplicitCloud& cloud, const ImplicitSettings& s, double
                !cloud.attractors.empty() || !cloud.vortices.empty();
 }
 
-// How far back along the jet stream a point is taken: low <= shift <= high.
+// How far back along the jet stream a point is taken: from `low` to `high`, along each axis.
 void jet_range(const ImplicitSettings& s, glm::dvec3& low, glm::dvec3& high) {
     const glm::dvec3 most = s.jet + s.jet_turbulence * glm::dvec3(0.2, 0.3, 0.25);
     low = glm::min(glm::min(s.jet, most), glm::dvec3(0));
     high = glm::max(glm::max(s.jet, most), glm::dvec3(0));
 }
 
-// Where matter of the macrostructure is seen: the steps of density() (field.cpp), back.
+// Where matter of the macrostructure is seen: the steps of density() (field.cpp) backwards.
 Box seen_box(const ImplicitSettings& s, const Box& macro, const ImplicitField& f) {
     Box box = macro;
     if (box.empty()) return box;
@@ -135,10 +136,11 @@ Box seen_box(const ImplicitSettings& s, const Box& macro, const ImplicitField& f
 
 }  // namespace
 
-// As printed: theta = 2 pi frame / 600, path = (.005 sin theta frame, .01215 frame, .0035 sin theta frame), scale =
-// (.5 + .01 frame, .5, .0073 frame); the noise's place is n - (path.x, path.y, -path.z) + peach (scale.x, .5, -scale.z).
-// Both x and z swing with the sine (the cosine is computed and never used), so that the "swirl" is a line that grows for
-// ever, and the scales tear the noise to pieces after some hundred frames. The steady path is an ellipse that rises, and the
+// The path of the noise. As Ebert 2002 prints it: theta = 2 pi frame / 600, path = (.005 sin theta frame, .01215
+// frame, .0035 sin theta frame), scale = (.5 + .01 frame, .5, .0073 frame); the noise is taken at n - (path.x,
+// path.y, -path.z) + peach (scale.x, .5, -scale.z), where peach is a noise of its own. Both x and z swing with the
+// sine (the cosine is computed and never used), so that the "swirl" is a line that grows for ever, and the scales
+// tear the noise to pieces after some hundred frames. The steady path, not printed, is an ellipse that rises; its
 // scales stay those of frame 0.
 SwirlPath swirl_path(double frame, bool printed) {
     const double degrees = 0.6 * frame;
@@ -227,15 +229,16 @@ std::vector<std::uint32_t> elements_near(const ImplicitField& field, const Box& 
         jet_range(jet, low, high);
         at = widened(at, -high, -low);
         at = widened(at, -field.flow.high, -field.flow.low);
-        // An attractor shows what is outside its ball within it.
+        // Inside its ball, an attractor shows what lies outside.
         for (const PreparedAttractor& a : field.attractors)
             if (touch(at, a.ball)) at = widened(at, glm::dvec3(-a.most), glm::dvec3(a.most));
         for (const PreparedVortex& v : field.vortices) at = warped_within(at, v.ball, v.most);
     }
-    // Boxes are double, points float.
+    // Boxes are in double, points in float.
     at = widened(at, glm::dvec3(-1e-4), glm::dvec3(1e-4));
     std::vector<std::uint32_t> list;
-    bool open = false;  // a skeleton has pieces in the list and its last is yet to come
+    // Whether the list has pieces of a skeleton whose last is yet to come.
+    bool open = false;
     for (std::uint32_t i = 0; i < field.elements.size(); ++i) {
         const Element& e = field.elements[i];
         const bool near = e.weight != 0 && touch(e.box, at);
@@ -245,4 +248,4 @@ std::vector<std::uint32_t> elements_near(const ImplicitField& field, const Box& 
     return list;
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

@@ -7,10 +7,10 @@
 #include "core/base/parallel.h"
 #include "core/scene/limits.h"
 
-namespace awan {
+namespace awan::implicit {
 namespace {
 
-// A piece of work, of cells near enough to each other to share their elements.
+// Cells of a piece of work: near enough to each other to share their elements.
 constexpr int kBlock[3] = {32, 8, 8};
 
 int blocks_along(int cells, int axis) {
@@ -34,7 +34,7 @@ void sample_block(const ImplicitField& field, const int first[3], LatticeField& 
                           &lattice.values[lattice.index(first[0], j, k)]);
 }
 
-// Sums along an axis, of a lattice or of pairs of its cells: `group` cells a side become one.
+// Sums along an axis. `group` cells of a side of the lattice become one.
 std::vector<double> columns(const LatticeField& lattice, int axis, int group) {
     const int n[3] = {lattice.nx, lattice.ny, lattice.nz};
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -62,7 +62,7 @@ LatticeField lattice_over(const ImplicitField& field, std::uint64_t resolution) 
                               limits::kMinRadius / (2 * kLatticeS) * 1.001,
                               limits::kMaxRadius / (2 * kLatticeS) * 0.999);
     const auto cells = [&](double length) {
-        // A longest side of exactly so many cells is not one more by rounding.
+        // A longest side of exactly so many cells must not become one more by rounding.
         const double count = std::ceil(length / lattice.cell - 1e-6);
         return static_cast<int>(std::clamp(count, 1.0, static_cast<double>(resolution)));
     };
@@ -113,7 +113,7 @@ double picture_difference(const LatticeField& fine, const LatticeField& coarse, 
         const std::vector<double> a = columns(fine, axis, group), b = columns(coarse, axis, 1);
         const double most = *std::max_element(a.begin(), a.end());
         if (!(most > 0)) continue;
-        // A figure for people: the last bit of the library's exponential does not matter.
+        // By the library's exponential: the error is a figure for people, so its last bit does not matter.
         const auto opacity = [&](double sum) { return 1 - std::exp(-kOpaque * sum / most); };
         for (std::size_t i = 0; i < a.size(); ++i) {
             const double other = cells * b[i], d = a[i] - other;
@@ -126,15 +126,15 @@ double picture_difference(const LatticeField& fine, const LatticeField& coarse, 
     return std::sqrt(std::max(thin / all_thin, deep / all_deep));
 }
 
-// What a lattice is wrong by is about its difference from one twice as coarse times kOfDifference, and, where both lack the
-// octaves that make the shape, kOfLeftOut of what these would change: so chosen that no preset is wrong by more, in
-// fields against lattices four times as fine nor in lit pictures (64 cells against 160).
+// What a lattice is wrong by is about its difference from one twice as coarse, times kOfDifference, and, where both
+// lack the octaves that make the shape, kOfLeftOut of what these would change. The two are chosen so that no preset
+// is wrong by more, neither in fields against lattices four times as fine nor in lit pictures (64 cells against 160).
 double sampling_error(const LatticeField& lattice, const LatticeField& half,
                       const ImplicitField& field) {
     constexpr double kOfDifference = 0.8, kOfLeftOut = 0.8;
     const double difference = picture_difference(lattice, half, 2);
     if (!(difference > 0)) return 0;
-    // Of the density (blend + (1 - blend) t)^exponent, by what t lacks.
+    // The density is (blend + (1 - blend) t)^exponent; this is what it varies by, with what t lacks.
     const Octaves& octaves = field.octaves;
     double mean = static_cast<double>(octaves.rest);
     for (int o = 0; o < octaves.count; ++o)
@@ -146,4 +146,4 @@ double sampling_error(const LatticeField& lattice, const LatticeField& half,
     return std::hypot(kOfDifference * difference, kOfLeftOut * left_out);
 }
 
-}  // namespace awan
+}  // namespace awan::implicit

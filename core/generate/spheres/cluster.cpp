@@ -4,12 +4,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace awan {
+namespace awan::spheres {
 namespace {
 
-constexpr double kSqrtTwoPiCubed = 15.749609945722419;  // (2 pi)^1.5
+// (2 pi)^1.5: the mass of a Gaussian of peak 1 and s = 1.
+constexpr double kSqrtTwoPiCubed = 15.749609945722419;
 
-// Gauss & Legendre on 0..1: exact for polynomials of degree 9.
+// A point of the Gauss-Legendre rule on 0..1; five of them are exact for polynomials of degree 9.
 struct GaussPoint {
     double at, weight;
 };
@@ -23,7 +24,7 @@ double at(const Span& span, double share) {
     return span.low + (span.high - span.low) * share;
 }
 
-// One step up: the mean over five children with `below` in each.
+// One step up the tree: the mean over five children with `below` in each.
 ClusterMoments step_up(const SphereTree& tree, const ClusterMoments& below) {
     ClusterMoments sum{0, glm::dvec3(0), 0};
     for (const GaussPoint& i : kGauss)
@@ -63,7 +64,7 @@ GaussianBlob leaf_blob(const Sphere& sphere) {
 
 GaussianBlob cluster_blob(const std::array<SphereNode, kSphereChildren>& children,
                           const ClusterMoments& below) {
-    // Relative to the first child, in its units: neither places nor radii lose their digits.
+    // Relative to the first child, in its radii, so that neither places nor radii lose their digits.
     const Sphere& first = children[0].sphere;
     double mass = 0, square = 0;
     glm::dvec3 mean(0);
@@ -84,4 +85,4 @@ GaussianBlob cluster_blob(const std::array<SphereNode, kSphereChildren>& childre
             kLeafMass * mass / (variance * s * kSqrtTwoPiCubed)};
 }
 
-}  // namespace awan
+}  // namespace awan::spheres

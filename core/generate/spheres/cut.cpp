@@ -11,26 +11,28 @@
 #include "core/generate/spheres/walk.h"
 #include "core/scene/limits.h"
 
-namespace awan {
+namespace awan::spheres {
 namespace {
 
-// The diameter of a sphere that is cut, in pixels.
+// The diameter below which a sphere is cut, in pixels.
 constexpr double kCutPixels = 1.5;
 
-// Sizes in classes of an eighth of an octave, from 2^-60 on; by the bits of the double, so that every machine agrees.
+// Sizes are counted in classes of an eighth of an octave, from 2^-60 on, by the bits of the double, so that every
+// machine agrees.
 constexpr int kFirstOctave = -60, kOctaves = 82, kParts = 8;
 constexpr std::size_t kClasses = kOctaves * kParts;
 using Histogram = std::array<std::uint64_t, kClasses>;
 
 std::size_t class_of(double size) {
     int exponent = 0;
-    const double mantissa = 2 * std::frexp(size, &exponent) - 1;  // 0..1
+    // The mantissa's place in its octave, 0..1.
+    const double mantissa = 2 * std::frexp(size, &exponent) - 1;
     if (!(size > 0) || exponent <= kFirstOctave) return 0;
     const int octave = std::min(exponent - kFirstOctave, kOctaves - 1);
     return static_cast<std::size_t>(octave * kParts + static_cast<int>(mantissa * kParts));
 }
 
-// No size in the class is smaller, and none below it larger.
+// The smallest size of a class: no size in it is smaller, and none in the classes below is larger.
 double lower_edge(std::size_t index) {
     const auto octave = static_cast<int>(index / kParts);
     const double part = static_cast<double>(index % kParts) / kParts;
@@ -45,7 +47,7 @@ double SphereCut::size_of(const Sphere& sphere) const {
 }
 
 bool SphereCut::cuts(const Sphere& sphere, const Span& ratios) const {
-    // A leaf's particle has .72 of its radius.
+    // A leaf's particle has .72 of the leaf's radius.
     return size_of(sphere) < smallest || sphere.radius * ratios.low < 2 * limits::kMinRadius;
 }
 
@@ -56,11 +58,12 @@ Result<SphereCut> choose_cut(const SphereTree& tree, const std::optional<glm::dv
     SphereCut cut;
     cut.eye = eye;
     cut.least_distance = radius * 0x1p-20;
-    // The automatic camera stands three radii from the middle of a cloud that fills its picture: two from its near side.
+    // The automatic camera stands three radii from the middle of a cloud that fills its picture, so two from its near
+    // side.
     cut.distance = 2 * radius;
     cut.smallest = kCutPixels / 2 * pixel_angle;
 
-    // A cut leaves one sphere and four more for every one that it divides.
+    // A cut leaves one sphere, and four more for every sphere that it divides.
     std::vector<Histogram> divided(kWalkTasks);
     const bool whole = walk_spheres(
         tree, threads, deadline, [&](const SphereNode& node, int level, std::size_t task) {
@@ -82,4 +85,4 @@ Result<SphereCut> choose_cut(const SphereTree& tree, const std::optional<glm::dv
     return cut;
 }
 
-}  // namespace awan
+}  // namespace awan::spheres

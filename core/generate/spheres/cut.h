@@ -1,5 +1,6 @@
-// How deep into the hierarchy of spheres a picture needs to go. Level of detail as the source has it ("the farther away the
-// cloud is from the observer, the lower the level number which provides the desired angular resolution"), a sphere at a time.
+// How deep into the hierarchy of spheres a picture needs to go, a sphere at a time. It is the level of detail of
+// Ostroushko et al. 2010: "the farther away the cloud is from the observer, the lower the level number which provides
+// the desired angular resolution".
 #pragma once
 
 #include <optional>
@@ -7,26 +8,30 @@
 #include "core/base/deadline.h"
 #include "core/generate/spheres/subdivision.h"
 
-namespace awan {
+namespace awan::spheres {
 
-// A sphere looks `size_of` large: its radius over the distance from the eye to its nearest point, at most 2^20 (an eye inside it).
-// A child never looks larger than its parent. It is cut, and stands for all below it, where it looks smaller than `smallest`.
+// A sphere looks `size_of` large: its radius over the distance from the eye to its nearest point, at most 2^20 (for
+// an eye inside it). A child never looks larger than its parent. A sphere that looks smaller than `smallest` is cut:
+// it stands for all below it.
 struct SphereCut {
-    double smallest = 0;  // 0: none is
-    std::optional<glm::dvec3>
-        eye;  // the cloud's own coordinates; none: from `distance` off all spheres
+    // At 0 nothing is cut.
+    double smallest = 0;
+    // In the cloud's own coordinates. Without one, all spheres are `distance` away.
+    std::optional<glm::dvec3> eye;
     double distance = 1;
-    double least_distance = 0;  // nearer is as near as that
+    // What is nearer than this counts as this near.
+    double least_distance = 0;
 
     double size_of(const Sphere& sphere) const;
-    // A sphere that could have children smaller than particles may be is cut, too.
+    // Whether a sphere is cut. One whose children may be smaller than particles may be is cut, too.
     bool cuts(const Sphere& sphere, const Span& ratios) const;
 };
 
-// As coarse as pixels of that angle allow (radians; 0: as fine as can be), and coarser where more than `most` spheres would
-// be left. Goes once through what it keeps, the whole tree at most. Threads do not show in the result.
+// The cut that is as coarse as pixels of that angle allow (radians; 0: as fine as can be), and coarser where more
+// than `most` spheres would be left. Goes once through what it keeps, the whole tree at most. Threads do not show in
+// the result.
 Result<SphereCut> choose_cut(const SphereTree& tree, const std::optional<glm::dvec3>& eye,
                              double pixel_angle, std::uint64_t most, int threads,
                              const Deadline& deadline);
 
-}  // namespace awan
+}  // namespace awan::spheres

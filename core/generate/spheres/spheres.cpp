@@ -12,31 +12,37 @@
 #include "core/generate/spheres/walk.h"
 #include "core/scene/limits.h"
 
-namespace awan {
+namespace awan::spheres {
 namespace {
 
 constexpr std::uint64_t kCoarseSpheres = 625;
-constexpr double kCoarsePixel = 0.0267;  // radians
+// Radians. Where only the cloud's place matters, spheres that look smaller than this are not divided.
+constexpr double kCoarsePixel = 0.0267;
 
 struct Part {
     std::vector<GaussianBlob> blobs;
-    double mass = 0, cut_mass = 0;  // of all, and of those that stand for more than a leaf
+    // The mass of all, and of those that stand for more than a leaf.
+    double mass = 0, cut_mass = 0;
 };
 
-// What cutting does to a picture, rms over rms. A cut cluster becomes a round blob as wide as it is, so what matters is how many
-// pixels wide spheres are cut, how much of the cloud is in such (the third root of its mass, as they stand where the cloud ends),
-// and how porous they are: a ray through a sphere meets 5 E(I_j^2) of its children, less than one where ratios are small.
-// Above all that was measured of clouds of 6 to 8 levels against all their leaves, lit by transport-32 in pictures 300 and 450
-// pixels high: ratios .26...76 and extinctions .2 and 2, cut at 1.5 pixels .0017, 3: .010, 6: .023, 12: .071, 24: .18; ratios
-// .2...7, cut at 1.5: .0014, 3: .006, 6: .04; ratios .1...6, cut at 1.5: .009, 3: .036, 6: .17, 12: .34, 24: .48
-// (spheres_cut_test does it smaller). Where little is cut it is up to ten times too high.
+// What cutting does to a picture, root mean square over root mean square. A cut cluster becomes a round blob as wide
+// as it is. So what matters is how many pixels wide the cut spheres are; how much of the cloud is in them (the third
+// root of their mass, as they stand where the cloud ends); and how porous they are: a ray through a sphere meets 5
+// E(I_j^2) of its children, less than one where ratios are small.
+//
+// It is above all that was measured, on clouds of 6 to 8 levels against all their leaves, lit by transport-32 in
+// pictures 300 and 450 pixels high:
+//   ratios .26...76, extinctions .2 and 2: cut at 1.5 pixels .0017, 3: .010, 6: .023, 12: .071, 24: .18;
+//   ratios .2...7: cut at 1.5 pixels .0014, 3: .006, 6: .04;
+//   ratios .1...6: cut at 1.5 pixels .009, 3: .036, 6: .17, 12: .34, 24: .48.
+// spheres_cut_test does it smaller. Where little is cut it is up to ten times too high.
 double error_of_cut(const Span& ratios, double pixels, double mass_share) {
     const double met =
         5 * (ratios.low * ratios.low + ratios.low * ratios.high + ratios.high * ratios.high) / 3;
     const double porous = std::clamp((1.1 - met) / (1.1 - 0.72), 0.0, 1.0);
     return std::cbrt(mass_share) * std::min(0.01 * (1 + porous) * pixels * std::sqrt(pixels), 0.7);
 }
-// Where a request names none: of a picture 1080 pixels high, 40 degrees.
+// The angle of a pixel where a request names none, radians: of a picture 1080 pixels high and 40 degrees.
 constexpr double kUsualPixel = 0.00067;
 
 double mass_of(const GaussianBlob& blob) {
@@ -47,18 +53,19 @@ std::uint64_t bits(double value) {
     return std::bit_cast<std::uint64_t>(value + 0.0);
 }
 
-// Of what decides which spheres are cut.
+// A hash of all that decides which spheres are cut.
 std::uint64_t variant_of(const SphereCut& cut) {
     std::uint64_t hash = keyed(bits(cut.smallest), cut.eye.has_value());
     if (cut.eye)
         for (int axis = 0; axis < 3; ++axis) hash = keyed(hash, bits((*cut.eye)[axis]));
-    return hash | 1;  // 0 says that the eye does not matter
+    // Never 0, which says that the eye does not matter.
+    return hash | 1;
 }
 
 }  // namespace
 
-Result<ModelParticles> spheres_particles(const SpheresCloud& cloud, const ModelRequest& request,
-                                         const Deadline& deadline) {
+Result<ModelParticles> make_particles(const SpheresCloud& cloud, const ModelRequest& request,
+                                      const Deadline& deadline) {
     const SphereTree tree(cloud, request.key, request.place, request.time);
     // Coarse: spheres of less than 4% of the first are not even counted.
     const auto chosen =
@@ -116,4 +123,4 @@ Result<ModelParticles> spheres_particles(const SpheresCloud& cloud, const ModelR
     return made;
 }
 
-}  // namespace awan
+}  // namespace awan::spheres

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace awan {
+namespace awan::spheres {
 
 glm::dvec3 child_offset(int child, const SphereDraw& draw, const glm::dvec3& axes,
                         const glm::dvec3& across, double up) {
@@ -27,8 +27,8 @@ namespace {
 
 SphereDraw draw_of(std::uint64_t key, const Span& ratios, const Span& shifts) {
     const double first = unit_open(static_cast<std::uint32_t>(key >> 32));
-    const double second =
-        (static_cast<double>(key & 0x7fffffffu) + 0.5) * 0x1p-31;  // the bit above is the side's
+    // 31 bits; the bit above them is the side's.
+    const double second = (static_cast<double>(key & 0x7fffffffu) + 0.5) * 0x1p-31;
     return {ratios.low + (ratios.high - ratios.low) * first,
             shifts.low + (shifts.high - shifts.low) * second, (key >> 31 & 1u) != 0 ? 1.0 : -1.0};
 }
@@ -60,14 +60,15 @@ SphereTree::SphereTree(const SpheresCloud& cloud, std::uint64_t key, std::uint64
     if (!cloud.morph || !(time > 0)) return;
     const SpheresMorph& morph = *cloud.morph;
     const double steps = std::min(time / morph.duration, static_cast<double>(morph.steps));
-    // The step that is going on; the last one stays at its end.
+    // The morph that is going on. After the last one, its end.
     const double begun = std::min(std::floor(steps), static_cast<double>(morph.steps) - 1);
     weight_ = steps - begun;
     const auto step = static_cast<std::uint64_t>(begun);
     if (step > 0) root_.key = keyed(morph.seed + step - 1, place);
     root_.other = keyed(morph.seed + step, place);
     morphs_ = weight_ > 0;
-    if (weight_ == 1) {  // one realisation is enough
+    // At the end of a morph only the realisation `to` is needed.
+    if (weight_ == 1) {
         root_.key = root_.other;
         morphs_ = false;
     }
@@ -97,4 +98,4 @@ std::array<SphereNode, kSphereChildren> SphereTree::children(const SphereNode& p
     return nodes;
 }
 
-}  // namespace awan
+}  // namespace awan::spheres

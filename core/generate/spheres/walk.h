@@ -1,4 +1,4 @@
-// Going through a hierarchy of spheres on all threads, each with nothing but its way down in memory.
+// Goes through a hierarchy of spheres on all threads, each of which holds nothing but its way down in memory.
 #pragma once
 
 #include <atomic>
@@ -8,9 +8,10 @@
 #include "core/base/parallel.h"
 #include "core/generate/spheres/subdivision.h"
 
-namespace awan {
+namespace awan::spheres {
 
-// Subtrees that are done apart: those of the spheres of level 3, and what is above or ends above them as the last one.
+// The pieces of work: the subtrees below the spheres of level 3, and as the last one what lies above, or ends above
+// them.
 inline constexpr std::size_t kWalkSubtrees = 125;
 inline constexpr std::size_t kWalkTasks = kWalkSubtrees + 1;
 
@@ -44,8 +45,9 @@ void above(const SphereTree& tree, const SphereNode& node, int level, std::size_
 
 }  // namespace walk_detail
 
-// Calls divide(node, level, task) -> bool for the root and for the children of every sphere for which it said true (leaves are
-// not divided whatever it says). Of one task: parents first, in order, on one thread. False when the deadline was over.
+// Calls divide(node, level, task) -> bool for the root, and for the children of every sphere for which it said true
+// (leaves are not divided whatever it says). Within one task: parents first, in order, on one thread. False when the
+// deadline was over.
 template <typename Divide>
 bool walk_spheres(const SphereTree& tree, int threads, const Deadline& deadline,
                   const Divide& divide) {
@@ -63,4 +65,4 @@ bool walk_spheres(const SphereTree& tree, int threads, const Deadline& deadline,
     return !late;
 }
 
-}  // namespace awan
+}  // namespace awan::spheres

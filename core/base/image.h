@@ -1,3 +1,4 @@
+// A picture as the eye passes give it.
 #pragma once
 
 #include <cstddef>
@@ -5,8 +6,8 @@
 
 namespace awan {
 
-// Linear radiance, premultiplied alpha, row by row from the top left; 4 floats (r, g, b, a) a
-// pixel. alpha = 1 - transmittance, or 1 everywhere when the sky was drawn behind.
+// Linear radiance with premultiplied alpha, row by row from the top left; 4 floats (r, g, b, a) a pixel.
+// alpha = 1 - transmittance, or 1 everywhere where the sky was drawn behind.
 struct Image {
     int width = 0;
     int height = 0;

@@ -1,0 +1,187 @@
+#include "core/draw/march_room.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/draw/march_targets.h"
+#include "core/survey/projection.h"
+
+namespace awan {
+namespace {
+
+// About the most samples of a ray: where its matter is longer than that, all steps are stretched.
+constexpr double kMostSamples = 2048;
+// The longest step over the shortest. Matter in which steps get as short as this is so dense that rays soon end.
+constexpr double kFinest = 4096;
+
+// A tile's pixels between the four corners around them.
+Bilinear bilinear_of(int tile, int spacing) {
+    Bilinear b;
+    const int x = tile % 4 * kTileSide, y = tile / 4 * kTileSide;
+    const int i = x / spacing, j = y / spacing, side = kBlockSide / spacing + 1;
+    for (int c = 0; c < 4; ++c) {
+        b.corner[c] = (j + c / 2) * side + i + c % 2;
+        for (int lane = 0; lane < simd::kLanes; ++lane) {
+            const float u = (static_cast<float>(x - i * spacing + lane % 4) + 0.5f) /
+                            static_cast<float>(spacing);
+            const float v = (static_cast<float>(y - j * spacing + lane / 4) + 0.5f) /
+                            static_cast<float>(spacing);
+            b.weight[c][lane] = (c % 2 == 1 ? u : 1 - u) * (c / 2 == 1 ? v : 1 - v);
+        }
+    }
+    return b;
+}
+
+BlockFrame frame_of(const MarchScene& scene, int left, int top) {
+    BlockFrame frame;
+    frame.forward = frame_direction(scene, left + kBlockSide / 2, top + kBlockSide / 2);
+    const SideAxes side = side_axes(frame.forward);
+    frame.right = side.u;
+    frame.up = side.v;
+    const double tan = scene.view.tan_half_fov, wide = tan * scene.view.aspect;
+    frame.du = 2 * wide / scene.width;
+    frame.dv = -2 * tan / scene.height;
+    frame.u0 = left * frame.du - wide;
+    frame.v0 = top * frame.dv + tan;
+    return frame;
+}
+
+SunInBlock sun_in(const BlockFrame& frame, const MarchScene& scene) {
+    const glm::dvec3 sun = to_frame(scene.view, scene.to_sun);
+    return {static_cast<float>(glm::dot(sun, frame.right)),
+            static_cast<float>(glm::dot(sun, frame.up)),
+            static_cast<float>(glm::dot(sun - frame.forward, frame.forward))};
+}
+
+// A tile before its first sample. `ray`: its lanes' directions.
+void clear(Tile& tile, const simd::Floats ray[3], bool in_picture) {
+    tile.x = ray[0];
+    tile.y = ray[1];
+    tile.z = ray[2];
+    tile.alive = in_picture;
+    tile.started = false;
+    tile.depth = tile.red = tile.green = tile.blue = simd::Floats{};
+    tile.seen_air = tile.seen_lost = simd::Floats{};
+    tile.left = tile.scaled_left = simd::all(1.0f);
+}
+
+void place_tiles(const MarchScene& scene, const PlacedBlock& block, BlockRoom& room) {
+    const MarchKernels& kernels = march_kernels();
+    float x[simd::kLanes], y[simd::kLanes];
+    for (int t = 0; t < kTiles; ++t) {
+        x[t] = static_cast<float>(t % 4 * kTileSide + kTileSide / 2);
+        y[t] = static_cast<float>(t / 4 * kTileSide + kTileSide / 2);
+    }
+    kernels.rays(block.frame, x, y, room.middle);
+    for (int t = 0; t < kTiles; ++t) {
+        const int across = t % 4 * kTileSide, down = t / 4 * kTileSide;
+        for (int lane = 0; lane < simd::kLanes; ++lane) {
+            x[lane] = static_cast<float>(across + lane % 4) + 0.5f;
+            y[lane] = static_cast<float>(down + lane / 4) + 0.5f;
+        }
+        simd::Floats ray[3];
+        kernels.rays(block.frame, x, y, ray);
+        simd::Floats apart{};
+        for (int axis = 0; axis < 3; ++axis) {
+            const simd::Floats off = ray[axis] - room.middle[axis][t];
+            apart += off * off;
+        }
+        // A little more, for rounding.
+        room.spread[t] = std::sqrt(simd::largest(apart)) * 1.001f;
+        clear(room.tiles[t], ray,
+              block.left + across < scene.width && block.top + down < scene.height);
+    }
+}
+
+// The block's rays in the tile of detail (march_detail.h).
+DetailRays detail_rays(const MarchScene& scene, const BlockFrame& frame, double reference) {
+    const DetailField& field = *scene.detail;
+    DetailRays rays;
+    rays.field = &field;
+    rays.reference = static_cast<float>(reference);
+    rays.far = static_cast<float>(
+        std::min(field.bump * scene.height / (2 * scene.view.tan_half_fov), 1e30));
+    const glm::dvec3 middle = to_scene(scene.view, frame.forward);
+    const glm::dvec3 start = field.to_tile * (scene.view.eye + reference * middle - field.origin);
+    const glm::dvec3 axes[3] = {field.to_tile * to_scene(scene.view, frame.right),
+                                field.to_tile * to_scene(scene.view, frame.up),
+                                field.to_tile * middle};
+    for (int axis = 0; axis < 3; ++axis) {
+        rays.start[axis] =
+            static_cast<float>(start[axis] - kDetailSide * std::floor(start[axis] / kDetailSide));
+        rays.right[axis] = static_cast<float>(axes[0][axis]);
+        rays.up[axis] = static_cast<float>(axes[1][axis]);
+        rays.middle[axis] = static_cast<float>(axes[2][axis]);
+    }
+    return rays;
+}
+
+// The length along a ray that any of the block's particles may fill, scene units; `items` nearest first.
+double filled_length(const std::vector<SeenParticle>& seen,
+                     const std::vector<std::uint32_t>& items) {
+    double length = 0, end = -1e300;
+    for (const std::uint32_t item : items) {
+        const SeenParticle& one = seen[item];
+        const double last = one.nearest + 2 * static_cast<double>(one.reach);
+        length += std::max(0.0, last - std::max(end, one.nearest));
+        end = std::max(end, last);
+    }
+    return length;
+}
+
+}  // namespace
+
+void BlockRoomDelete::operator()(BlockRoom* room) const {
+    delete room;
+}
+
+BlockRoomPtr make_block_room() {
+    BlockRoomPtr room(new BlockRoom);
+    for (int s = 0; s < kSpacingCount; ++s)
+        for (int t = 0; t < kTiles; ++t) room->bilinear[s][t] = bilinear_of(t, kSpacings[s]);
+    return room;
+}
+
+PlacedBlock place_block(const MarchScene& scene, int block_x, int block_y, BlockRoom& room) {
+    PlacedBlock block;
+    block.left = block_x * kBlockSide;
+    block.top = block_y * kBlockSide;
+    block.frame = frame_of(scene, block.left, block.top);
+    block.sun = sun_in(block.frame, scene);
+    place_tiles(scene, block, room);
+    return block;
+}
+
+void place_particles(const MarchScene& scene, const std::vector<std::uint32_t>& items,
+                     PlacedBlock& block, BlockRoom& room) {
+    const std::vector<SeenParticle>& seen = *scene.seen;
+    const BlockFrame& frame = block.frame;
+    // A multiple of the step, so that all blocks have samples at the same distances.
+    block.reference =
+        std::max(0.0, std::floor(seen[items.front()].nearest / scene.step) * scene.step);
+    BlockParticles& p = room.particles;
+    p.resize(items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        const SeenParticle& one = seen[items[i]];
+        const double along = glm::dot(one.q, frame.forward);
+        p.x[i] = static_cast<float>(glm::dot(one.q, frame.right));
+        p.y[i] = static_cast<float>(glm::dot(one.q, frame.up));
+        p.along[i] = static_cast<float>(along);
+        p.place[i] = static_cast<float>(along - block.reference);
+        p.near[i] = static_cast<float>(one.nearest - block.reference);
+        p.s[i] = one.s;
+        p.extinction[i] = one.extinction;
+        p.reach[i] = one.reach;
+    }
+    // A little more than the slope of the block's corners to its middle.
+    const double slope = frame.du * kBlockSide * 0.75;
+    fineness_in_cone(scene.islands, frame.forward, slope, {scene.apart, scene.step}, room.fineness);
+    if (scene.detail != nullptr) block.detail = detail_rays(scene, frame, block.reference);
+    const double finest = finest_step(room.fineness), length = filled_length(seen, items);
+    for (double samples = finest; samples * kMostSamples < length; samples *= 2) block.stretch *= 2;
+    block.longest = scene.step * block.stretch;
+    block.shortest = finest / kFinest;
+}
+
+}  // namespace awan

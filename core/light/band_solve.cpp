@@ -1,0 +1,88 @@
+#include "core/light/band_solve.h"
+
+#include "core/light/diffusion.h"
+#include "core/light/gmres.h"
+
+namespace awan {
+namespace {
+
+// Of the preconditioner's own solve. It need not be good: it is one of many steps.
+constexpr double kDiffusionTolerance = 0.05;
+// Vectors that GMRES keeps.
+constexpr int kBasis = 12;
+
+// The source that the sun's beam is to the grid, harmonics floats a cell.
+std::vector<float> scattered_beam(const BandProblem& problem, std::size_t harmonics_count) {
+    const Matter& matter = problem.matter;
+    const std::vector<float>& beam = *problem.beam;
+    const std::array<double, kHarmonics> y = harmonics(problem.beam_direction);
+    std::vector<float> source(beam.size() * harmonics_count);
+    for (std::size_t i = 0; i < beam.size(); ++i)
+        for (std::size_t m = 0; m < harmonics_count; ++m)
+            source[i * harmonics_count + m] =
+                beam[i] * matter.albedo[i] *
+                static_cast<float>(problem.split.outside_peak(kOrderOf[m]) * y[m]);
+    return source;
+}
+
+// From moments of the radiance to those of the source function.
+LightBand band_of(const BandProblem& problem, const std::vector<float>& moments) {
+    const Matter& matter = problem.matter;
+    const auto count = static_cast<std::size_t>(matter.grid.harmonics);
+    LightBand band;
+    band.moments.resize(matter.grid.size());
+    for (std::size_t i = 0; i < band.moments.size(); ++i) {
+        band.moments[i].fill(0);
+        for (std::size_t m = 0; m < count; ++m)
+            band.moments[i][m] = matter.albedo[i] *
+                                 static_cast<float>(problem.split.outside_peak(kOrderOf[m])) *
+                                 moments[i * count + m];
+    }
+    return band;
+}
+
+}  // namespace
+
+// Written for the moments phi alone, the equation is (1 - K) phi = right: K scatters the light of phi and sweeps it
+// through the grid, `right` are the moments of the light that has not been scattered yet on the grid.
+Result<SolvedBand> solve_band(const BandProblem& problem, const Ordinates& ordinates, int threads,
+                              const Deadline& deadline) {
+    const Matter& matter = problem.matter;
+    const auto count = static_cast<std::size_t>(matter.grid.harmonics);
+    const std::size_t cells = matter.grid.size();
+    SweepSpace space;
+    std::vector<float> source = problem.beam != nullptr ? scattered_beam(problem, count)
+                                                        : std::vector<float>(cells * count);
+    std::vector<float> right(source.size());
+    sweep(matter.grid, ordinates, source, problem.inflow, threads, space, right,
+          problem.from_below);
+
+    std::array<float, kHarmonics> moment{};
+    for (std::size_t m = 0; m < count; ++m)
+        moment[m] = static_cast<float>(problem.split.moment[kOrderOf[m]]);
+    const Product one_minus_k = [&](std::span<const float> from, std::span<float> to) -> Status {
+        if (auto error = deadline.over()) return error;
+        for (std::size_t i = 0; i < cells; ++i)
+            for (std::size_t m = 0; m < count; ++m)
+                source[i * count + m] = matter.scattered[i] * moment[m] * from[i * count + m];
+        sweep(matter.grid, ordinates, source, {}, threads, space, to);
+        for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i] - to[i];
+        return std::nullopt;
+    };
+    // What a vector of moments scatters evenly, spread by diffusion.
+    const Diffusion diffusion = make_diffusion(matter.grid.cells, matter.grid.depth,
+                                               matter.scattered, problem.split.moment[1]);
+    std::vector<float> unsettled(cells);
+    const auto diffuse = [&](std::span<const float> vector, std::span<float> addition) {
+        for (std::size_t i = 0; i < cells; ++i)
+            unsettled[i] = matter.scattered[i] * vector[i * count];
+        solve_diffusion(diffusion, unsettled, kDiffusionTolerance, addition);
+    };
+    std::vector<float> moments(source.size());
+    const auto outcome = gmres(one_minus_k, {count, diffuse}, right,
+                               {problem.tolerance, problem.max_sweeps, kBasis}, threads, moments);
+    if (!outcome.ok()) return outcome.error();
+    return SolvedBand{band_of(problem, moments), outcome->products + 1, outcome->residual};
+}
+
+}  // namespace awan

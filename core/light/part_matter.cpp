@@ -1,0 +1,140 @@
+#include "core/light/part_matter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/parallel.h"
+#include "core/survey/lattice_detail.h"
+
+namespace awan {
+namespace {
+
+// Optical depth of matter that the grid may leave outside. Up to here what smaller cells gain is more than what the
+// matter outside loses. Of a thin cloud's depth it is no more than a share.
+constexpr double kLeftOut = 0.5;
+constexpr double kLeftOutShare = 0.02;
+
+// Most work (lattice_work, core/survey/lattice.h) to fill the grid, and the finer one that the beam is taken from.
+// A great many particles, each large beside a cell, pass it: what they add up to is smooth, and coarser cells show it.
+constexpr double kMaxCoarseWork = 6e8;
+constexpr double kMaxFineWork = 3e8;
+
+Lattice above(double floor, Lattice lattice) {
+    if (!(lattice.origin.y < floor)) return lattice;
+    const double top = lattice.origin.y + lattice.cell * lattice.cells.y;
+    lattice.origin.y = floor;
+    lattice.cells.y = std::max(1, static_cast<int>(std::ceil((top - floor) / lattice.cell)));
+    return lattice;
+}
+
+// Means over blocks of sub^3 cells. `cells`: how many blocks.
+std::vector<float> block_means(const std::vector<float>& fine, const glm::ivec3& cells, int sub) {
+    std::vector<float> means(fine.size() / static_cast<std::size_t>(sub * sub * sub));
+    const auto nx = static_cast<std::size_t>(cells.x), ny = static_cast<std::size_t>(cells.y);
+    const auto s = static_cast<std::size_t>(sub);
+    for (std::size_t i = 0; i < fine.size(); ++i) {
+        const std::size_t x = i % (nx * s), y = i / (nx * s) % (ny * s), z = i / (nx * s * ny * s);
+        means[((z / s) * ny + y / s) * nx + x / s] += fine[i];
+    }
+    const auto scale = static_cast<float>(1.0 / (sub * sub * sub));
+    for (float& mean : means) mean *= scale;
+    return means;
+}
+
+std::size_t index(const glm::ivec3& cells, int i, int j, int k) {
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(cells.y) +
+            static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(cells.x) +
+           static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+PartGrid grid_of_part(const LightPart& part, int cells, double floor, int threads) {
+    PartGrid grid;
+    const double rest = std::min(kLeftOut, kLeftOutShare * part.deepest);
+    grid.lattice = above(floor, lattice_around_matter(part.own, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
+                                                      rest, cells, threads, kMaxCoarseWork));
+    const Lattice& lattice = grid.lattice;
+    grid.sub = cells <= 32 ? 3 : 2;
+    while (grid.sub > 1 &&
+           lattice_work(part.all, lattice.cell / grid.sub, lattice.cells * grid.sub) > kMaxFineWork)
+        --grid.sub;
+    grid.fine = lattice;
+    grid.fine.cell = lattice.cell / grid.sub;
+    grid.fine.cells = lattice.cells * grid.sub;
+    grid.fine_extinction = extinction_in(part.all, grid.fine, threads);
+    if (part.all.detail) {
+        const auto start = Deadline::Clock::now();
+        add_detail(part.all, grid.fine, threads, grid.fine_extinction);
+        grid.detail_ms = ms_since(start);
+    }
+    grid.extinction = block_means(grid.fine_extinction, lattice.cells, grid.sub);
+    return grid;
+}
+
+// Of a fine cell of depth x along the beam, whose front the beam reaches with the scaled depth e behind it, the beam
+// leaves the integral over the cell: exp(-e) (1 - exp(-k x)) / k with k = `scaled`. It is taken along the beam and not
+// from the cell's middle, so that a thick cell does not get more light than there is.
+std::vector<float> beam_source(const PartGrid& grid, const SunDepth& sun, double scaled,
+                               int threads, const Deadline& deadline) {
+    std::vector<float> source(grid.lattice.size());
+    const glm::ivec3 n = grid.fine.cells;
+    const int sub = grid.sub;
+    const auto left_in = [&](int i, int j, int k) {
+        const auto extinction = static_cast<double>(grid.fine_extinction[index(n, i, j, k)]);
+        if (!(extinction > 0)) return 0.0;
+        const glm::dvec3 middle = grid.fine.at(glm::dvec3(i, j, k) + 0.5);
+        const double across = scaled * extinction * grid.fine.cell;
+        const double entry = std::max(scaled * depth_at(sun, middle) - 0.5 * across, 0.0);
+        return -std::expm1(-across) * std::exp(-entry) / scaled;
+    };
+    // A cell's side is `sub` fine sides long: the mean of sub^3 fine cells, sub times as deep.
+    parallel_for(threads, static_cast<std::size_t>(grid.lattice.cells.z), [&](std::size_t z) {
+        if (deadline.over()) return;
+        const int layer = static_cast<int>(z);
+        for (int k = layer * sub; k < (layer + 1) * sub; ++k)
+            for (int j = 0; j < n.y; ++j)
+                for (int i = 0; i < n.x; ++i)
+                    source[index(grid.lattice.cells, i / sub, j / sub, layer)] +=
+                        static_cast<float>(left_in(i, j, k) / (sub * sub));
+    });
+    return source;
+}
+
+std::vector<glm::vec3> colored_albedo(const ParticleSet& particles, const Lattice& lattice,
+                                      const std::vector<float>& extinction, double white,
+                                      int threads) {
+    const auto all = static_cast<float>(white);
+    std::vector<glm::vec3> albedo(extinction.size(), glm::vec3(all));
+    for (int c = 0; c < 3; ++c) {
+        const std::vector<float> tinted = colored_extinction_in(particles, lattice, c, threads);
+        for (std::size_t i = 0; i < extinction.size(); ++i)
+            if (extinction[i] > 0)
+                albedo[i][c] = all * std::clamp(tinted[i] / extinction[i], 0.F, 1.F);
+    }
+    return albedo;
+}
+
+Matter matter_of(const PartGrid& grid, const ScatteringSplit& split,
+                 const std::vector<glm::vec3>& albedo, int channel) {
+    const double f = split.peak_share;
+    Matter matter;
+    matter.grid.cells = grid.lattice.cells;
+    matter.grid.harmonics = split.harmonics;
+    matter.grid.depth.resize(grid.extinction.size());
+    matter.albedo.resize(grid.extinction.size());
+    matter.scattered.resize(grid.extinction.size());
+    for (std::size_t i = 0; i < grid.extinction.size(); ++i) {
+        const double a = albedo.empty() ? split.albedo : static_cast<double>(albedo[i][channel]);
+        const double depth =
+            std::min(static_cast<double>(grid.extinction[i]) * grid.lattice.cell * (1 - a * f),
+                     static_cast<double>(kMaxCellDepth));
+        matter.grid.depth[i] = static_cast<float>(depth);
+        matter.albedo[i] = static_cast<float>(a);
+        matter.scattered[i] = static_cast<float>(depth * a * (1 - f) / (1 - a * f));
+    }
+    return matter;
+}
+
+}  // namespace awan

@@ -1,0 +1,19 @@
+#include "core/light/transport_light.h"
+
+namespace awan {
+
+std::size_t TransportLight::bytes() const {
+    std::size_t bytes = sizeof *this + sun.depth.capacity() * sizeof(float) +
+                        albedo.capacity() * sizeof(glm::vec3) + ground.bytes();
+    bytes += bands.capacity() * sizeof(LightBand);
+    for (const LightBand& band : bands) bytes += band.moments.capacity() * sizeof(band.moments[0]);
+    bytes +=
+        regions.nodes.capacity() * sizeof(IslandNode) + regions.list.capacity() * sizeof(Island);
+    // Room for islands that is not in use yet, and those in use, whose `light` counts its own size.
+    bytes += (islands.capacity() - islands.size()) * sizeof(LightIsland);
+    for (const LightIsland& island : islands)
+        bytes += sizeof island - sizeof island.light + island.light.bytes();
+    return bytes;
+}
+
+}  // namespace awan

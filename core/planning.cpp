@@ -1,0 +1,40 @@
+#include "core/planning.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/generate/generate.h"
+#include "core/looks/looks.h"
+#include "core/plan/island_settings.h"
+
+namespace awan {
+
+Result<Planned> plan_still(const Scene& scene, int threads, const Deadline& deadline,
+                           const MachineSpeed& speed, const std::optional<DetailFigures>& detail) {
+    const bool look = scene->look != Look::kPhysical;
+    Planned planned;
+    auto particles =
+        timed(planned.times.generate_ms, [&] { return generate(scene, threads, deadline, look); });
+    if (!particles.ok()) return particles.error();
+    planned.particles = *std::move(particles);
+    auto surveyed = timed(planned.times.survey_ms,
+                          [&] { return survey(scene, planned.particles, threads, deadline); });
+    if (!surveyed.ok()) return surveyed.error();
+    planned.survey = *std::move(surveyed);
+    if (detail) planned.survey.detail = *detail;
+    planned.plan = plan(scene, planned.survey, threads, speed);
+    if (look) add_to_predictions(planned.plan, look_time_ms(scene, planned.survey.view, threads));
+    // How long procedural clouds take to make is known only by making them.
+    if (std::any_of(scene->clouds.begin(), scene->clouds.end(), is_procedural))
+        add_to_predictions(planned.plan, planned.times.generate_ms);
+    if (planned.plan.predicted.rung->method == Method::kMarch)
+        planned.plan.transport.islands = island_cells(planned.plan.transport, planned.survey);
+    return planned;
+}
+
+void add_to_predictions(Plan& plan, double ms) {
+    plan.predicted.time_ms += ms;
+    for (RungForecast& forecast : plan.forecasts) forecast.time_ms += ms;
+}
+
+}  // namespace awan

@@ -1,0 +1,47 @@
+// From a scene to the plan of one picture of it: generate, survey, plan, in this order, with what each took.
+#pragma once
+
+#include <optional>
+
+#include "core/base/deadline.h"
+#include "core/generate/detail.h"
+#include "core/generate/particle_set.h"
+#include "core/plan/effect_times.h"
+#include "core/plan/plan.h"
+#include "core/survey/survey.h"
+
+namespace awan {
+
+// Wall time, ms.
+struct StageTimes {
+    double generate_ms = 0, survey_ms = 0, light_ms = 0, draw_ms = 0;
+    // Parts of the above; of effects that are on.
+    EffectTimes effects;
+};
+
+struct Planned {
+    ParticleSet particles;
+    Survey survey;
+    Plan plan;
+    StageTimes times;
+};
+
+// Plans a picture of the scene at its own time; a sequence that it may have is not looked at. detail: the figures from
+// which the cloud's detail is made, where they are not the survey's own (all frames of a sequence share theirs).
+// threads >= 1. Errors: of generate() and survey().
+Result<Planned> plan_still(const Scene& scene, int threads, const Deadline& deadline,
+                           const MachineSpeed& speed, const std::optional<DetailFigures>& detail);
+
+// Adds `ms` to what the plan predicts, for the chosen rung and for every other: work that all of them share.
+void add_to_predictions(Plan& plan, double ms);
+
+// Runs a stage and notes its wall time.
+template <typename Stage>
+auto timed(double& milliseconds, const Stage& stage) {
+    const auto start = Deadline::Clock::now();
+    auto result = stage();
+    milliseconds = ms_since(start);
+    return result;
+}
+
+}  // namespace awan

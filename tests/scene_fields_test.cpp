@@ -1,0 +1,337 @@
+// Every field of the scene document counts: whichever is changed alone, the scene has another fingerprint, and the
+// light another key where light depends on it. Nothing here lists fields: the documents below set all that the parser
+// knows (which the parser's own refusals tell), and each value in them is changed in turn. A field that is added to a
+// scene fails the first test until a document below sets it, and the second until the fingerprint has it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/scene/fingerprint.h"
+#include "core/scene/scene.h"
+#include "core/scene/validate.h"
+#include "server/document/json.h"
+
+namespace awan {
+namespace {
+
+using nlohmann::json;
+
+// Together they set every field of every object.
+const char* const kDocuments[] = {
+    R"({
+"clouds": [
+  {"cubes": [{"particles": 40, "size": [3, 1, 2], "center": [1, 2, 3], "radius": 1.5, "density": 0.7},
+             {"particles": 10, "size": [1, 1, 1], "center": [0, 5, 0], "radius": 1}],
+   "translate": [1, 2, 3], "velocity": [0.5, 0.25, 1], "scale": 2, "rotate_y": 30},
+  {"model": "cubes", "cubes": [{"particles": 5, "size": [1, 1, 1], "center": [0, 0, 9], "radius": 1}],
+   "fill": "gardner", "density": 0.3, "seed": 17},
+  {"model": "particles", "positions": [[1, 2, 3], [4, 5, 6]], "radii": [1, 2], "densities": [0.5, 0.6],
+   "colors": [[0.9, 0.8, 0.7], [0.6, 0.5, 0.4]]},
+  {"model": "automaton", "automaton": {
+     "cells": [40, 20, 30], "cell": 4,
+     "ellipsoids": [{"center": [20, 8, 15], "radii": [8, 6, 7]}, {"center": [12, 8, 11], "radii": [5, 6, 4]}],
+     "random": {"count": 3, "smallest": [4, 4, 4], "largest": [7, 6, 7], "level": 4},
+     "overlap": "first", "base": 4, "humidity": 0.2, "activation": 0.01, "extinction": 0.1,
+     "outside_extinction": 0.3,
+     "wind": {"layers": {"constant": 0.1, "linear": 0.02, "quadratic": 0.001}, "mutation": 0.2,
+              "ellipsoids": [{"from": 1, "to": 15, "constant": 0.2, "linear": 0.03, "quadratic": 0.002}]},
+     "warm_up": 30, "steps_per_second": 2, "steps": 500, "smooth": [1, 2, 1], "smooth_steps": 3,
+     "metaball_radius": 2.5, "threshold": 0.05, "most_particles": 9000}},
+  {"model": "spheres", "spheres": {
+     "kind": "cumulus", "levels": 4, "size": [12, 6, 9], "visual_range": 30, "ratio_min": 0.3,
+     "ratio_max": 0.6, "shift_min": 0.7, "shift_max": 0.95, "scaling": "every", "growth": "down",
+     "morph": {"seed": 9, "duration": 8, "steps": 6}}},
+  {"model": "implicit", "implicit": {
+     "preset": "cirrus", "interpolation": "linear", "base": -3, "amount": 0.8, "exponent": 1.2, "blend": 0.4,
+     "displacement": 0.3, "displace": "diagonal", "noise_size": 1.5, "octaves": 4, "gain": 0.45, "stretch": 2,
+     "jet": [0.5, 0.25, 0.125], "jet_turbulence": 0.6, "warp_from": -20, "warp_to": 40,
+     "attractors": [{"at": [1, 2, 3], "strength": 0.5, "reach": 9}],
+     "vortices": [{"at": [3, 2, 1], "axis": [0.2, 1, 0.3], "angle": 40, "reach": 8}],
+     "flow": {"min": [-9, -8, -7], "max": [9, 8, 7], "size": [2, 1, 1], "vectors": [[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]]},
+     "ripple": [3, 4, 5], "ripple_depth": 0.7, "ripple_turbulence": 0.9, "swirl": 5, "swirl_path": "printed",
+     "resolution": 40, "threshold": 0.01,
+     "primitives": [
+       {"shape": "sphere", "center": [1, 2, 3], "radius": 6, "core": 1, "weight": 0.9,
+        "keys": [{"time": -2, "center": [1, 1, 1], "radius": 5, "weight": 0.5},
+                 {"time": 8, "center": [3, 2, 2], "radius": 7, "weight": 0.75}]},
+       {"shape": "ellipsoid", "center": [5, 0, 0], "radius": 4, "radii": [2, 1, 1.5], "rotate": [10, 20, 30]},
+       {"shape": "sphere", "radius": 2},
+       {"shape": "segment", "radius": 3, "points": [[0, 0, 0], [4, 1, 0], [8, 0, 1]]}]}},
+  {"model": "implicit", "implicit": {
+     "growth": {"seeds": 5, "most": 20, "radius": 12, "shrink": 0.8, "weight": 0.9, "center": [1, 2, 3],
+                "spread": [2, 1, 1.5], "velocity": [0.01, 0.03, 0.02], "force": [0.001, 0.006, 0.002],
+                "turbulence": 0.04, "drag": 0.1, "lifetime": 20, "rate": 0.2, "duration": 50}}},
+  {"model": "ellipsoids", "ellipsoids": {
+     "texture": {"form": "printed", "terms": 5, "frequency_x": 0.3, "frequency_z": 0.4, "offset": 0.9},
+     "shading": {"specular": 0.2, "texture": 0.3, "ambient": 0.4, "shininess": 9},
+     "threshold": 0.1, "threshold_edge": 0.6, "range": 0.4,
+     "plane": {"altitude": 50, "extent": 300, "thickness": 3, "threshold": 0.2, "range": 0.5, "density": 0.8,
+               "resolution": 60,
+               "texture": {"form": "clean", "terms": 6, "frequency_x": 0.05, "frequency_z": 0.07, "offset": 0.8}},
+     "formations": [{"kind": "combined", "count": 6, "center": [1, 2, 3], "radii": [5, 2, 4], "variation": 0.3,
+                     "link": 0.4, "heading": 30, "spread": 50}],
+     "ellipsoids": [{"center": [3, 2, 1], "radii": [6, 3, 5], "rotate_y": 20, "threshold": 0.15,
+                     "threshold_edge": 0.7, "range": 0.3}],
+     "drift": [0.4, 0.1, 0.2], "density": 0.9, "resolution": 30}}
+],
+"fill": "printed", "seed": 5, "density": 0.25, "time": 1.5, "sequence": {"from": -4, "to": 12, "frames": 9},
+"medium": {"albedo": 0.95, "g": 0.7, "phase": "cornette-shanks"},
+"sun": {"elevation": 30, "azimuth": 40, "color": [0.9, 0.8, 0.7], "intensity": 8},
+"sky": {"model": "gradient", "zenith": [0.1, 0.2, 0.3], "horizon": [0.4, 0.5, 0.6], "intensity": 0.9},
+"ground": {"height": -30, "albedo": [0.1, 0.2, 0.3]},
+"haze": {"extinction": 0.001, "height": -20, "scale_height": 80, "albedo": [0.9, 0.8, 0.7], "g": 0.5},
+"detail": {"amount": 0.6, "size": 1.25},
+"camera": {"eye": [1, 2, 90], "target": [0, 1, 2], "up": [0.1, 1, 0.05], "fov": 35},
+"image": {"width": 320, "height": 200, "format": "exr", "background": "transparent", "exposure": 0.5,
+          "precision": "float"},
+"effects": {"self_shadow": true, "multiple_scattering": false, "view_extinction": true, "sky_light": false,
+            "ground_light": true, "ground_shadow": false, "sun_color": true, "aerial_perspective": false,
+            "light_shafts": true, "detail": false, "interior": false, "texture": false},
+"accuracy": {"error": 0.05}
+})",
+    R"({
+"cubes": [{"particles": 40, "size": [3, 1, 2], "center": [1, 2, 3], "radius": 1.5, "density": 2}],
+"sun": {"direction": [0.3, 0.5, 0.4], "color": "auto"},
+"sky": {"model": "physical", "turbidity": 3, "intensity": 0.7},
+"ground": {"albedo": 0.4}, "haze": {"extinction": 0.01, "scale_height": 20, "albedo": 0.8},
+"image": {"exposure": "auto"}, "accuracy": {"time_ms": 200}
+})",
+    R"({
+"clouds": [{"model": "automaton", "automaton": {"random": {"level": "any"}}},
+           {"model": "ellipsoids", "ellipsoids": {"plane": "none", "formations": [{"kind": "vertical"}]}}],
+"effects": "auto", "accuracy": {"rung": "transport-24"}
+})",
+    R"({"clouds": [{"model": "spheres", "spheres": {"kind": "cirrus"}}], "look": "ostroushko"})",
+    R"({"clouds": [{"model": "implicit", "implicit": {"preset": "stratus"}}]})"};
+
+// Values of words, each tried where a word stands until one is taken.
+const char* const kWords[] = {"uniform",
+                              "gardner",
+                              "printed",
+                              "henyey-greenstein",
+                              "cornette-shanks",
+                              "auto",
+                              "none",
+                              "png",
+                              "exr",
+                              "sky",
+                              "transparent",
+                              "half",
+                              "float",
+                              "first",
+                              "deepest",
+                              "any",
+                              "cumulus",
+                              "cirrus",
+                              "every",
+                              "up",
+                              "down",
+                              "stratus",
+                              "smooth",
+                              "linear",
+                              "every_way",
+                              "diagonal",
+                              "steady",
+                              "sphere",
+                              "cylinder",
+                              "segment",
+                              "horizontal",
+                              "vertical",
+                              "combined",
+                              "clean",
+                              "physical",
+                              "gradient",
+                              "ostroushko",
+                              "transport-32"};
+
+// Fields that no document can set, by the names on the way to them: why.
+const std::map<std::string, std::string> kCannotBeSet = {
+    {"/clouds/cubes/texture", "refused: the texture system is not in this version"},
+    {"/cubes/texture", "refused: the texture system is not in this version"}};
+
+// Values that cannot be changed alone: why.
+const std::map<std::string, std::string> kStandsWithOthers = {
+    {"/clouds/model", "says which of its neighbours are allowed"},
+    {"/sky/model", "says which of its neighbours are allowed"},
+    {"/clouds/ellipsoids/plane", "\"none\" is the only word"},
+    {"/clouds/implicit/primitives/shape", "says which of its neighbours are allowed"},
+    {"/effects", "\"auto\" is the only word"},
+    {"/clouds/implicit/flow/size", "says how many vectors there are"}};
+
+// Values, by their full pointers, that change no picture: why.
+const std::map<std::string, std::string> kSaysNothing = {
+    {"/sequence/frames", "a still depends on the sequence's two ends alone"},
+    {"/clouds/4/spheres/kind", "only gives defaults, and all of them are given"}};
+
+// Beginnings of what light does not depend on: the light of a cloud is the same for every picture of it.
+const char* const kPictureOnly[] = {"/camera", "/image",    "/haze",   "/accuracy",
+                                    "/look",   "/sequence", "/effects"};
+const char* const kLightToo[] = {"/effects/sun_color"};
+
+bool begins(const std::string& path, const char* with) {
+    const std::string beginning = with;
+    return path == beginning || path.rfind(beginning + "/", 0) == 0;
+}
+
+bool is_for_pictures_only(const std::string& path) {
+    const auto here = [&](const char* beginning) { return begins(path, beginning); };
+    return std::any_of(std::begin(kPictureOnly), std::end(kPictureOnly), here) &&
+           std::none_of(std::begin(kLightToo), std::end(kLightToo), here);
+}
+
+// Both are empty for what is no scene.
+struct Prints {
+    std::string scene, light;
+};
+Prints prints_of(const json& document) {
+    auto draft = parse_scene(document.dump());
+    if (!draft.ok()) return {};
+    const auto scene = validate(*std::move(draft));
+    if (!scene.ok()) return {};
+    return {fingerprint(*scene), light_fingerprint(*scene)};
+}
+
+// A pointer without its indices: "/clouds/3/implicit/base" is "/clouds/implicit/base".
+std::string names_in(const json::json_pointer& at) {
+    std::string names, rest = at.to_string();
+    while (!rest.empty()) {
+        const std::size_t end = std::min(rest.find('/', 1), rest.size());
+        if (!std::isdigit(static_cast<unsigned char>(rest[1]))) names += rest.substr(0, end);
+        rest = rest.substr(end);
+    }
+    return names;
+}
+
+// What stands between quotes in the refusal of an unknown field, but the field itself.
+std::vector<std::string> fields_at(json document, const json::json_pointer& object) {
+    document[object]["?"] = 0;
+    const auto draft = parse_scene(document.dump());
+    if (draft.ok()) return {};
+    std::string text = draft.error().message;
+    const std::size_t allowed = text.find("allowed are ");
+    if (allowed == std::string::npos) return {};
+    std::vector<std::string> fields;
+    text = text.substr(allowed);
+    for (std::size_t open = text.find('"'); open != std::string::npos;) {
+        const std::size_t close = text.find('"', open + 1);
+        fields.push_back(text.substr(open + 1, close - open - 1));
+        open = text.find('"', close + 1);
+    }
+    return fields;
+}
+
+template <typename Visit>
+void each_value(const json& value, const json::json_pointer& at, const Visit& visit) {
+    visit(value, at);
+    if (value.is_object())
+        for (const auto& [name, inner] : value.items()) each_value(inner, at / name, visit);
+    if (value.is_array())
+        for (std::size_t i = 0; i < value.size(); ++i) each_value(value[i], at / i, visit);
+}
+
+// Other values, the likeliest to be allowed first. Beside a word a number or a vector may be allowed.
+std::vector<json> others(const json& value) {
+    std::vector<json> list;
+    if (value.is_boolean()) list.insert(list.end(), {json(!value.get<bool>()), json("auto")});
+    if (value.is_string())
+        for (const char* word : kWords)
+            if (value != word) list.push_back(word);
+    if (value.is_string()) list.insert(list.end(), {json(0.25), json({0.5, 0.25, 0.125})});
+    if (value.is_number_integer()) {
+        list.push_back(value.get<std::int64_t>() + 1);
+        list.push_back(value.get<std::int64_t>() - 1);
+    }
+    if (value.is_number())
+        for (const double step : {1.01, 0.99}) list.push_back(value.get<double>() * step + 0.001);
+    return list;
+}
+
+std::vector<json> documents() {
+    std::vector<json> list;
+    for (const char* text : kDocuments) list.push_back(json::parse(text));
+    return list;
+}
+
+TEST(SceneFields, TheDocumentsHereSetThemAll) {
+    std::set<std::string> allowed, given;
+    for (const json& document : documents()) {
+        const auto draft = parse_scene(document.dump());
+        ASSERT_TRUE(draft.ok()) << draft.error().pointer << ": " << draft.error().message;
+        const auto scene = validate(*draft);
+        ASSERT_TRUE(scene.ok()) << scene.error().pointer << ": " << scene.error().message;
+        each_value(document, json::json_pointer(), [&](const json& value, const auto& at) {
+            given.insert(names_in(at));
+            if (!value.is_object()) return;
+            const std::vector<std::string> fields = fields_at(document, at);
+            EXPECT_FALSE(fields.empty()) << at;
+            for (const std::string& field : fields) allowed.insert(names_in(at) + "/" + field);
+        });
+    }
+    EXPECT_GT(allowed.size(), 150U);
+    for (const std::string& field : allowed)
+        EXPECT_NE(given.contains(field), kCannotBeSet.contains(field)) << field;
+}
+
+TEST(SceneFields, WhicheverIsChangedTheFingerprintChanges) {
+    std::set<std::string> unchangeable, nothing;
+    for (const json& document : documents()) {
+        const Prints before = prints_of(document);
+        ASSERT_FALSE(before.scene.empty());
+        each_value(document, json::json_pointer(), [&](const json& value, const auto& at) {
+            if (value.is_structured()) return;
+            const std::string names = names_in(at);
+            Prints after;
+            json changed = document;
+            for (const json& other : others(value)) {
+                changed[at] = other;
+                after = prints_of(changed);
+                if (!after.scene.empty()) break;
+            }
+            if (after.scene.empty()) {
+                EXPECT_TRUE(kStandsWithOthers.contains(names)) << at << " takes no other value";
+                unchangeable.insert(names);
+                return;
+            }
+            if (after.scene == before.scene) {
+                EXPECT_TRUE(kSaysNothing.contains(at.to_string()))
+                    << at << ": " << value << " or " << changed[at] << " are one fingerprint";
+                nothing.insert(at.to_string());
+                return;
+            }
+            if (is_for_pictures_only(names))
+                EXPECT_EQ(after.light, before.light) << at << " makes light anew";
+            else
+                EXPECT_NE(after.light, before.light) << at << " would be lit by other light";
+        });
+    }
+    for (const auto& [names, why] : kStandsWithOthers)
+        EXPECT_TRUE(unchangeable.contains(names)) << names << " is no exception: " << why;
+    for (const auto& [at, why] : kSaysNothing)
+        EXPECT_TRUE(nothing.contains(at)) << at << " is no exception: " << why;
+}
+
+// What is left out is not the same as what is given, unless it is the default.
+TEST(SceneFields, WhicheverIsLeftOutTheFingerprintIsThatOfItsDefault) {
+    for (const json& document : documents())
+        each_value(document, json::json_pointer(), [&](const json& value, const auto& at) {
+            if (!value.is_object()) return;
+            for (const auto& [name, inner] : value.items()) {
+                json without = document;
+                without[at].erase(name);
+                const Prints prints = prints_of(without);
+                if (prints.scene.empty()) continue;  // it is needed
+                const auto draft = parse_scene(without.dump());
+                const Prints again = prints_of(json::parse(scene_to_json(*draft)));
+                EXPECT_EQ(prints.scene, again.scene) << at << '/' << name;
+            }
+        });
+}
+
+}  // namespace
+}  // namespace awan
