@@ -95,6 +95,21 @@ export async function open(where = "/") {
   return page;
 }
 
+// A page for its controls alone: the pictures are a stand-in, or never come; `contract`: whether the service says what
+// a document may hold.
+const STAND_IN = Buffer.from(
+  "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8BQDwAEhQGAhKmMIQAAAABJRU5ErkJggg==", "base64");
+export async function openQuiet({ pictures = true, contract = true } = {}) {
+  const page = await context.newPage();
+  page.on("pageerror", (error) => faults.push(String(error)));
+  await page.route("**/v1/render", (route) => (pictures ? route.fulfill({ contentType: "image/png", body: STAND_IN }) : undefined));
+  await page.route("**/v1/plan", (route) => route.fulfill({ json: {} }));
+  if (!contract) await page.route("**/openapi.json", (route) => route.fulfill({ status: 503, body: "" }));
+  await page.goto(`${origin}/#cumulus`);
+  if (contract) await page.waitForFunction(() => document.querySelector("#preset").value === "cumulus");
+  return page;
+}
+
 // The full picture of the document as it stands is on the screen.
 export async function settled(page) {
   await page.waitForFunction(() =>

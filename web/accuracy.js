@@ -5,6 +5,7 @@ import * as api from "./api.js";
 import { group, select, slider } from "./controls.js";
 import { at } from "./document.js";
 import { byId, el, plain } from "./dom.js";
+import { fieldAt, scaled, standardAt } from "./schema.js";
 
 const WAYS = [
   ["error", "largest error"],
@@ -12,7 +13,7 @@ const WAYS = [
   ["rung", "name of a rung"],
 ];
 // What a way begins with, when it is chosen.
-const FIRST = { error: 0.1, time_ms: 500, rung: "harris" };
+const FIRST = { error: standardAt({}, "/accuracy/error"), time_ms: 500, rung: "harris" };
 
 export const percent = (error) => `${plain(100 * error, 2)} %`;
 export const duration = (ms) => (ms >= 1000 ? `${plain(ms / 1000, 2)} s` : `${plain(ms, 2)} ms`);
@@ -82,16 +83,16 @@ export function createAccuracyPanel(store, { failed, open }) {
 
   const fields = {
     error: slider(store, {
-      label: "Error", pointer: "/accuracy/error", min: 0.2, max: 200, log: true, unit: "%",
+      label: "Error", pointer: "/accuracy/error", field: scaled(fieldAt("/accuracy/error"), 100), min: 0.2, max: 200, log: true, unit: "%",
       get: () => Number((100 * value("error")).toPrecision(10)),
       set: (shown, options) => choose("error", Number((shown / 100).toPrecision(10)), options),
     }),
     time_ms: slider(store, {
-      label: "Time", pointer: "/accuracy/time_ms", min: 1, max: 20000, log: true, unit: "ms",
+      label: "Time", pointer: "/accuracy/time_ms", min: 1, max: 20000, log: true,
       get: () => value("time_ms"), set: (ms, options) => choose("time_ms", ms, options),
     }),
     rung: select(store, {
-      label: "Rung", pointer: () => "/accuracy/rung", choices: [],
+      label: "Rung", pointer: () => "/accuracy/rung",
       get: () => value("rung"), set: (name) => choose("rung", name),
     }),
   };
@@ -111,7 +112,7 @@ export function createAccuracyPanel(store, { failed, open }) {
     if (all.join() === [...rungs.options].map((option) => option.value).join()) return;
     rungs.replaceChildren(...all.map((name) => el("option", { value: name }, name)));
   }
-  let known = [];
+  let known = fieldAt("/accuracy/rung").words;
 
   return {
     element: group("Accuracy", "/accuracy", open, by.element, fields.error.element, fields.time_ms.element,

@@ -1,5 +1,7 @@
 // The service's calls, as the page uses them.
 
+import { parseJson } from "./json_text.js";
+
 // An answer of application/problem+json (RFC 9457), or something as near to it as can be had.
 export class Problem extends Error {
   constructor(status, body, retryAfterSeconds = null) {
@@ -34,6 +36,11 @@ async function call(path, options) {
 
 const post = (path, text, { accept, type = "application/json", signal } = {}) =>
   call(path, { method: "POST", body: text, signal, headers: { "Content-Type": type, Accept: accept } });
+
+// What documents may hold, what calls there are. The largest whole number in it has 64 bits.
+export async function contract() {
+  return parseJson(await (await call("/openapi.json")).text());
+}
 
 // [{ name, title }]
 export async function presets() {

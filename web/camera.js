@@ -1,7 +1,8 @@
 // A camera as an orbit: where it looks, from which side, from how far. Angles in degrees and with
 // the service's axes: y up, azimuth 0 = +z, 90 = +x, as for the sun.
 
-import { at, atOrDefault, cloudsOf } from "./document.js";
+import { at, cloudsOf } from "./document.js";
+import { atOrDefault } from "./schema.js";
 
 const radians = (degrees) => (degrees * Math.PI) / 180;
 const degrees = (angle) => (angle * 180) / Math.PI;
@@ -68,7 +69,7 @@ function automaticOrbit(bounds, aspect) {
 
 const aspectOf = (scene) => atOrDefault(scene, "/image/width") / atOrDefault(scene, "/image/height") || 1;
 
-export const isAutomatic = (scene) => (at(scene, "/camera") ?? "auto") === "auto";
+export const isAutomatic = (scene) => atOrDefault(scene, "/camera") === "auto";
 
 export function orbitOf(scene, bounds) {
   const [eye, target] = [at(scene, "/camera/eye"), at(scene, "/camera/target")];

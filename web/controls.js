@@ -1,69 +1,116 @@
 // Single controls. Each is { element, refresh(scene) }; each names its place in the document with
 // data-pointer, so that errors find it (problems.js), and writes through the store. Where `pointer` is
-// a function, the place depends on what is being edited (which cloud, which row).
+// a function, the place depends on what is being edited (which cloud, which row). Defaults, ends, words
+// and hints are the service's (schema.js); `field` stands for the schema's where a control shows
+// something else than the document holds: its ends in that measure, or null.
 
-import { atOrDefault } from "./document.js";
 import { el, freshId, plain } from "./dom.js";
+import { atOrDefault, complaint, fieldAt } from "./schema.js";
+
+const placeOf = (pointer) => (typeof pointer === "function" ? pointer : () => pointer);
+function fieldOf({ pointer, field }) {
+  if (field !== undefined) return field;
+  const place = placeOf(pointer)();
+  const found = fieldAt(place);
+  if (!found) throw new RangeError(`No document has ${place}.`);
+  return found;
+}
+
+export function hintOf({ hint, pointer, field }) {
+  if (hint !== undefined || field === null) return hint;
+  return field?.says ?? fieldAt(placeOf(pointer)())?.says;
+}
+
+// As short as units are written beside numbers.
+const SYMBOLS = { degrees: "°", seconds: "s", stops: "EV", "units a second": "units/s" };
+export function unitOf(spec) {
+  const unit = spec.unit ?? fieldOf(spec)?.unit ?? "";
+  return SYMBOLS[unit] ?? unit;
+}
 
 // Reads a number field. An empty or half-typed number never reaches the document: the field says
-// so, and takes the document's value back when it is left.
+// so, and takes the document's value back when it is left. A number beyond its ends is marked, told
+// to the page ("wrongnumber"), and written: the document is the writer's.
 // `digits`: how many are shown while the field is not being edited.
-export function numberInput({ get, set, optional = false, digits = 12, ...attributes }) {
-  const input = el("input", { type: "number", step: "any", inputmode: "decimal", ...attributes });
-  const bad = (yes) => {
-    input.classList.toggle("incomplete", yes);
-    input.setCustomValidity(yes ? "A number is needed here." : "");
+export function numberInput({ pointer, field, get, set, optional = false, digits = 12, ...attributes }) {
+  const place = placeOf(pointer);
+  const ends = fieldOf({ pointer, field }) ?? {};
+  const lowest = ends.orZero ? Math.min(0, ends.least) : ends.least;
+  const input = el("input", {
+    type: "number", step: "any", inputmode: "decimal", min: lowest, max: ends.most, ...attributes,
+  });
+  const mark = (sentence) => {
+    input.classList.toggle("incomplete", sentence !== "");
+    input.setCustomValidity(sentence);
   };
+  const wrong = () => (input.value === "" ? "" : complaint(ends, input.valueAsNumber));
   input.addEventListener("input", () => {
     const missing = input.value === "";
     if (missing && optional && !input.validity.badInput) {
-      bad(false);
+      mark("");
       set(undefined, { moving: false });
       return;
     }
-    bad(missing);
-    if (!missing) set(input.valueAsNumber, { moving: false });
+    mark(missing ? "A number is needed here." : wrong());
+    if (missing) return;
+    set(input.valueAsNumber, { moving: false });
+    if (!wrong()) return;
+    input.dispatchEvent(new CustomEvent("wrongnumber", { bubbles: true, detail: { pointer: place(), message: wrong() } }));
   });
   const shownDigits = () => (document.activeElement === input ? 12 : digits);
+  const show = (text) => {
+    input.value = text;
+    mark(wrong());
+  };
   input.addEventListener("focus", () => {
     const whole = plain(get(), 12);
     if (input.value === whole) return;
-    input.value = whole;
+    show(whole);
     input.select(); // setting the value has undone what the Tab key selects
   });
-  input.addEventListener("blur", () => {
-    bad(false);
-    input.value = plain(get(), digits);
-  });
+  input.addEventListener("blur", () => show(plain(get(), digits)));
   function refresh() {
     const value = get();
     // While someone types "1e" or "0.50", the field is theirs.
     if (document.activeElement === input && (input.value === "" || input.valueAsNumber === value)) return;
     const text = plain(value, shownDigits());
-    if (input.value !== text) input.value = text;
+    if (input.value !== text) show(text);
   }
   return { input, refresh };
 }
 
-const placeOf = (pointer) => (typeof pointer === "function" ? pointer : () => pointer);
-
-// `step` is "any" so that every number is valid; the arrow keys then would step by one.
+// `step` is "any" so that every number is valid; the arrow keys then would step by one. They stop at the ends.
 export function stepByArrows(input, step) {
   input.addEventListener("keydown", (event) => {
     const sign = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     if (!sign || Number.isNaN(input.valueAsNumber)) return;
     event.preventDefault();
     const stepped = input.valueAsNumber + sign * step * (event.shiftKey ? 10 : 1);
-    input.value = plain(Number(stepped.toFixed(6)), 12);
+    const below = input.max !== "" ? Math.min(Number(input.max), stepped) : stepped;
+    const within = input.min !== "" ? Math.max(Number(input.min), below) : below;
+    input.value = plain(Number(within.toFixed(6)), 12);
     input.dispatchEvent(new Event("input", { bubbles: true }));
   });
 }
 
-// A slider with a number field beside it. The slider covers the useful range; the number may leave
-// it. `log`: equal ratios take equal ways. get and set default to the value at the pointer.
+// The useful part of a field's range, all of it where the page names none. Never more.
+function travelOf(place, field, { min = field.least, max = field.most }) {
+  for (const end of [min, max]) {
+    const wrong = field && complaint(field, end);
+    if (wrong) throw new RangeError(`The slider of ${place} goes to ${end}; ${place} ${wrong}.`);
+  }
+  return [min, max];
+}
+
+// A slider with a number field beside it. The slider covers the useful range, from `min` to `max`; the
+// number may leave it. `log`: equal ratios take equal ways. get and set default to the value at the pointer.
 export function slider(store, spec) {
-  const { label, min, max, step, unit = "", log = false } = spec;
+  const { label, log = false } = spec;
   const place = placeOf(spec.pointer);
+  const field = fieldOf(spec);
+  const [min, max] = travelOf(place(), field, spec);
+  const step = spec.step ?? (field?.whole ? 1 : undefined);
+  const unit = unitOf(spec).length <= 2 ? unitOf(spec) : ""; // there is no room for more
   const get = spec.get ?? (() => atOrDefault(store.scene, place()));
   const set = spec.set ?? ((value, options) => store.set(place(), value, options));
   const id = freshId("slider");
@@ -73,7 +120,7 @@ export function slider(store, spec) {
   const range = el("input", {
     type: "range", id, min: to(min), max: to(max), step: log ? (to(max) - to(min)) / 200 : step,
   });
-  const number = numberInput({ get, set, "aria-label": `${label}, ${unit || "number"}` });
+  const number = numberInput({ pointer: place, field, get, set, "aria-label": `${label}, ${unit || "number"}` });
   range.addEventListener("input", () => set(from(range.valueAsNumber), { moving: true }));
   range.addEventListener("change", () => set(from(range.valueAsNumber), { moving: false }));
 
@@ -91,19 +138,20 @@ export function slider(store, spec) {
     range.style.setProperty("--fill", `${100 * span}%`);
     range.setAttribute("aria-valuetext", `${plain(value, 4)} ${unit}`.trim());
   }
-  const element = el("div", { class: "field slider" },
+  const element = el("div", { class: "field slider", title: hintOf(spec) },
     el("label", { for: id }, label), range, number.input, el("span", { class: "unit", "aria-hidden": "true" }, unit));
   return { element, refresh };
 }
 
+// `optional`: empty, it is not in the document; then it shows the default as what would be there.
 export function numberField(store, { label, pointer, optional = false, get, set, placeholder }) {
   const id = freshId("number");
   const number = numberInput({
-    id, optional, placeholder,
+    id, pointer, optional, placeholder: placeholder ?? (optional ? plain(fieldAt(pointer()).standard) : undefined),
     get: get ?? (() => atOrDefault(store.scene, pointer())),
     set: set ?? ((value, options) => store.set(pointer(), value, options)),
   });
-  const element = el("div", { class: "field number" }, el("label", { for: id }, label), number.input);
+  const element = el("div", { class: "field number", title: hintOf({ pointer }) }, el("label", { for: id }, label), number.input);
   return {
     element,
     refresh() {
@@ -119,13 +167,17 @@ export function seedField(store, { label = "Seed", pointer = () => "/seed", get,
   const value = get ?? (() => atOrDefault(store.scene, pointer()));
   const put = set ?? ((seed) => store.set(pointer(), seed));
   const input = el("input", { id, type: "text", inputmode: "numeric", autocomplete: "off", placeholder });
+  const field = fieldAt(pointer());
+  const asNumber = (text) => (Number.isSafeInteger(Number(text)) ? Number(text) : BigInt(text));
   input.addEventListener("input", () => {
     const text = input.value.trim();
     const none = text === "" && placeholder !== undefined;
     const whole = /^-?\d+$/.test(text);
-    input.classList.toggle("incomplete", !whole && !none);
+    const wrong = whole ? complaint(field, asNumber(text)) : "";
+    input.classList.toggle("incomplete", wrong !== "" || (!whole && !none));
     if (none) put(undefined);
-    else if (whole) put(Number.isSafeInteger(Number(text)) ? Number(text) : BigInt(text));
+    else if (whole) put(asNumber(text));
+    if (wrong) input.dispatchEvent(new CustomEvent("wrongnumber", { bubbles: true, detail: { pointer: pointer(), message: wrong } }));
   });
   const show = () => {
     if (document.activeElement !== input) input.value = String(value() ?? "");
@@ -134,7 +186,7 @@ export function seedField(store, { label = "Seed", pointer = () => "/seed", get,
     input.classList.remove("incomplete");
     input.value = String(value() ?? "");
   });
-  const element = el("div", { class: "field seed" }, el("label", { for: id }, label), input,
+  const element = el("div", { class: "field seed", title: hintOf({ pointer }) }, el("label", { for: id }, label), input,
     another ? el("button", { type: "button", onclick: () => put(crypto.getRandomValues(new Uint32Array(1))[0]) }, "Another") : null);
   return {
     element,
@@ -145,14 +197,24 @@ export function seedField(store, { label = "Seed", pointer = () => "/seed", get,
   };
 }
 
-// choices: [[value, title]...]
-export function select(store, { label, pointer, choices, get, set }) {
+// [[word, title]...] of a field with words: first those with titles here, in their order, then the others by their
+// names.
+export function choicesOf({ words }, titles = {}) {
+  const unknown = Object.keys(titles).filter((word) => !words.includes(word));
+  if (unknown.length) throw new RangeError(`“${unknown[0]}” is none of ${words.join(", ")}.`);
+  return [...Object.entries(titles), ...words.filter((word) => !(word in titles)).map((word) => [word, word])];
+}
+
+// `titles`: what the field's words are called; or choices, [[value, title]...], where it has none. `none`: what it is
+// called that the document says nothing.
+export function select(store, { label, pointer, field, titles, none, choices, get, set, hint }) {
   const id = freshId("select");
   const value = get ?? (() => atOrDefault(store.scene, pointer()));
   const write = set ?? ((chosen) => store.set(pointer(), chosen));
+  const all = [...(none === undefined ? [] : [["", none]]), ...(choices ?? choicesOf(fieldOf({ pointer, field }), titles))];
   const input = el("select", { id, onchange: () => write(input.value) },
-    ...choices.map(([name, title]) => el("option", { value: name }, title)));
-  const element = el("div", { class: "field select" }, el("label", { for: id }, label), input);
+    ...all.map(([name, title]) => el("option", { value: name }, title)));
+  const element = el("div", { class: "field select", title: hintOf({ pointer, field, hint }) }, el("label", { for: id }, label), input);
   return {
     element,
     refresh() {
@@ -166,7 +228,7 @@ export function checkbox({ label, pointer, get, set }) {
   const place = placeOf(pointer);
   const id = freshId("checkbox");
   const input = el("input", { type: "checkbox", id, onchange: () => set(input.checked) });
-  const element = el("div", { class: "field checkbox" }, input, el("label", { for: id }, label));
+  const element = el("div", { class: "field checkbox", title: hintOf({ pointer }) }, input, el("label", { for: id }, label));
   return {
     element,
     refresh() {
@@ -188,7 +250,7 @@ export function colour(store, { label, pointer }) {
     [1, 3, 5].map((i) => Number(decode(parseInt(input.value.slice(i, i + 2), 16) / 255).toFixed(4))), options);
   input.addEventListener("input", () => write({ moving: true }));
   input.addEventListener("change", () => write({ moving: false }));
-  const element = el("div", { class: "field colour", "data-pointer": pointer }, el("label", { for: id }, label), input);
+  const element = el("div", { class: "field colour", "data-pointer": pointer, title: hintOf({ pointer }) }, el("label", { for: id }, label), input);
   return {
     element,
     refresh() {

@@ -3,39 +3,8 @@
 
 import { compactJson, parseJson, prettyJson } from "./json_text.js";
 
-// What the service assumes for fields that a document leaves out; the controls show these.
-export const DEFAULTS = {
-  "/fill": "uniform",
-  "/seed": 1,
-  "/density": 0.2,
-  "/medium/albedo": 0.9999,
-  "/medium/g": 0.85,
-  "/medium/phase": "henyey-greenstein",
-  "/sun/elevation": 40,
-  "/sun/azimuth": 60,
-  "/sun/color": [1, 0.97, 0.92],
-  "/sun/intensity": 40,
-  "/sky/zenith": [0.09, 0.25, 0.72],
-  "/sky/horizon": [0.44, 0.67, 0.95],
-  "/sky/intensity": 1.7,
-  "/sky/turbidity": 3,
-  "/ground/height": 0,
-  "/ground/albedo": 0.2,
-  "/haze/height": 0,
-  "/haze/albedo": 1,
-  "/haze/g": 0.6,
-  "/detail/amount": 0.7,
-  "/detail/size": 1.5,
-  "/camera/fov": 40,
-  "/look": "physical",
-  "/time": 0,
-  "/image/width": 800,
-  "/image/height": 600,
-  "/image/background": "sky",
-  "/image/exposure": "auto",
-};
-
-const steps = (pointer) =>
+// The members and indices that a JSON pointer goes through.
+export const steps = (pointer) =>
   pointer.split("/").slice(1).map((step) => step.replaceAll("~1", "/").replaceAll("~0", "~"));
 
 // The value at a JSON pointer, or undefined.
@@ -44,10 +13,6 @@ export function at(scene, pointer) {
     (value, step) => (value !== null && typeof value === "object" ? value[step] : undefined),
     scene,
   );
-}
-
-export function atOrDefault(scene, pointer) {
-  return at(scene, pointer) ?? DEFAULTS[pointer];
 }
 
 // `scene` with `value` at the pointer; undefined takes the member away. Words such as "auto" or

@@ -2,7 +2,8 @@
 
 import { group, numberInput, stepByArrows } from "./controls.js";
 import { at, withAt } from "./document.js";
-import { el } from "./dom.js";
+import { el, plain } from "./dom.js";
+import { fieldAt } from "./schema.js";
 
 const kRowsShown = 100; // of a page of the table; layouts may have 10,000 cubes
 const FRESH = { particles: 50, size: [2, 1, 2], center: [0, 0, 0], radius: 1 };
@@ -98,9 +99,9 @@ export function createLayoutTable(store, choice) {
       const pointer = `${base}/${member}`;
       const optional = member === "density";
       const field = numberInput({
-        get: () => at(store.scene, pointer), set: (value, options) => store.set(pointer, value, options), optional,
+        pointer, get: () => at(store.scene, pointer), set: (value, options) => store.set(pointer, value, options), optional,
         "aria-label": `cube ${index + 1}, ${name}`, "data-pointer": pointer, "data-step": step,
-        placeholder: optional ? "1" : undefined, digits: 5,
+        placeholder: optional ? plain(fieldAt(pointer).standard) : undefined, digits: 5,
       });
       stepByArrows(field.input, step);
       return field;

@@ -1,66 +1,63 @@
 // Clouds grown by a cellular automaton (core/scene/automaton.h): a grid of cells, parcels of wet air in
 // it, wind over it. Lengths are in cells.
 
-const share = { min: 0, max: 1, step: 0.01 };
+import { fieldAt } from "./schema.js";
+
+const parcels = fieldAt("/clouds/0/automaton/random/count").standard;
+const share = { step: 0.01 };
 const speed = [
-  { title: "v0", over: "cells a step", member: "constant", step: 0.1, standard: 0 },
-  { title: "· y", over: "cells a step", member: "linear", step: 0.01, standard: 0 },
-  { title: "· y²", over: "cells a step", member: "quadratic", step: 0.001, standard: 0 },
+  { title: "v0", over: "cells a step", member: "constant", step: 0.1 },
+  { title: "· y", over: "cells a step", member: "linear", step: 0.01 },
+  { title: "· y²", over: "cells a step", member: "quadratic", step: 0.001 },
 ];
-const triple = (over, member, standard) => ["x", "y", "z"].map((title, axis) => ({ title, over, member: `${member}/${axis}`, standard }));
+const triple = (over, member) => ["x", "y", "z"].map((title, axis) => ({ title, over, member: `${member}/${axis}` }));
 
 export const automaton = {
   name: "automaton",
   title: "Cellular automaton",
   // Also without wind: at every step clouds are born and vanish.
-  moves: (own) => (own.steps_per_second ?? 1) !== 0,
+  moves: (value) => value("steps_per_second") !== 0,
   fields: [
-    { kind: "vector", member: "cells", label: "Grid", unit: "cells", standard: [96, 32, 96], step: 8 },
-    { member: "cell", label: "Cell size", min: 0.1, max: 50, log: true, standard: 5 },
-    { member: "warm_up", label: "Warm-up", hint: "Steps made before second 0", min: 0, max: 200, step: 1, standard: 40 },
-    { member: "steps_per_second", label: "Steps / second", min: 0, max: 10, step: 0.1, standard: 1 },
+    { kind: "vector", member: "cells", label: "Grid", unit: "cells", step: 8 },
+    { member: "cell", label: "Cell size", min: 0.1, max: 50, log: true },
+    { member: "warm_up", label: "Warm-up", hint: "Steps made before second 0", min: 0, max: 200 },
+    { member: "steps_per_second", label: "Steps / second", min: 0, max: 10, step: 0.1 },
     { kind: "section", title: "Wet air", fields: [
-      { member: "humidity", label: "Vapour", hint: "Chance a step that the middle of a parcel becomes humid",
-        ...share, max: 0.5, standard: 0.1 },
+      { member: "humidity", label: "Vapour", hint: "Chance a step that the middle of a parcel becomes humid", ...share, max: 0.5 },
       { member: "activation", label: "Activation",
-        hint: "Chance a step that humid air in the middle of a parcel begins to condense", min: 0.0001, max: 0.1,
-        log: true, standard: 0.002 },
+        hint: "Chance a step that humid air in the middle of a parcel begins to condense", min: 0.0001, max: 0.1, log: true },
       { member: "extinction", label: "Vanishing", hint: "Chance a step that cloud at the edge of a parcel vanishes",
-        ...share, max: 0.5, standard: 0.12 },
-      { member: "outside_extinction", label: "… outside", hint: "The same away from every parcel", ...share,
-        standard: 0.25 },
-      { member: "base", label: "Flat base", hint: "No vapour below this height, in cells", min: 0, max: 32, step: 0.5,
-        standard: 5 },
+        ...share, max: 0.5 },
+      { member: "outside_extinction", label: "… outside", hint: "The same away from every parcel", ...share },
+      { member: "base", label: "Flat base", hint: "No vapour below this height, in cells", min: 0, max: 32, step: 0.5 },
     ] },
     { kind: "section", title: "Parcels", fields: [
-      { kind: "switch", member: "random", label: "Random parcels of my own", fresh: { count: 30 }, fields: [
-        { member: "count", label: "How many", min: 0, max: 200, step: 1, standard: 30 },
-        { kind: "vector", member: "smallest", label: "Smallest radii", unit: "cells", standard: [5, 5, 5] },
-        { kind: "vector", member: "largest", label: "Largest radii", unit: "cells", standard: [15, 13, 15] },
+      { kind: "switch", member: "random", label: "Random parcels of my own", fresh: ["count"], fields: [
+        { member: "count", label: "How many", min: 0, max: 200 },
+        { kind: "vector", member: "smallest", label: "Smallest radii" },
+        { kind: "vector", member: "largest", label: "Largest radii" },
       ] },
-      { kind: "select", member: "overlap", label: "Overlap",
-        choices: [["deepest", "the deepest counts"], ["first", "the first counts"]], standard: "deepest" },
+      { kind: "select", member: "overlap", label: "Overlap", titles: { deepest: "the deepest counts", first: "the first counts" } },
       { kind: "table", member: "ellipsoids", title: "Placed parcels", noun: "parcel", one: "a parcel",
-        why: "With none of its own the model takes 30 random ones.", fresh: { center: [48, 6, 48], radii: [14, 10, 14] },
-        columns: [...triple("centre", "center", 0), ...triple("radii", "radii", 8)] },
+        why: `With none of its own the model takes ${parcels} random ones.`, fresh: { center: [48, 6, 48], radii: [14, 10, 14] },
+        columns: [...triple("centre", "center"), ...triple("radii", "radii")] },
     ] },
     { kind: "section", title: "Wind", fields: [
       { member: "wind/layers/constant", label: "Cells a step",
-        hint: "All cells shift so far a step, whatever their height", min: -3, max: 3, step: 0.05, standard: 0 },
-      { member: "wind/layers/linear", label: "+ per height", min: -0.2, max: 0.2, step: 0.005, standard: 0 },
-      { member: "wind/layers/quadratic", label: "+ per height²", min: -0.01, max: 0.01, step: 0.0005, standard: 0 },
+        hint: "All cells shift so far a step, whatever their height", min: -3, max: 3, step: 0.05 },
+      { member: "wind/layers/linear", label: "+ per height", min: -0.2, max: 0.2, step: 0.005 },
+      { member: "wind/layers/quadratic", label: "+ per height²", min: -0.01, max: 0.01, step: 0.0005 },
       { member: "wind/mutation", label: "Mutation",
-        hint: "How much a parcel that comes in again differs from what it was", ...share, standard: 0.25 },
+        hint: "How much a parcel that comes in again differs from what it was", ...share },
       { kind: "table", member: "wind/ellipsoids", title: "Wind on parcels", noun: "band", one: "a band",
         fresh: { from: 0, to: 32, constant: 0.5 },
-        columns: [{ title: "from", over: "height", member: "from", standard: 0 }, { title: "to", over: "height", member: "to", standard: 1024 }, ...speed] },
+        columns: [{ title: "from", over: "height", member: "from" }, { title: "to", over: "height", member: "to" }, ...speed] },
     ] },
     { kind: "section", title: "From cells to matter", fields: [
-      { kind: "vector", member: "smooth", label: "Smoothing", unit: "cells", standard: [1, 1, 1] },
-      { member: "smooth_steps", label: "… over steps", min: 1, max: 8, step: 1, standard: 1 },
-      { member: "metaball_radius", label: "Metaballs", min: 1.5, max: 8, step: 0.1,
-        hint: "Radius of each cell’s, in cells", standard: 2 },
-      { member: "threshold", label: "Threshold", ...share, standard: 0 },
+      { kind: "vector", member: "smooth", label: "Smoothing" },
+      { member: "smooth_steps", label: "… over steps", min: 1, max: 8 },
+      { member: "metaball_radius", label: "Metaballs", min: 1.5, max: 8, step: 0.1, hint: "Radius of each cell’s, in cells" },
+      { member: "threshold", label: "Threshold", ...share },
     ] },
   ],
 };

@@ -1,45 +1,50 @@
-// Controls from descriptions: model_*.js say what a cloud of each model has, this makes fields of it.
-// A description's `member` is its place within the object at hand ("wind/mutation"); where that object
-// is in the document, `base()` says, for the cloud that is being edited changes.
+// Controls from descriptions: model_*.js say which fields of a model are shown, and how; what they may be, the service
+// says (schema.js). A description's `member` is its place within the object at hand ("wind/mutation"); where that
+// object is in the document, `base()` says, for the cloud that is being edited changes.
 //
-//   { member, label, min, max, step | log, unit, standard }      a slider
-//   { kind: "number", member, label, standard, unit, empty }      a number; `empty`: what none of it means
-//   { kind: "select", member, label, choices, standard }
-//   { kind: "vector", member, label, standard, step, unit }       three numbers
+//   { member, label, min, max, step | log }                       a slider; its useful range, where not the whole
+//   { kind: "number", member, label, empty }                      a number; `empty`: what none of it means
+//   { kind: "select", member, label, titles }                     titles: what its words are called
+//   { kind: "vector", member, label, step, unit }                 three numbers; `unit`: "" where that is clear
 //   { kind: "switch", member, label, fresh, fields }              an object that may be left out
 //   { kind: "section", title, fields }                            folded away until the document has some of it
 //   { kind: "table", member, title, one, fresh, columns }         a list of objects, a row each
 //   { kind: "cards", member, title, one, fresh, fields }          a list of objects, a box each
 //
-// Any may have a `hint`, shown by the pointer. `standard` is what the service takes where the document says nothing; a function of the model's own
-// object where that depends on another field of it.
+// Any may have a `hint`, shown by the pointer instead of what the service says of the field. `fresh` is what an object
+// is when it is first put into the document: values of its own, or the names of members that are then written out as
+// they are.
 
-import { select, slider, stepByArrows, numberInput } from "./controls.js";
+import { hintOf, select, slider, stepByArrows, numberInput, unitOf } from "./controls.js";
 import { at, withAt } from "./document.js";
 import { el, freshId } from "./dom.js";
 import { createObjectTable } from "./object_table.js";
-
-const standardOf = (spec, own) => (typeof spec.standard === "function" ? spec.standard(own) : spec.standard);
+import { atOrDefault, fieldAt } from "./schema.js";
 
 // Within these: `store`, `base()` the pointer to the object, `own()` the object of the model.
 const pointerOf = ({ base }, spec) => () => `${base()}/${spec.member}`;
-const valueOf = (context, spec) => at(context.store.scene, pointerOf(context, spec)()) ?? standardOf(spec, context.own());
 
-function makeSlider(context, spec) {
-  return slider(context.store, { ...spec, pointer: pointerOf(context, spec), get: () => valueOf(context, spec) });
+const freshOf = (place, { fresh }) => (Array.isArray(fresh)
+  ? Object.fromEntries(fresh.map((member) => [member, fieldAt(`${place}/${member}`).standard])) : structuredClone(fresh));
+
+function makeSlider({ store, ...context }, spec) {
+  return slider(store, { ...spec, pointer: pointerOf(context, spec) });
 }
 
 function makeNumber(context, spec) {
   const id = freshId("number");
   const place = pointerOf(context, spec);
-  const optional = spec.standard === undefined;
+  const { store } = context;
+  const optional = spec.empty !== undefined;
   const number = numberInput({
-    id, optional, placeholder: spec.empty,
-    get: () => valueOf(context, spec), set: (value, options) => context.store.set(place(), value, options),
+    id, pointer: place, optional, placeholder: spec.empty,
+    get: () => (optional ? at : atOrDefault)(store.scene, place()), set: (value, options) => store.set(place(), value, options),
   });
   stepByArrows(number.input, spec.step ?? 1);
-  const element = el("div", { class: "field number" }, el("label", { for: id }, spec.label), number.input,
-    spec.unit ? el("span", { class: "unit", "aria-hidden": "true" }, spec.unit) : null);
+  const unit = unitOf({ ...spec, pointer: place });
+  const element = el("div", { class: "field number", title: hintOf({ ...spec, pointer: place }) },
+    el("label", { for: id }, spec.label), number.input,
+    unit ? el("span", { class: "unit", "aria-hidden": "true" }, unit) : null);
   return {
     element,
     refresh() {
@@ -49,16 +54,18 @@ function makeNumber(context, spec) {
   };
 }
 
-function makeSelect(context, spec) {
-  return select(context.store, { ...spec, pointer: pointerOf(context, spec), get: () => valueOf(context, spec) });
+function makeSelect({ store, ...context }, spec) {
+  return select(store, { ...spec, pointer: pointerOf(context, spec) });
 }
 
 // Three numbers in a row. Writing one writes all: a document has whole vectors only.
-export function vector(store, { label, pointer, get, set, step = 1, unit = "" }) {
+export function vector(store, { label, pointer, get: given, set, step = 1, unit: its, hint }) {
+  const get = given ?? (() => atOrDefault(store.scene, pointer()));
+  const unit = unitOf({ pointer, unit: its });
   const write = set ?? ((value, options) => store.set(pointer(), value, options));
   const axes = ["x", "y", "z"].map((axis, i) => {
     const field = numberInput({
-      "aria-label": `${label}, ${axis}`, title: axis, digits: 5,
+      pointer: () => `${pointer()}/${i}`, "aria-label": `${label}, ${axis}`, title: axis, digits: 5,
       get: () => get()?.[i],
       set: (value, options) => {
         const before = get();
@@ -68,7 +75,8 @@ export function vector(store, { label, pointer, get, set, step = 1, unit = "" })
     stepByArrows(field.input, step);
     return field;
   });
-  const element = el("div", { class: "field vector", role: "group", "aria-label": label }, el("span", { class: "name" }, label),
+  const element = el("div", { class: "field vector", role: "group", "aria-label": label, title: hintOf({ pointer, hint }) },
+    el("span", { class: "name" }, label),
     el("span", { class: "axes" }, ...axes.map(({ input }, i) => el("span", { "data-axis": "xyz"[i] }, input))),
     unit ? el("span", { class: "unit", "aria-hidden": "true" }, unit) : null);
   return {
@@ -83,8 +91,8 @@ export function vector(store, { label, pointer, get, set, step = 1, unit = "" })
   };
 }
 
-function makeVector(context, spec) {
-  return vector(context.store, { ...spec, pointer: pointerOf(context, spec), get: () => valueOf(context, spec) });
+function makeVector({ store, ...context }, spec) {
+  return vector(store, { ...spec, pointer: pointerOf(context, spec) });
 }
 
 // Off, the object is not there; what it was is kept for when it is on again.
@@ -95,7 +103,7 @@ function makeSwitch(context, spec) {
     const value = at(store.scene, place());
     return value !== null && typeof value === "object" ? value : null;
   };
-  let kept = spec.fresh;
+  let kept = freshOf(place(), spec);
   const id = freshId("switch");
   const input = el("input", {
     type: "checkbox", id,
@@ -107,7 +115,7 @@ function makeSwitch(context, spec) {
   const inner = makeFields({ ...context, base: place }, spec.fields);
   const box = el("div", { class: "inner" }, ...inner.map(({ element }) => element));
   const element = el("div", { class: "switched" },
-    el("div", { class: "field checkbox" }, input, el("label", { for: id }, spec.label)), box);
+    el("div", { class: "field checkbox", title: hintOf({ ...spec, pointer: place }) }, input, el("label", { for: id }, spec.label)), box);
   return {
     element,
     refresh() {
@@ -153,7 +161,7 @@ function makeCards(context, spec) {
   const add = el("button", {
     type: "button",
     onclick: () => {
-      change([...list(), structuredClone(spec.fresh)]);
+      change([...list(), freshOf(`${place()}/0`, spec)]);
       box.lastElementChild?.querySelector("input, select")?.focus();
     },
   }, `Add ${spec.one}`);
@@ -218,7 +226,6 @@ function shownWhen(context, { when }, field) {
 export function makeFields(context, specs) {
   return specs.map((spec) => {
     const field = spec.make ? spec.make(context) : MAKERS[spec.kind ?? "slider"](context, spec);
-    if (spec.hint) field.element.title = spec.hint;
     return shownWhen(context, spec, field);
   });
 }

@@ -10,15 +10,17 @@ import { makeFields, vector } from "./model_fields.js";
 import { implicit } from "./model_implicit.js";
 import { spheres } from "./model_spheres.js";
 import { shownIf } from "./panels.js";
+import { atOrDefault, fieldAt } from "./schema.js";
 
 const MODELS = [automaton, spheres, implicit, ellipsoids];
-const CHOICES = [
-  ["cubes", "Cubes of particles"],
-  ...MODELS.map(({ name, title }) => [name, title]),
-  ["particles", "Ready-made particles"],
-];
+const TITLES = {
+  cubes: "Cubes of particles",
+  ...Object.fromEntries(MODELS.map(({ name, title }) => [name, title])),
+  particles: "Ready-made particles",
+};
 // The look that each published system has of its own.
 const LOOKS = { spheres: "ostroushko", ellipsoids: "gardner" };
+const kAsItIs = "physical: light as it is";
 
 const FRESH_CUBES = [{ particles: 200, size: [8, 2, 6], center: [0, 0, 0], radius: 1.5 }];
 const ofModel = (name) => (name === "cubes" ? { cubes: FRESH_CUBES } : name === "particles" ? { positions: [[0, 0, 0]], radii: [1] } : { [name]: {} });
@@ -37,25 +39,24 @@ const split = (object, names) => {
 
 // Whether another time shows another picture.
 export function somethingMoves(scene) {
-  return cloudsOf(scene).some(({ cloud }) => {
+  return cloudsOf(scene).some(({ cloud, pointer }) => {
     const model = MODELS.find(({ name }) => name === modelOf(cloud));
     const own = model && cloud[model.name];
     return (Array.isArray(cloud.velocity) && cloud.velocity.some((v) => v !== 0)) ||
-      (own !== null && typeof own === "object" && model.moves(own));
+      (own !== null && typeof own === "object" && model.moves((member) => atOrDefault(scene, `${pointer}/${model.name}/${member}`), own));
   });
 }
 
-// Models that sample a lattice: cells along its longest side where the document says nothing.
-const LATTICES = { implicit: 72, ellipsoids: 64 };
+const LATTICES = ["implicit", "ellipsoids"]; // models that sample one, of `resolution` cells along its longest side
 const kCoarsest = 32; // the shape is still the same
 
 // For a picture of reduced size: its pixels are larger, so the cells may be.
 export function coarser(scene, reduction) {
   if (!Array.isArray(scene.clouds)) return scene;
-  const clouds = scene.clouds.map((cloud) => {
+  const clouds = scene.clouds.map((cloud, k) => {
     const own = cloud?.[cloud.model];
-    const cells = own?.resolution ?? LATTICES[cloud?.model];
-    if (own === null || typeof own !== "object" || !LATTICES[cloud.model] || !(cells > kCoarsest)) return cloud;
+    const cells = atOrDefault(scene, `/clouds/${k}/${cloud?.model}/resolution`);
+    if (own === null || typeof own !== "object" || !LATTICES.includes(cloud.model) || !(cells > kCoarsest)) return cloud;
     return { ...cloud, [cloud.model]: { ...own, resolution: Math.max(kCoarsest, Math.round(cells / Math.sqrt(reduction))) } };
   });
   return { ...scene, clouds };
@@ -161,14 +162,17 @@ export function createModels(store, choice, { changed, bounds, note }) {
   const buttons = el("div", { class: "buttons cloud-buttons" },
     el("button", { type: "button", onclick: duplicate }, "Duplicate cloud"), dropButton);
 
-  const model = select(store, { label: "Model", pointer: () => `${choice.pointer}/model`, choices: CHOICES, get: () => choice.model, set: setModel });
-  const lookNow = () => at(store.scene, "/look") ?? "physical";
+  const model = select(store, {
+    label: "Model", pointer: () => `${choice.pointer}/model`, field: fieldAt("/clouds/0/model"),
+    titles: TITLES, get: () => choice.model, set: setModel,
+  });
+  const lookNow = () => atOrDefault(store.scene, "/look");
   const lookOfAll = () => {
     const names = new Set(cloudsOf(store.scene).map(({ cloud }) => LOOKS[modelOf(cloud)]));
     return names.size === 1 ? [...names][0] : undefined;
   };
   const look = select(store, {
-    label: "Look", pointer: () => "/look", choices: [["physical", "physical: light as it is"]], get: lookNow,
+    label: "Look", pointer: () => "/look", titles: { physical: kAsItIs }, get: lookNow,
     set: (name) => store.update((scene) => {
       if (name === "physical") return withoutLook(scene);
       const { accuracy, ...rest } = scene;
@@ -183,7 +187,7 @@ export function createModels(store, choice, { changed, bounds, note }) {
       const names = ["physical", ...new Set([lookOfAll(), lookNow()])].filter((name, i) => name !== undefined && (i === 0 || name !== "physical"));
       if ([...looks.options].map((option) => option.value).join() !== names.join()) {
         looks.replaceChildren(...names.map((name) =>
-          el("option", { value: name }, name === "physical" ? "physical: light as it is" : `${name}: as published`)));
+          el("option", { value: name }, name === "physical" ? kAsItIs : `${name}: as published`)));
       }
       look.refresh();
     },
@@ -192,20 +196,20 @@ export function createModels(store, choice, { changed, bounds, note }) {
 
   const number = (label, member, placeholder) => numberField(store, { label, placeholder, optional: true, ...own(member) });
   const small = [
-    number("Scale", "scale", "1"), number("Turn, °", "rotate_y", "0"), number("Own density", "density", "the scene’s"),
+    number("Scale", "scale"), number("Turn, °", "rotate_y"), number("Own density", "density", "the scene’s"),
     seedField(store, { label: "Own seed", placeholder: "the scene’s", ...own("seed") }),
     shownIf(() => choice.model === "cubes", select(store, {
-      label: "Own fill", choices: [["", "the scene’s"], ["uniform", "uniform"], ["gardner", "gardner"], ["printed", "printed"]],
+      label: "Own fill", none: "the scene’s",
       ...own("fill"), set: (fill) => own("fill").set(fill || undefined),
     })),
   ];
-  const zero = (member) => {
+  const orDefault = (member) => {
     const field = own(member);
-    return { ...field, get: () => field.get() ?? [0, 0, 0] };
+    return { ...field, get: () => field.get() ?? fieldAt(field.pointer()).standard };
   };
   const placement = [
-    vector(store, { label: "Move", step: 0.5, unit: "units", ...zero("translate") }),
-    vector(store, { label: "Velocity", step: 0.5, unit: "units/s", ...zero("velocity") }),
+    vector(store, { label: "Move", step: 0.5, ...orDefault("translate") }),
+    vector(store, { label: "Velocity", step: 0.5, ...orDefault("velocity") }),
     ...small,
   ];
   const placementBox = el("details", { class: "section" }, el("summary", {}, el("h3", {}, "Place and motion")),

@@ -1,30 +1,39 @@
 // A list of objects as a table, a row each: ellipsoids, primitives, bands of wind.
 
-import { numberInput, stepByArrows } from "./controls.js";
+import { choicesOf, hintOf, numberInput, stepByArrows } from "./controls.js";
 import { at, withAt } from "./document.js";
 import { el } from "./dom.js";
+import { atOrDefault, fieldAt, standardAt } from "./schema.js";
 
 const kRowsShown = 100; // the rest is there, and is edited as JSON
 
-// Columns that stand under one heading share its `over`.
-function head(columns) {
+// Vectors are written whole: [member, axis] of "center/0".
+function axisOf(member) {
+  const [, whole, axis] = /^(.*)\/([012])$/.exec(member) ?? [];
+  return whole === undefined ? null : [whole, Number(axis)];
+}
+
+// Columns that stand under one heading share its `over`. row: the pointer of any of the rows.
+function head(columns, row) {
+  const hint = (member) => hintOf({ pointer: `${row}/${axisOf(member)?.[0] ?? member}` });
   const th = (attributes, ...children) => el("th", attributes, ...children);
   const upper = [];
-  for (const { title, over } of columns) {
+  for (const { title, over, member } of columns) {
     const last = upper[upper.length - 1];
     if (over && last?.over === over) last.count += 1;
-    else upper.push({ title, over, count: 1 });
+    else upper.push({ title, over, member, count: 1 });
   }
   const tall = { rowspan: "2", scope: "col" };
   return el("thead", {},
     el("tr", {}, th(tall, "#"),
-      ...upper.map(({ title, over, count }) => (over ? th({ colspan: count, scope: "colgroup", class: "over" }, over) : th(tall, title))),
+      ...upper.map(({ title, over, member, count }) => (over
+        ? th({ colspan: count, scope: "colgroup", class: "over" }, over) : th({ ...tall, title: hint(member) }, title))),
       th(tall, el("span", { class: "unseen" }, "actions"))),
-    el("tr", {}, ...columns.filter(({ over }) => over).map(({ title }) => th({ scope: "col" }, title))));
+    el("tr", {}, ...columns.filter(({ over }) => over).map(({ title, member }) => th({ scope: "col", title: hint(member) }, title))));
 }
 
-// spec: { title, noun, pointer(), fresh, columns: [{ title, over, member, step, choices, standard, change }], why,
-// change(row, chosen): the row with a choice that other fields of it follow.
+// spec: { title, noun, pointer(), fresh, columns: [{ title, over, member, step, change }], why,
+// change(row, chosen): the row with a choice among words that other fields of it follow.
 // bare: the title is only for those who listen }
 export function createObjectTable(store, spec) {
   const { pointer, noun, columns } = spec;
@@ -47,27 +56,28 @@ export function createObjectTable(store, spec) {
     },
   }, `Add ${spec.one}`);
 
-  function cellOf(index, { title, over, member, step = 1, choices, standard, change: changed }) {
+  function cellOf(index, { title, over, member, step = 1, change: changed }) {
     const place = () => `${pointer()}/${index}/${member}`;
     const name = `${noun} ${index + 1}, ${over ? `${over} ` : ""}${title}`;
-    const value = () => at(store.scene, place()) ?? standard;
-    // Vectors are written whole: [member, axis] of "center/0".
-    const [, whole, axis] = /^(.*)\/([012])$/.exec(member) ?? [];
+    const value = () => atOrDefault(store.scene, place());
     const set = (next, options) => {
-      if (whole === undefined) return store.set(place(), next, options);
-      const before = at(store.scene, `${pointer()}/${index}/${whole}`);
-      const copy = Array.isArray(before) ? [...before] : [standard ?? 0, standard ?? 0, standard ?? 0];
-      copy[Number(axis)] = next;
-      store.set(`${pointer()}/${index}/${whole}`, copy, options);
+      if (!axisOf(member)) return store.set(place(), next, options);
+      const [whole, axis] = axisOf(member);
+      const vector = `${pointer()}/${index}/${whole}`;
+      const before = at(store.scene, vector);
+      const copy = [...(Array.isArray(before) ? before : standardAt(store.scene, vector) ?? [0, 0, 0])];
+      copy[axis] = next;
+      store.set(vector, copy, options);
     };
-    if (choices) {
+    const choices = choicesOf(fieldAt(place()));
+    if (choices.length) {
       const row = () => `${pointer()}/${index}`;
       const write = () => (changed ? store.set(row(), changed(at(store.scene, row()) ?? {}, input.value)) : set(input.value));
       const input = el("select", { "aria-label": name, onchange: write },
         ...choices.map(([word, shown]) => el("option", { value: word }, shown)));
       return { input, refresh: () => { input.dataset.pointer = place(); input.value = value() ?? ""; } };
     }
-    const field = numberInput({ get: value, set, "aria-label": name, digits: 5 });
+    const field = numberInput({ pointer: place, get: value, set, "aria-label": name, digits: 5 });
     stepByArrows(field.input, step);
     return { input: field.input, refresh: () => { field.input.dataset.pointer = place(); field.refresh(); } };
   }
@@ -92,7 +102,7 @@ export function createObjectTable(store, spec) {
     };
   }
 
-  const table = el("table", {}, el("caption", { class: "unseen" }, spec.title), head(columns), body);
+  const table = el("table", {}, el("caption", { class: "unseen" }, spec.title), head(columns, `${pointer()}/0`), body);
   const scroll = el("div", { class: "table-scroll short", tabindex: "0", role: "region", "aria-label": spec.title }, table);
   const element = el("div", { class: "list" }, spec.bare ? null : el("h3", {}, spec.title), spec.why ? el("p", { class: "why" }, spec.why) : null,
     scroll, more, el("div", { class: "table-tools" }, add));

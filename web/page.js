@@ -5,7 +5,7 @@ import { createAccuracyPanel } from "./accuracy.js";
 import * as api from "./api.js";
 import { boundsOfCubes } from "./camera.js";
 import { group } from "./controls.js";
-import { atOrDefault, cloudsOf, createStore, modelOf, withAt } from "./document.js";
+import { cloudsOf, createStore, modelOf, withAt } from "./document.js";
 import { byId, el } from "./dom.js";
 import { createFigures } from "./figures.js";
 import { copy, createFiles } from "./files.js";
@@ -15,6 +15,7 @@ import { coarser, createChoice, createModels } from "./models.js";
 import { cameraPanel, createPanels } from "./panels.js";
 import { createRenderLoop } from "./picture.js";
 import { clearMarks, focusProblem, markProblem, placeName } from "./problems.js";
+import { atOrDefault } from "./schema.js";
 import { createStage } from "./stage.js";
 import { createTime } from "./time.js";
 
@@ -64,6 +65,11 @@ function fail(error) {
   say("");
   showProblem();
 }
+// Said at once, whatever the service is busy with; it is asked all the same, and says it in its own words.
+addEventListener("wrongnumber", ({ detail }) => {
+  problem = detail;
+  showProblem();
+});
 byId("go-to-field").addEventListener("click", () => {
   models.reveal(problem.pointer);
   layout.reveal(problem.pointer);

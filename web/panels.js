@@ -1,12 +1,14 @@
-// The groups of controls beside the picture: what can be set, and over what useful range.
+// The groups of controls beside the picture: what can be set, and the useful part of its range.
 
 import { cameraOf, isAutomatic, kSteepest, orbitOf, sizeOf } from "./camera.js";
 import { checkbox, colour, group, numberField, seedField, select, slider } from "./controls.js";
-import { at, atOrDefault, cloudsOf, modelOf, withAt } from "./document.js";
+import { at, cloudsOf, modelOf, withAt } from "./document.js";
 import { el } from "./dom.js";
+import { atOrDefault, fieldAt, standardAt } from "./schema.js";
 import { detailPanel, groundPanel, hazePanel } from "./surroundings.js";
 
 const turn = (degrees) => ((degrees % 360) + 360) % 360;
+const kFirstExposure = -3; // what it begins with when it is no longer automatic
 const SIZES = ["640 × 360", "960 × 600", "1280 × 720", "1920 × 1080", "3840 × 2160", "1024 × 1024"];
 
 export const shownIf = (shown, { element, refresh }) => ({
@@ -40,8 +42,8 @@ function sunPanel(store) {
   });
   let kept; // its colour before that was left to the elevation
   const fields = [
-    slider(store, { label: "Elevation", pointer: "/sun/elevation", min: -10, max: 90, step: 0.5, unit: "°", ...angle("elevation") }),
-    slider(store, { label: "Azimuth", pointer: "/sun/azimuth", min: 0, max: 360, step: 1, unit: "°", ...angle("azimuth") }),
+    slider(store, { label: "Elevation", pointer: "/sun/elevation", min: -10, step: 0.5, ...angle("elevation") }),
+    slider(store, { label: "Azimuth", pointer: "/sun/azimuth", min: 0, max: 360, step: 1, ...angle("azimuth") }),
     slider(store, { label: "Intensity", pointer: "/sun/intensity", min: 0.5, max: 400, log: true }),
     checkbox({
       label: "Colour from its elevation", pointer: "/sun/automatic-color", get: () => at(store.scene, "/sun/color") === "auto",
@@ -69,12 +71,12 @@ export function cameraPanel(store, bounds) {
       set: (on) => (on ? store.set("/camera", undefined) : write({})),
     }),
     slider(store, {
-      label: "Azimuth", pointer: "/camera/eye", min: 0, max: 360, step: 1, unit: "°",
+      label: "Azimuth", pointer: "/camera/eye", field: null, min: 0, max: 360, step: 1, unit: "°",
       get: () => Math.round(turn(orbit().azimuth) * 10) / 10, set: (azimuth, options) => write({ azimuth }, options),
     }),
-    slider(store, { label: "Elevation", pointer: "/camera/elevation", min: -kSteepest, max: kSteepest, step: 0.5, unit: "°", ...part("elevation") }),
-    slider(store, { label: "Distance", pointer: "/camera/distance", min: 0.5, max: 20000, log: true, ...part("distance") }),
-    slider(store, { label: "Field of view", pointer: "/camera/fov", min: 5, max: 120, step: 1, unit: "°", ...part("fov") }),
+    slider(store, { label: "Elevation", pointer: "/camera/elevation", field: null, min: -kSteepest, max: kSteepest, step: 0.5, unit: "°", ...part("elevation") }),
+    slider(store, { label: "Distance", pointer: "/camera/distance", field: null, min: 0.5, max: 20000, log: true, ...part("distance") }),
+    slider(store, { label: "Field of view", pointer: "/camera/fov", min: 5, max: 120, step: 1, ...part("fov") }),
   ];
   const aim = el("button", {
     type: "button",
@@ -106,9 +108,9 @@ function skyPanel(store) {
     if (value === "physical") return { model: "physical" };
     return value !== null && typeof value === "object" ? value : {};
   };
-  const model = () => sky().model ?? "gradient";
-  const own = (member, standard) => ({
-    get: () => sky()[member] ?? standard(),
+  const model = () => sky().model ?? fieldAt("/sky/model").standard;
+  const own = (member) => ({
+    get: () => sky()[member] ?? standardAt(store.scene, `/sky/${member}`),
     set: (value, options) => store.update((scene) => ({ ...scene, sky: { ...sky(), [member]: value } }),
       { key: `/sky/${member}`, ...options }),
   });
@@ -123,7 +125,7 @@ function skyPanel(store) {
     }),
     select(store, {
       label: "Model", pointer: () => "/sky/model",
-      choices: [["gradient", "gradient: two colours"], ["physical", "physical: clear daylight"]],
+      titles: { gradient: "gradient: two colours", physical: "physical: clear daylight" },
       get: model,
       set: (chosen) => {
         const { turbidity } = sky();
@@ -134,16 +136,10 @@ function skyPanel(store) {
         });
       },
     }),
-    slider(store, {
-      label: "Turbidity", pointer: "/sky/turbidity", min: 2, max: 10, step: 0.1,
-      ...own("turbidity", () => atOrDefault(store.scene, "/sky/turbidity")),
-    }),
+    slider(store, { label: "Turbidity", pointer: "/sky/turbidity", step: 0.1, ...own("turbidity") }),
     ofGradient(colour(store, { label: "Zenith", pointer: "/sky/zenith" })),
     ofGradient(colour(store, { label: "Horizon", pointer: "/sky/horizon" })),
-    slider(store, {
-      label: "Intensity", pointer: "/sky/intensity", min: 0.02, max: 50, log: true,
-      ...own("intensity", () => (model() === "physical" ? 0.55 : atOrDefault(store.scene, "/sky/intensity"))),
-    }),
+    slider(store, { label: "Intensity", pointer: "/sky/intensity", min: 0.02, max: 50, log: true, ...own("intensity") }),
   ];
   return { title: "Sky", pointer: "/sky", fields };
 }
@@ -151,15 +147,15 @@ function skyPanel(store) {
 function matterPanel(store) {
   const fields = [
     slider(store, { label: "Density", pointer: "/density", min: 0.001, max: 100, log: true }),
-    slider(store, { label: "Albedo", pointer: "/medium/albedo", min: 0.5, max: 1, step: 0.001 }),
+    slider(store, { label: "Albedo", pointer: "/medium/albedo", min: 0.5, step: 0.001 }),
     slider(store, { label: "Forward g", pointer: "/medium/g", min: -0.9, max: 0.98, step: 0.01 }),
     select(store, {
       label: "Phase function", pointer: () => "/medium/phase",
-      choices: [["henyey-greenstein", "Henyey–Greenstein"], ["cornette-shanks", "Cornette–Shanks"]],
+      titles: { "henyey-greenstein": "Henyey–Greenstein", "cornette-shanks": "Cornette–Shanks" },
     }),
     shownIf(() => cloudsOf(store.scene).some(({ cloud }) => modelOf(cloud) === "cubes"), select(store, {
       label: "Filling", pointer: () => "/fill",
-      choices: [["uniform", "uniform"], ["gardner", "gardner: with phase shift"], ["printed", "printed: as in the source"]],
+      titles: { uniform: "uniform", gardner: "gardner: with phase shift", printed: "printed: as in the source" },
     })),
     seedField(store, { another: true }),
   ];
@@ -169,7 +165,7 @@ function matterPanel(store) {
 function imagePanel(store) {
   const side = (label, member) => numberField(store, { label, pointer: () => `/image/${member}` });
   const sizeNow = () => `${atOrDefault(store.scene, "/image/width")} × ${atOrDefault(store.scene, "/image/height")}`;
-  const exposure = () => at(store.scene, "/image/exposure") ?? "auto";
+  const exposure = () => atOrDefault(store.scene, "/image/exposure");
   const fields = [
     select(store, {
       label: "Size", pointer: () => "/image", choices: [["", "other"], ...SIZES.map((size) => [size, size])],
@@ -180,16 +176,14 @@ function imagePanel(store) {
       },
     }),
     side("Width", "width"), side("Height", "height"),
-    select(store, {
-      label: "Background", pointer: () => "/image/background", choices: [["sky", "sky"], ["transparent", "transparent"]],
-    }),
+    select(store, { label: "Background", pointer: () => "/image/background" }),
     checkbox({
       label: "Automatic exposure", pointer: "/image/automatic-exposure", get: () => exposure() === "auto",
-      set: (on) => store.set("/image/exposure", on ? undefined : -3),
+      set: (on) => store.set("/image/exposure", on ? undefined : kFirstExposure),
     }),
     slider(store, {
-      label: "Exposure", pointer: "/image/exposure", min: -8, max: 4, step: 0.1, unit: "EV",
-      get: () => (exposure() === "auto" ? -3 : exposure()),
+      label: "Exposure", pointer: "/image/exposure", min: -8, max: 4, step: 0.1,
+      get: () => (exposure() === "auto" ? kFirstExposure : exposure()),
     }),
   ];
   return { title: "Picture", pointer: "/image", fields };

@@ -1,15 +1,17 @@
 // The groups for what surrounds the clouds or is finer than they: ground, haze, detail. Each is "none" or an object.
 
 import { checkbox, slider } from "./controls.js";
-import { at, atOrDefault } from "./document.js";
+import { at } from "./document.js";
+import { fieldAt, standardAt } from "./schema.js";
 
-// `fresh`: what it is when it is first switched on. Its fields write whole objects, so that what is required is there.
-function optional(store, { title, pointer, label, fresh, sliders }) {
+// `fresh`: what it is when it is first switched on, beside the defaults of `named`. Its fields write whole objects, so that what is required is there.
+function optional(store, { title, pointer, label, fresh = {}, named = [], sliders }) {
   const now = () => {
     const value = at(store.scene, pointer);
     return value !== null && typeof value === "object" ? value : null;
   };
-  let kept = fresh; // what it was before it was switched off
+  const standards = named.map((member) => [member, fieldAt(`${pointer}/${member}`).standard]);
+  let kept = { ...fresh, ...Object.fromEntries(standards) }; // what it was before it was switched off
   const fields = [
     checkbox({
       label, pointer, get: () => now() !== null,
@@ -21,7 +23,7 @@ function optional(store, { title, pointer, label, fresh, sliders }) {
     ...sliders.map(({ member, ...spec }) => slider(store, {
       ...spec, pointer: `${pointer}/${member}`,
       get: () => {
-        const value = now()?.[member] ?? kept[member] ?? atOrDefault(store.scene, `${pointer}/${member}`);
+        const value = (now() ?? kept)[member] ?? standardAt(store.scene, `${pointer}/${member}`);
         // A colour is shown by its mean, and becomes grey when it is moved.
         return Array.isArray(value) ? Number(((value[0] + value[1] + value[2]) / 3).toFixed(4)) : value;
       },
@@ -33,10 +35,10 @@ function optional(store, { title, pointer, label, fresh, sliders }) {
   return { title, pointer, fields };
 }
 
-const albedo = { label: "Albedo", member: "albedo", min: 0, max: 1, step: 0.01 };
+const albedo = { label: "Albedo", member: "albedo", step: 0.01 };
 
 export const groundPanel = (store) => optional(store, {
-  title: "Ground", pointer: "/ground", label: "A level ground", fresh: { height: -6, albedo: 0.2 },
+  title: "Ground", pointer: "/ground", label: "A level ground", fresh: { height: -6 },
   sliders: [{ label: "Level", member: "height", min: -50, max: 10, step: 0.1 }, albedo],
 });
 
@@ -52,9 +54,9 @@ export const hazePanel = (store) => optional(store, {
 });
 
 export const detailPanel = (store) => optional(store, {
-  title: "Detail", pointer: "/detail", label: "Finer structure", fresh: { amount: 0.7, size: 1.5 },
+  title: "Detail", pointer: "/detail", label: "Finer structure", named: ["amount", "size"],
   sliders: [
-    { label: "Amount", member: "amount", min: 0, max: 1, step: 0.01 },
+    { label: "Amount", member: "amount", step: 0.01 },
     { label: "Bump size", member: "size", min: 0.05, max: 4, log: true },
   ],
 });

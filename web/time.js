@@ -5,12 +5,13 @@
 import * as api from "./api.js";
 import { cameraOf, isAutomatic, orbitOf } from "./camera.js";
 import { checkbox, group, numberField, numberInput, stepByArrows } from "./controls.js";
-import { at, atOrDefault } from "./document.js";
+import { at } from "./document.js";
 import { byId, el } from "./dom.js";
 import { compactJson } from "./json_text.js";
 import { somethingMoves } from "./models.js";
+import { atOrDefault, fieldAt } from "./schema.js";
 
-const FRESH = { from: 0, to: 10, frames: 100 };
+const FRESH = { from: fieldAt("/sequence/from").standard, to: 10, frames: 100 };
 const kFewestFrames = 12; // a round shows so many at least, however long each takes
 const COMMANDS = [
   ["Numbered pictures", "awan render scene.json --frames all -o cloud.%04d.png"],
@@ -21,12 +22,12 @@ const isNumber = (value) => typeof value === "number" && Number.isFinite(value);
 
 // [first, last] second of the slider.
 function spanOf(scene) {
-  const from = at(scene, "/sequence/from") ?? 0;
+  const from = atOrDefault(scene, "/sequence/from");
   const to = at(scene, "/sequence/to") ?? FRESH.to;
   if (!isNumber(from) || !isNumber(to) || from === to) return [0, FRESH.to];
   return [Math.min(from, to), Math.max(from, to)];
 }
-const timeOf = (scene) => (isNumber(at(scene, "/time")) ? at(scene, "/time") : 0);
+const timeOf = (scene) => (isNumber(at(scene, "/time")) ? at(scene, "/time") : fieldAt("/time").standard);
 const short = (seconds) => Number(seconds.toFixed(3));
 
 function unionOf(boxes) {
@@ -59,7 +60,7 @@ export function createTime(store, { show, failed, copy, note }) {
   const play = el("button", { type: "button", id: "play", onclick: toggle });
   const range = el("input", { type: "range", "aria-label": "Time", step: "any" });
   const number = numberInput({
-    id: "seconds", "aria-label": "Time, seconds", digits: 4,
+    id: "seconds", pointer: "/time", "aria-label": "Time, seconds", digits: 4,
     get: () => (playing ? Number(playing.time.toFixed(1)) : timeOf(store.scene)), set: (value, options) => moveTo(value, options),
   });
   stepByArrows(number.input, 0.1);

@@ -1,5 +1,6 @@
 #include "server/document/schema.h"
 
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -8,6 +9,7 @@
 #include "core/scene/limits.h"
 #include "core/scene/rungs.h"
 #include "core/scene/scene.h"
+#include "core/scene/spheres.h"
 #include "server/document/json.h"
 #include "server/document/json_text.h"
 
@@ -96,12 +98,15 @@ std::string any_of(const std::vector<std::string>& schemas) {
 }
 
 std::string object_schema(const Table& table, const void* standards, Schemas& schemas);
+std::string object_members(const Table& table, const void* standards, std::optional<int> model,
+                           Schemas& schemas);
 
 // Named, unless its defaults are other than those of its kind.
 std::string object_reference(const Table& table, const void* standards, Schemas& schemas) {
     const bool usual = standards == nullptr ||
                        fingerprint_of(table, standards) == fingerprint_of(table, table.standard());
-    if (!usual) return object_schema(table, standards, schemas);
+    // Its field describes it.
+    if (!usual) return '{' + object_members(table, standards, {}, schemas) + '}';
     if (!schemas.contains(table.name)) {
         // A mark first: what refers to itself ends.
         schemas[table.name] = "{}";
@@ -191,6 +196,13 @@ void add_default(const Field& field, const void* standards, std::string& out) {
         case Holds::kObject: {
             const Table& table = field.access.table();
             if (value && is_absent(table, value)) words("default", absence_of(table)->absent, out);
+            // None of its fields has one: they exclude each other.
+            if (&table == &table_of<Accuracy>()) {
+                name("default", out);
+                out += '{';
+                member("error", kDefaultError, out);
+                out += '}';
+            }
             break;
         }
         default:
@@ -258,18 +270,54 @@ std::string cloud_schema(const Table& table, const void* standards, Schemas& sch
     return any_of(models);
 }
 
-// What the fields that a preset decides come to with each.
-std::string implicit_presets() {
-    std::string out;
-    for (std::size_t i = 0; i < std::size(kImplicitPresetWords); ++i) {
-        ImplicitCloud cloud;
-        cloud.preset = static_cast<ImplicitPreset>(i);
-        const ImplicitCloud all = spelled_out(cloud);
+// What the fields come to that a preset decides: a member for each word of the field `by`, `object` of its place there.
+void add_presets(const char* by, std::span<const char* const> words,
+                 const std::function<std::string(std::size_t)>& object, std::string& out) {
+    member("x-presets-by", std::string_view(by), out);
+    name("x-presets", out);
+    out += '{';
+    for (std::size_t i = 0; i < words.size(); ++i) {
         if (i > 0) out += ',';
-        append_json_string(kImplicitPresetWords[i], out);
-        out += ':' + object_to_json(table_of<ImplicitCloud>(), &all, &cloud);
+        append_json_string(words[i], out);
+        out += ':' + object(i);
     }
-    return out;
+    out += '}';
+}
+
+std::string implicit_preset(std::size_t preset) {
+    ImplicitCloud cloud;
+    cloud.preset = static_cast<ImplicitPreset>(preset);
+    const ImplicitCloud all = spelled_out(cloud);
+    return object_to_json(table_of<ImplicitCloud>(), &all, &cloud);
+}
+
+std::string spheres_of_kind(std::size_t kind) {
+    SpheresCloud cloud;
+    cloud.kind = static_cast<SpheresKind>(kind);
+    SpheresCloud all = cloud;
+    all.ratio_min = ratios_of(cloud).low;
+    all.ratio_max = ratios_of(cloud).high;
+    all.shift_min = shifts_of(cloud).low;
+    all.shift_max = shifts_of(cloud).high;
+    return object_to_json(table_of<SpheresCloud>(), &all, &cloud);
+}
+
+std::string sky_of_model(std::size_t model) {
+    Sky sky;
+    sky.physical = model == 1;
+    std::string out = "{";
+    for (const Field& field : kSkyFields)
+        if (field.usual != nullptr) member(field.name, field.usual(&sky), out);
+    return out + '}';
+}
+
+// Whatever one of its words decides about the rest of an object.
+void add_presets_of(const Table& table, std::string& out) {
+    if (&table == &table_of<ImplicitCloud>())
+        add_presets("preset", kImplicitPresetWords, implicit_preset, out);
+    if (&table == &table_of<SpheresCloud>())
+        add_presets("kind", kSpheresKindWords, spheres_of_kind, out);
+    if (&table == &table_of<Sky>()) add_presets("model", kSkyModelWords, sky_of_model, out);
 }
 
 std::string object_schema(const Table& table, const void* standards, Schemas& schemas) {
@@ -281,7 +329,7 @@ std::string object_schema(const Table& table, const void* standards, Schemas& sc
             R"(,"oneOf":[{"required":["cubes"]},{"required":["clouds"]}],"example":{"cubes":[{"particles":200,)"
             R"("size":[7.4,1.07,2.9],"center":[-3.4,-3.3,-0.6],"radius":2.1}]})";
     if (&table == &table_of<Accuracy>()) out += R"(,"minProperties":1,"maxProperties":1)";
-    if (&table == &table_of<ImplicitCloud>()) out += ",\"x-presets\":{" + implicit_presets() + '}';
+    add_presets_of(table, out);
     return out + '}';
 }
 
