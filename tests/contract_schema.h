@@ -94,8 +94,9 @@ class Contract {
 
     bool word_allows(const std::string& word, const json& says, const json& schema,
                      const json& value) const {
-        static const std::set<std::string> kProse{
-            "description", "default", "example", "format", "x-unit", "x-otherwise", "x-presets"};
+        static const std::set<std::string> kProse{"description", "default",     "example",
+                                                  "format",      "x-unit",      "x-otherwise",
+                                                  "x-presets",   "x-presets-by"};
         if (kProse.contains(word)) return true;
         if (word == "$ref") return allows(named(name_of(says)), value);
         if (word == "oneOf") return count_allowing(says, value) == 1;
