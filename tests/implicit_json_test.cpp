@@ -77,7 +77,7 @@ TEST(ImplicitJson, EveryFieldHasItsPlace) {
     ASSERT_TRUE(validate(draft).ok());
     const ImplicitCloud& c = cloud_of(draft);
     EXPECT_EQ(c.preset, ImplicitPreset::kMackerel);
-    EXPECT_FALSE(c.smooth_keys);
+    EXPECT_TRUE(c.linear_keys);
     EXPECT_TRUE(c.diagonal && c.printed_swirl);
     EXPECT_EQ(c.octaves, 6u);
     EXPECT_EQ(c.resolution, 20u);

@@ -142,16 +142,16 @@ TEST(Keys, HoldAtTheirTimesAndBeforeAndAfter) {
                 << time << " " << a;
     };
     for (const bool smooth : {false, true}) {
-        cloud.smooth_keys = smooth;
+        cloud.linear_keys = !smooth;
         for (const double before : {-1e6, 0.0, 1.0}) expect(before, {0, 0, 0}, 1.5, 2);
         expect(3, {1, 0, 0}, 1.5, 1.5);  // halfway in both; the radius' only key so far
         for (const double after : {5.0, 7.0, 1e6}) expect(after, {2, 0, 0}, 0.5, 1);
     }
     // A quarter of the way, and of the radius' half.
-    cloud.smooth_keys = false;
+    cloud.linear_keys = true;
     expect(2, {0.5, 0, 0}, 1.5, 1.75);
     expect(4, {1.5, 0, 0}, 1.0, 1.25);
-    cloud.smooth_keys = true;
+    cloud.linear_keys = false;
     const double eased = 3 * 0.0625 - 2 * 0.015625;
     expect(2, {2 * eased, 0, 0}, 1.5, 2 - eased);
 }

@@ -141,7 +141,7 @@ struct RandomImplicit {
             c.ripple_turbulence = share(0, 100);
         }
         c.diagonal = dice.chance(0.3);
-        c.smooth_keys = dice.chance(0.5);
+        c.linear_keys = !dice.chance(0.5);
         if (dice.chance(0.2)) c.base = dice.between(-1, 1) * size;
         if (dice.chance(0.3)) c.swirl = share(-limits::kMaxSwirl, limits::kMaxSwirl);
         c.printed_swirl = dice.chance(0.3);

@@ -288,7 +288,6 @@ inline constexpr Field kAutomatonFields[] = {
          .says = "Further parcels of wet air.",
          .otherwise = "one of the defaults, where no ellipsoids are given"}),
     field<&AutomatonCloud::overlap>({.name = "overlap",
-                                     .wanted = R"("deepest" or "first")",
                                      .words = kAutomatonOverlapWords,
                                      .says = "Which of several ellipsoids says a cell's "
                                              "probabilities: that in which it lies deepest, or the "

@@ -123,7 +123,7 @@ Status check_list(const Field& field, const void* list, const Place& at) {
 
 Status check_word(const Field& field, const void* value, const Place& at) {
     if (field.access.word(value) < field.words.size()) return std::nullopt;
-    return invalid(pointer_to(at), std::string("must be ") + field.wanted);
+    return invalid(pointer_to(at), "must be " + wanted_of(field));
 }
 
 Status check_value(const Field& field, const void* value, const Place& at) {

@@ -14,11 +14,7 @@ constexpr int of(CloudModel model) {
 
 constexpr Field kFields[] = {
     field<&Cloud::model>(
-        {.name = "model",
-         .wanted =
-             R"(one of "cubes", "particles", "automaton", "spheres", "implicit", "ellipsoids")",
-         .words = kCloudModelWords,
-         .says = "What it is made of."}),
+        {.name = "model", .words = kCloudModelWords, .says = "What it is made of."}),
     field<&Cloud::cubes>({.name = "cubes",
                           .wanted = "a list of cubes",
                           .counts = at_most(limits::kMaxCubes),
@@ -102,7 +98,6 @@ constexpr Field kFields[] = {
                              .unit = "degrees",
                              .says = "Degrees, from +z towards +x."}),
     field<&Cloud::fill>({.name = "fill",
-                         .wanted = kFillWanted,
                          .words = kFillWords,
                          .says = "Instead of the scene's, for this cloud.",
                          .otherwise = "the scene's"}),

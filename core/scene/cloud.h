@@ -16,7 +16,6 @@ namespace awan {
 // How a cube is filled (core/generate/cubes.h).
 enum class Fill { kUniform, kGardner, kPrinted };
 inline constexpr const char* kFillWords[] = {"uniform", "gardner", "printed"};
-inline constexpr const char* kFillWanted = R"(one of "uniform", "gardner", "printed")";
 
 struct Cube {
     std::uint64_t particles = 0;

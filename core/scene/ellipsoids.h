@@ -40,7 +40,6 @@ inline constexpr Range kTextureFrequency =
 inline constexpr Field kSineTextureFields[] = {
     field<&SineTexture::form>(
         {.name = "form",
-         .wanted = R"("clean" or "printed")",
          .words = kTextureFormWords,
          .says = "printed: with the phases as Rekawan quotes them, and negative factors."}),
     field<&SineTexture::terms>({.name = "terms",
@@ -202,7 +201,6 @@ inline constexpr Range kEllipsoidRadius =
 
 inline constexpr Field kFormationFields[] = {
     field<&Formation::kind>({.name = "kind",
-                             .wanted = R"(one of "horizontal", "vertical", "combined")",
                              .words = kFormationKindWords,
                              .says = "Rows and patches, towers, or towers on a patch."}),
     field<&Formation::count>({.name = "count",

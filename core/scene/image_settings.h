@@ -40,13 +40,11 @@ inline constexpr Field kImageFields[] = {
                                    .unit = "pixels",
                                    .says = "Pixels."}),
     field<&ImageSettings::format>({.name = "format",
-                                   .wanted = R"("png" or "exr")",
                                    .words = kImageFormatWords,
                                    .says = "PNG: sRGB after exposure and the tone curve. EXR: "
                                            "linear radiance, premultiplied, alpha = 1 - "
                                            "transmittance."}),
     field<&ImageSettings::background>({.name = "background",
-                                       .wanted = R"("sky" or "transparent")",
                                        .words = kBackgroundWords,
                                        .says = "What stands behind the clouds."}),
     field<&ImageSettings::exposure>({.name = "exposure",
@@ -55,10 +53,8 @@ inline constexpr Field kImageFields[] = {
                                      .absent = "auto",
                                      .unit = "stops",
                                      .says = "Stops: radiance is multiplied by 2^exposure."}),
-    field<&ImageSettings::precision>({.name = "precision",
-                                      .wanted = R"("half" or "float")",
-                                      .words = kPrecisionWords,
-                                      .says = "Of EXR's samples."}),
+    field<&ImageSettings::precision>(
+        {.name = "precision", .words = kPrecisionWords, .says = "Of EXR's samples."}),
 };
 static_assert(covers<ImageSettings>(kImageFields));
 

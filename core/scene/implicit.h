@@ -108,10 +108,7 @@ struct ImplicitPrimitive {
 
 inline constexpr Field kImplicitPrimitiveFields[] = {
     field<&ImplicitPrimitive::shape>(
-        {.name = "shape",
-         .wanted = R"(one of "sphere", "ellipsoid", "cylinder", "segment")",
-         .words = kImplicitShapeWords,
-         .says = "From what distances are taken."}),
+        {.name = "shape", .words = kImplicitShapeWords, .says = "From what distances are taken."}),
     field<&ImplicitPrimitive::center>({.name = "center",
                                        .wanted = kPointWanted,
                                        .range = kImplicitPlace,
@@ -411,8 +408,8 @@ struct ImplicitCloud {
     // None: the preset's, or none beside a growth.
     std::optional<std::vector<ImplicitPrimitive>> primitives;
     std::optional<ImplicitGrowth> growth;
-    // Smoothstep, else straight.
-    bool smooth_keys = true;
+    // Straight, else smoothstep.
+    bool linear_keys = false;
     // Soft over a fifth of a mean radius.
     std::optional<double> base;
 
@@ -454,17 +451,15 @@ struct ImplicitCloud {
     double threshold = 0.004;
 };
 
-inline constexpr const char* kInterpolationWords[] = {"linear", "smooth"};
+inline constexpr const char* kInterpolationWords[] = {"smooth", "linear"};
 inline constexpr const char* kDisplaceWords[] = {"every_way", "diagonal"};
 inline constexpr const char* kSwirlPathWords[] = {"steady", "printed"};
 inline constexpr const char* kOfPreset = "the preset's";
 
 inline constexpr Field kImplicitFields[] = {
-    field<&ImplicitCloud::preset>(
-        {.name = "preset",
-         .wanted = R"(one of "cumulus", "cirrus", "stratus", "mackerel", "creature")",
-         .words = kImplicitPresetWords,
-         .says = "A set of defaults that the other fields override."}),
+    field<&ImplicitCloud::preset>({.name = "preset",
+                                   .words = kImplicitPresetWords,
+                                   .says = "A set of defaults that the other fields override."}),
     field<&ImplicitCloud::primitives>({.name = "primitives",
                                        .wanted = "a list of primitives",
                                        .counts = at_most(limits::kMaxImplicitElements),
@@ -473,10 +468,8 @@ inline constexpr Field kImplicitFields[] = {
                                            "weights times Wyvill's cubic of distance over "
                                            "radius, at least 0.",
                                        .otherwise = "the preset's, or none beside a growth"}),
-    field<&ImplicitCloud::smooth_keys>({.name = "interpolation",
-                                        .wanted = R"("smooth" or "linear")",
-                                        .words = kInterpolationWords,
-                                        .says = "Between keys."}),
+    field<&ImplicitCloud::linear_keys>(
+        {.name = "interpolation", .words = kInterpolationWords, .says = "Between keys."}),
     field<&ImplicitCloud::base>({.name = "base",
                                  .wanted = "a number (height of a flat base)",
                                  .range = kImplicitPlace,
@@ -509,7 +502,6 @@ inline constexpr Field kImplicitFields[] = {
          .says = "p4: how far the turbulence moves points, mean radii of the primitives.",
          .otherwise = kOfPreset}),
     field<&ImplicitCloud::diagonal>({.name = "displace",
-                                     .wanted = R"("every_way" or "diagonal")",
                                      .words = kDisplaceWords,
                                      .says = "diagonal: as printed, all along (1, -1, 1)."}),
     field<&ImplicitCloud::noise_size>(
@@ -600,7 +592,6 @@ inline constexpr Field kImplicitFields[] = {
          .says = "Frames a second of the path along which the noise moves."}),
     field<&ImplicitCloud::printed_swirl>(
         {.name = "swirl_path",
-         .wanted = R"("steady" or "printed")",
          .words = kSwirlPathWords,
          .says = "printed: the path winds out for ever and its noise coarsens."}),
     field<&ImplicitCloud::growth>({.name = "growth",

@@ -24,10 +24,8 @@ inline constexpr Field kMediumFields[] = {
                        .wanted = "a number (the mean cosine of the phase function)",
                        .range = within(limits::kMaxAnisotropy),
                        .says = "Mean cosine of the phase function."}),
-    field<&Medium::phase>({.name = "phase",
-                           .wanted = R"("henyey-greenstein" or "cornette-shanks")",
-                           .words = kPhaseFunctionWords,
-                           .says = "The phase function."}),
+    field<&Medium::phase>(
+        {.name = "phase", .words = kPhaseFunctionWords, .says = "The phase function."}),
 };
 static_assert(covers<Medium>(kMediumFields));
 

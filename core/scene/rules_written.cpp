@@ -12,7 +12,7 @@ std::string quoted(std::string_view name) {
 Status needs_required(const Given& given) {
     for (const Field& field : given.table.fields)
         if (field.required && !field.of_model && !given.has(field.name))
-            return invalid("", "needs " + quoted(field.name) + ", " + field.wanted);
+            return invalid("", "needs " + quoted(field.name) + ", " + wanted_of(field));
     return std::nullopt;
 }
 

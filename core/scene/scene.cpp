@@ -72,7 +72,6 @@ constexpr Field kFields[] = {
     top_cubes_field(),
     clouds_field(),
     field<&SceneDraft::fill>({.name = "fill",
-                              .wanted = kFillWanted,
                               .words = kFillWords,
                               .says = "How cubes are filled: uniform (centred, low-discrepancy), "
                                       "gardner (uniform and a phase-shift warp), "
@@ -120,7 +119,6 @@ constexpr Field kFields[] = {
          .wanted = "an object",
          .says = "How accurate the picture is to be, or how fast; left out: error 0.1."}),
     field<&SceneDraft::look>({.name = "look",
-                              .wanted = R"(one of "physical", "ostroushko", "gardner")",
                               .words = kLookWords,
                               .says = "How the picture is made: by light as it is, or by the rules "
                                       "of a published system: ostroushko for "

@@ -32,7 +32,6 @@ inline constexpr Field kSkyFields[] = {
     absence<&Sky::none>("none"),
     field<&Sky::physical>(
         {.name = "model",
-         .wanted = R"("gradient" or "physical")",
          .words = kSkyModelWords,
          .says = "physical: the clear sky that belongs to the sun (Preetham et al. 1999); zenith "
                  "and horizon are errors then."}),

@@ -92,7 +92,6 @@ inline constexpr const char* kSphereRatioWanted =
 
 inline constexpr Field kSpheresFields[] = {
     field<&SpheresCloud::kind>({.name = "kind",
-                                .wanted = R"("cumulus" or "cirrus")",
                                 .words = kSpheresKindWords,
                                 .says = "Which ranges the ratios and shifts have that are not "
                                         "given: cumulus .26...76 and .9..1, cirrus .2...7 "
@@ -140,14 +139,12 @@ inline constexpr Field kSpheresFields[] = {
                                      .says = "And at most so far.",
                                      .otherwise = "the kind's"}),
     field<&SpheresCloud::scaling>({.name = "scaling",
-                                   .wanted = R"("first" or "every")",
                                    .words = kSpheresScalingWords,
                                    .says = "At which steps the sides squeeze the cloud: at the "
                                            "first alone (as printed) a flat cloud is as high "
                                            "as its largest child."}),
     field<&SpheresCloud::growth>(
         {.name = "growth",
-         .wanted = R"("up" or "down")",
          .words = kSpheresGrowthWords,
          .says = "Where the fifth sphere of each goes: up gives a flat base, down (as printed) a "
                  "flat top."}),

@@ -2,6 +2,17 @@
 
 namespace awan {
 
+std::string wanted_of(const Row& row) {
+    if (row.wanted[0] != '\0') return row.wanted;
+    const bool two = row.words.size() == 2;
+    std::string text = two ? "" : "one of ";
+    for (std::size_t i = 0; i < row.words.size(); ++i) {
+        if (i > 0) text += two ? " or " : ", ";
+        text += '"' + std::string(row.words[i]) + '"';
+    }
+    return text;
+}
+
 const Field* absence_of(const Table& table) {
     for (const Field& field : table.fields)
         if (field.access.holds == Holds::kAbsence) return &field;

@@ -57,7 +57,7 @@ constexpr Counts at_most(std::uint64_t highest) {
 struct Row {
     // In documents. "": the member is not in documents (see outside_document, absence).
     const char* name = "";
-    // Completes "must be ...", for a value of the wrong kind.
+    // Completes "must be ...", for a value of the wrong kind. "": by the words, see wanted_of.
     const char* wanted = "";
     // Of a number, or of each component of a vector.
     Range range{};
@@ -158,6 +158,9 @@ struct Table {
     // none.
     const char* shorthand = nullptr;
 };
+
+// Completes "must be ...": what the row says, else its words, `"a" or "b"` or `one of "a", "b", "c"`.
+std::string wanted_of(const Row& row);
 
 // The row by which the whole object can be absent (absence() below); null: it has none.
 const Field* absence_of(const Table& table);

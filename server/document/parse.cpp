@@ -242,7 +242,7 @@ class SceneReader {
         const Field* const field = open_field();
         if (!field || !is_integer(*field)) return number(static_cast<double>(value));
         if (value == 0) return integer(*field, 0);  // "-0"
-        return fail("must be " + std::string(field->wanted) + ", not " + std::to_string(value));
+        return fail("must be " + wanted_of(*field) + ", not " + std::to_string(value));
     }
 
     bool number_unsigned(json::number_unsigned_t value) {
@@ -257,7 +257,7 @@ class SceneReader {
         // 200.0 is an integer written at length; beyond 2^53 its digits would be guesses.
         if (value >= 0 && value <= 9007199254740992.0 && std::floor(value) == value)
             return integer(*field, static_cast<std::uint64_t>(value));
-        return fail("must be " + std::string(field->wanted) + ", not " + clipped(text));
+        return fail("must be " + wanted_of(*field) + ", not " + clipped(text));
     }
 
     bool string(std::string& value) {
@@ -266,7 +266,7 @@ class SceneReader {
         if (value.size() > limits::kMaxString)
             return fail("must be at most " + std::to_string(limits::kMaxString) + " bytes long");
         if (take_word(*field, top().object, value)) return true;
-        return fail("must be " + std::string(field->wanted) + ", not " + short_quote(value));
+        return fail("must be " + wanted_of(*field) + ", not " + short_quote(value));
     }
 
     bool start_object(std::size_t) {
@@ -378,7 +378,7 @@ class SceneReader {
 
     std::string wanted() {
         if (frames_.empty()) return "must be an object, the scene";
-        if (const Field* const field = open_field()) return std::string("must be ") + field->wanted;
+        if (const Field* const field = open_field()) return "must be " + wanted_of(*field);
         return std::string("must be ") +
                (top().type == Frame::Type::kList ? wanted_element(*top().list_field) : "a number");
     }
@@ -397,7 +397,7 @@ class SceneReader {
             return true;
         }
         if (value > INT_MAX)
-            return fail("must be " + std::string(field.wanted) + ", not " + std::to_string(value));
+            return fail("must be " + wanted_of(field) + ", not " + std::to_string(value));
         *static_cast<int*>(place) = static_cast<int>(value);
         return true;
     }

@@ -182,7 +182,7 @@ ImplicitField prepare_field(const ImplicitCloud& cloud, std::uint64_t key, doubl
     if (!all.empty()) f.frame.middle = (all.min + all.max) / 2.0;
 
     for (const ImplicitPrimitive& primitive : s.primitives)
-        add_elements(primitive, cloud.smooth_keys, time, f.frame, f.elements);
+        add_elements(primitive, !cloud.linear_keys, time, f.frame, f.elements);
     if (cloud.growth)
         for (const GrownParticle& particle : grown(*cloud.growth, growth_key, time))
             f.elements.push_back(element_of(particle, *cloud.growth, f.frame));
