@@ -118,6 +118,35 @@ class Walk {
         expect_strangers_refused(site);
         expect_needed(site);
         for (const auto& [name, schema] : site.properties().items()) visit_property(site, name);
+        for (const auto& [name, schema] : site.properties().items())
+            for (const json& word : schema.value("enum", json::array()))
+                expect_defaults_beside(site, name, word);
+    }
+
+    // Defaults hold whatever words the object has, but for what the schema says each word decides.
+    void expect_defaults_beside(const Site& site, const std::string& name, const json& word) {
+        const ::testing::ScopedTrace trace(__FILE__, __LINE__, name + ": " + word.dump());
+        const std::optional<Taken> taken = take(site, name, word);
+        ASSERT_TRUE(taken.has_value());
+        json decided = json::object();
+        const json& schema = *site.object.schema;
+        if (schema.value("x-presets-by", "") == name) decided = schema.at("x-presets").at(word);
+        json spelled_out = taken->document;
+        spelled_out[site.at].update(decided);
+        const Result<Scene> scene = read(spelled_out.dump());
+        ASSERT_TRUE(scene.ok()) << scene.error().message << "\n" << shown(spelled_out);
+        EXPECT_EQ(fingerprint(*scene), taken->fingerprint) << shown(spelled_out);
+        for (const auto& [other, says] : site.properties().items()) {
+            if (!says.contains("default") || spelled_out[site.at].contains(other)) continue;
+            json document = spelled_out;
+            document[site.at][other] = says.at("default");
+            const Result<Scene> same = read(document.dump());
+            if (same) {
+                EXPECT_EQ(fingerprint(*same), taken->fingerprint) << shown(document);
+            } else {  // it does not belong beside that word
+                EXPECT_EQ(same.error().pointer, (site.at / other).to_string());
+            }
+        }
     }
 
     void visit_property(const Site& site, const std::string& name) {
@@ -515,29 +544,23 @@ TEST(Contract, AllowsEveryPresetOfThePage) {
     EXPECT_GT(count, 10u);
 }
 
-// Spelled out, the values of a preset change nothing.
-TEST(Contract, SaysWhatEachImplicitPresetIs) {
+// Where one field decides about others, each of its words is said to, for each field that is said to have it so.
+TEST(Contract, SaysWhatEachWordDecides) {
     const Contract contract;
-    const json& presets = contract.named("Implicit").at("x-presets");
-    EXPECT_EQ(presets.size(),
-              contract.named("Implicit").at("properties").at("preset").at("enum").size());
-    const auto scene_of = [](const json& implicit) {
-        const json cloud{{"model", "implicit"}, {"implicit", implicit}};
-        return read(json{{"clouds", json::array({cloud})}}.dump());
-    };
-    for (const auto& [name, says] : presets.items()) {
-        json spelled_out = says;
-        spelled_out["preset"] = name;
-        const Result<Scene> scene = scene_of(spelled_out), preset = scene_of({{"preset", name}});
-        ASSERT_TRUE(scene.ok()) << name << scene.error().pointer << scene.error().message;
-        ASSERT_TRUE(preset.ok());
-        EXPECT_EQ(fingerprint(*scene), fingerprint(*preset)) << name;
-        // What a field is said to be is what the preset decides.
-        for (const auto& [field, schema] : contract.named("Implicit").at("properties").items())
-            if (schema.value("x-otherwise", "") == "the preset's") {
-                EXPECT_TRUE(says.contains(field)) << name << "/" << field;
-            }
+    std::size_t count = 0;
+    for (const auto& [name, schema] : contract.schemas().items()) {
+        if (!schema.contains("x-presets")) continue;
+        const std::string by = schema.at("x-presets-by");
+        const json& words = schema.at("properties").at(by).at("enum");
+        EXPECT_EQ(schema.at("x-presets").size(), words.size()) << name;
+        for (const json& word : words)
+            for (const auto& [field, says] : schema.at("properties").items())
+                if (says.value("x-otherwise", "") == "the " + by + "'s") {
+                    ++count;
+                    EXPECT_TRUE(schema.at("x-presets").at(word).contains(field)) << word << field;
+                }
     }
+    EXPECT_GT(count, 0u);
 }
 
 }  // namespace
