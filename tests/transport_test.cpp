@@ -283,29 +283,6 @@ TEST(Transport, ASkyThatIsSwitchedOffGivesNoLight) {
     EXPECT_NE(on->image.pixels, none->image.pixels);
 }
 
-TEST(LightCache, KeepsTheLatestWithinItsBytes) {
-    const auto light_of = [](std::size_t floats) {
-        TransportLight light;
-        light.sun.depth.resize(floats);
-        return std::make_shared<const TransportLight>(std::move(light));
-    };
-    const std::size_t each = light_of(1000)->bytes();
-    LightCache cache(3 * each);
-    cache.keep("a", light_of(1000));
-    cache.keep("b", light_of(1000));
-    cache.keep("c", light_of(1000));
-    EXPECT_TRUE(cache.find("a"));  // now the most recent
-    cache.keep("d", light_of(1000));
-    EXPECT_FALSE(cache.find("b"));
-    EXPECT_TRUE(cache.find("a") && cache.find("c") && cache.find("d"));
-    EXPECT_LE(cache.bytes_in_use(), 3 * each);
-    cache.keep("huge", light_of(100000));  // more than all of it: left out, nothing is lost
-    EXPECT_FALSE(cache.find("huge"));
-    EXPECT_TRUE(cache.find("a"));
-    cache.keep("a", light_of(1000));
-    EXPECT_LE(cache.bytes_in_use(), 3 * each);
-}
-
 TEST(LightCache, KeyIsTheLightsOwn) {
     SceneDraft draft = test::table_4_4();
     const std::string key = light_key(test::valid(draft), {});
