@@ -116,6 +116,9 @@ struct Access {
     Holds holds = Holds::kOutside;
     // Whether it can be absent: a std::optional or a std::shared_ptr.
     bool optional = false;
+    // Another text for each member, for comparisons while compiling: under -fsanitize=undefined GCC 12 can't compare
+    // addresses of functions then.
+    std::string_view called{};
     // One address for each type of a member: a struct and its first member stand in one place.
     const void* type = nullptr;
     // The member as it stands, e.g. the std::optional itself.
@@ -135,7 +138,8 @@ struct Access {
     void* (*append)(void* list) = nullptr;
     // Of kObject and kObjects.
     const Table& (*table)() = nullptr;
-    // A bool beside the member that says it does not count (then Row::absent stands in the document); null: none.
+    // Whether a bool stands beside the member that says it does not count (then Row::absent stands in the document).
+    bool beside = false;
     const bool* (*unused)(const void* object) = nullptr;
     bool* (*set_unused)(void* object) = nullptr;
 };
@@ -248,7 +252,12 @@ void* put_into(T& member) {
     return &member;
 }
 
-// `member` gives the member of an object, const or not.
+template <typename Member>
+constexpr std::string_view called() {
+    return __PRETTY_FUNCTION__;
+}
+
+// `Member` gives the member of an object, const or not.
 template <typename Object, typename T, typename Member>
 constexpr Access access_by(Member) {
     using Value = typename Optional<T>::Value;
@@ -256,6 +265,7 @@ constexpr Access access_by(Member) {
     Access a;
     a.holds = kHolds;
     a.optional = Optional<T>::kIs;
+    a.called = called<Member>();
     a.type = &kTypeTag<T>;
     a.member = [](const void* o) -> const void* {
         return &Member::of(*static_cast<const Object*>(o));
@@ -324,6 +334,7 @@ constexpr Field field_unless(const Row& row) {
     using namespace table_detail;
     using Object = OwnerOf<Member>;
     Field made = field<Member>(row);
+    made.access.beside = true;
     made.access.unused = [](const void* o) { return &(static_cast<const Object*>(o)->*Unused); };
     made.access.set_unused = [](void* o) { return &(static_cast<Object*>(o)->*Unused); };
     return made;
@@ -365,7 +376,7 @@ constexpr bool any_twice(std::span<const Field> fields) {
     for (std::size_t i = 0; i < fields.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
             const Field &a = fields[i], &b = fields[j];
-            if (a.access.member != nullptr && a.access.member == b.access.member) return true;
+            if (!a.access.called.empty() && a.access.called == b.access.called) return true;
             if (a.in_documents() && std::string_view(a.name) == b.name) return true;
         }
     return false;
@@ -387,7 +398,7 @@ constexpr bool covers(const Field (&fields)[N]) {
             counted = counted || (fields[j].part_of != nullptr &&
                                   std::string_view(fields[j].part_of) == fields[i].part_of);
         if (!counted) ++covered;
-        if (fields[i].access.unused != nullptr) ++covered;
+        if (fields[i].access.beside) ++covered;
     }
     return covered == table_detail::members_of<Object>();
 }
