@@ -63,14 +63,20 @@ Status render_march(const Scene& scene, const Planned& planned, const Tools& too
     });
     if (!light.ok()) return light.error();
     if (!rendered.light_was_kept) rendered.times.effects.add((*light)->took);
+    MarchSettings settings;
+    settings.eye_effects = planned.plan.eye_effects();
     auto image = timed(rendered.times.draw_ms, [&] {
-        MarchSettings settings;
-        settings.eye_effects = planned.plan.eye_effects();
         return march(scene, planned.particles, planned.survey.view, **light, settings,
                      tools.threads, deadline, &rendered.times.effects);
     });
     if (!image.ok()) return image.error();
     rendered.image = *std::move(image);
+    auto grids = timed(rendered.times.measure_ms, [&] {
+        return differences_of_grids(scene, planned.particles, planned.survey.view, **light,
+                                    settings, tools.threads, deadline);
+    });
+    if (!grids.ok()) return grids.error();
+    rendered.grids = *grids;
     return std::nullopt;
 }
 

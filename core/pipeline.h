@@ -6,6 +6,7 @@
 #include "core/base/deadline.h"
 #include "core/base/image.h"
 #include "core/base/progress.h"
+#include "core/draw/grid_error.h"
 #include "core/generate/detail.h"
 #include "core/gl/device.h"
 #include "core/light/light_cache.h"
@@ -20,6 +21,8 @@ struct Rendered {
     Image image;
     StageTimes times;
     bool light_was_kept = false;  // it came from the cache
+    // Of the transport rungs: what the stated error was measured from.
+    GridDifferences grids;
 };
 
 // What rendering works with. The splat rungs need the device, on the thread that owns it; the others run on

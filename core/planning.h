@@ -15,6 +15,8 @@ namespace awan {
 // Wall time, ms.
 struct StageTimes {
     double generate_ms = 0, survey_ms = 0, light_ms = 0, draw_ms = 0;
+    // Of measuring the picture's error.
+    double measure_ms = 0;
     // Parts of the above; of effects that are on.
     EffectTimes effects;
 };

@@ -18,7 +18,9 @@ struct BandProblem {
     glm::dvec3 beam_direction{0, -1, 0};  // the way the light goes, unit
     Inflow inflow{};                      // what comes in through the grid's faces; empty: nothing
     InflowFromBelow from_below{};         // and beside that; empty: nothing
-    double tolerance = 1e-3;              // of the residual, relative to the source
+    // The source function that the solve begins from, as SolvedBand::band has it; EMPTY: dark.
+    std::vector<std::array<float, kHarmonics>> guess{};
+    double tolerance = 1e-3;  // of the residual, relative to the source
     int max_sweeps = 40;
 };
 

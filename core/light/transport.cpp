@@ -7,6 +7,7 @@
 #include "core/light/band_solve.h"
 #include "core/light/ground_band.h"
 #include "core/light/islands.h"
+#include "core/light/nested_grids.h"
 #include "core/light/part_matter.h"
 #include "core/light/shine.h"
 #include "core/light/transport_part.h"
@@ -26,6 +27,9 @@ struct PartSolve {
     const Scene& scene;
     const LightPart& part;
     const TransportSettings& settings;
+    int cells;  // of the grid; 0: none
+    // The light of the next coarser grid, from which this one's solves begin; null: there is none.
+    const TransportLight* coarser;
     int threads;
     const Deadline& deadline;
 
@@ -88,14 +92,16 @@ Inflow inflow_of(const PartSolve& solve, const Shine& shine, std::size_t index) 
     };
 }
 
-// The band of this index: how `shine` lights the part.
-Result<SolvedBand> band_of(const PartSolve& solve, const Shine& shine, std::size_t index) {
+// The band of this index: how `shine` lights the part. guess: as in BandProblem.
+Result<SolvedBand> band_of(const PartSolve& solve, const Shine& shine, std::size_t index,
+                           std::vector<std::array<float, kHarmonics>> guess) {
     const Matter matter = matter_of(solve.grid, solve.split, solve.albedo, channel_of(shine));
     BandProblem problem{matter, solve.split};
     if (shine.beam) problem.beam = &solve.beam;
     problem.beam_direction = -sun_direction(solve.scene->sun);
     problem.inflow = inflow_of(solve, shine, index);
     problem.from_below = shine.from_below;
+    problem.guess = std::move(guess);
     problem.tolerance = (shine.beam ? 1 : kSkyTolerance) * solve.settings.tolerance;
     problem.max_sweeps = solve.settings.max_sweeps;
     auto solved = solve_band(problem, solve.ordinates, solve.threads, solve.deadline);
@@ -114,8 +120,13 @@ void count_sweeps(const SolvedBand& solved, TransportLight& light) {
 
 // Solves for the next band. Its time is counted as `effect`'s.
 Status add_band(const PartSolve& solve, const Shine& shine, Effect effect, TransportLight& light) {
-    auto solved =
-        timed_for(light.took, effect, [&] { return band_of(solve, shine, light.bands.size()); });
+    const std::size_t index = light.bands.size();
+    auto solved = timed_for(light.took, effect, [&] {
+        std::vector<std::array<float, kHarmonics>> guess;
+        if (solve.coarser != nullptr && index < solve.coarser->bands.size())
+            guess = moments_between(*solve.coarser, index, light, solve.threads);
+        return band_of(solve, shine, index, std::move(guess));
+    });
     if (!solved.ok()) return solved.error();
     count_sweeps(*solved, light);
     light.bands.push_back(std::move(solved->band));
@@ -141,8 +152,8 @@ Status add_own_ground(const PartSolve& solve, TransportLight& light) {
     const auto start = Deadline::Clock::now();
     const ScatteringSplit& split = solve.split;
     if (solve.shades_ground())
-        cast_shadow(light.sun, split.albedo, split.peak_share, solve.scene->medium.g, solve.threads,
-                    light.ground);
+        cast_shadow(solve.part.sun, split.albedo, split.peak_share, solve.scene->medium.g,
+                    solve.threads, light.ground);
     const auto side = static_cast<float>(solve.grid.lattice.cell);
     std::vector<float> depth(solve.grid.extinction);
     for (float& one : depth) one *= side;
@@ -160,7 +171,7 @@ Status add_own_ground(const PartSolve& solve, TransportLight& light) {
         shine.color[channel] = 1;
         shine.from_below = inflow;
         auto solved = timed_for(light.took, Effect::kGroundLight,
-                                [&] { return band_of(solve, shine, light.bands.size()); });
+                                [&] { return band_of(solve, shine, light.bands.size(), {}); });
         if (!solved.ok()) return Result<LightBand>(solved.error());
         count_sweeps(*solved, light);
         return Result<LightBand>(std::move(solved->band));
@@ -189,7 +200,7 @@ TransportLight without_grid(const PartSolve& solve, TransportLight light) {
     const Medium& medium = solve.scene->medium;
     if (solve.shades_ground()) {
         const auto start = Deadline::Clock::now();
-        cast_shadow(light.sun, medium.albedo, 0, medium.g, solve.threads, light.ground);
+        cast_shadow(solve.part.sun, medium.albedo, 0, medium.g, solve.threads, light.ground);
         light.took.of(Effect::kGroundShadow) = ms_since(start);
     }
     if (solve.colored) take_colors(solve, light);
@@ -200,7 +211,7 @@ TransportLight without_grid(const PartSolve& solve, TransportLight light) {
 Status prepare_grid(PartSolve& solve, TransportLight& light) {
     const double floor =
         solve.over_ground ? solve.scene->ground->height : -std::numeric_limits<double>::infinity();
-    solve.grid = grid_of_part(solve.part, solve.settings.cells, floor, solve.threads);
+    solve.grid = grid_of_part(solve.part, solve.cells, floor, solve.threads);
     const Lattice& lattice = solve.grid.lattice;
     light.took.of(Effect::kDetail) += solve.grid.detail_ms;
     light.origin = lattice.origin;
@@ -223,7 +234,7 @@ Status add_bands_from_outside(PartSolve& solve, TransportLight& light) {
         shines_of(solve.outside, physical, solve.colored, solve.settings.sky);
     if (std::any_of(shines.begin(), shines.end(), [](const Shine& shine) { return shine.beam; }))
         solve.beam = timed_for(light.took, Effect::kMultipleScattering, [&] {
-            return beam_source(solve.grid, light.sun, solve.split.scaled(), solve.threads,
+            return beam_source(solve.grid, solve.part.sun, solve.split.scaled(), solve.threads,
                                solve.deadline);
         });
     // A beam that was cut short must not pass for a dark one.
@@ -235,26 +246,67 @@ Status add_bands_from_outside(PartSolve& solve, TransportLight& light) {
     return std::nullopt;
 }
 
+// The light of the grid that `solve` names, as it is solved; without the sun's depth.
+Result<TransportLight> solve_grid(PartSolve solve) {
+    TransportLight light;
+    light.sky = solve.settings.sky;
+    if (solve.part.whole == nullptr) light.ground = bare_ground(*solve.scene);
+    light.ground.into_cloud = solve.own_ground() && solve.settings.ground;
+    if (solve.cells == 0) return without_grid(solve, std::move(light));
+
+    if (Status failed = prepare_grid(solve, light)) return *failed;
+    if (Status failed = add_bands_from_outside(solve, light)) return *failed;
+    if (solve.part.whole != nullptr)
+        if (Status failed = add_bands_of_whole_ground(solve, light)) return *failed;
+    if (solve.own_ground() && (solve.settings.ground || solve.settings.ground_shadow))
+        if (Status failed = add_own_ground(solve, light)) return *failed;
+    light.albedo = std::move(solve.albedo);
+    return light;
+}
+
+// What a grid that only is on the way to a finer one need not hold.
+std::shared_ptr<const TransportLight> on_the_way(TransportLight light) {
+    light.ground = {};
+    if (light.coarser && light.coarser->coarser) {
+        // Two steps back are enough to see how the differences fall.
+        TransportLight before = *light.coarser;
+        before.coarser = nullptr;
+        light.coarser = std::make_shared<const TransportLight>(std::move(before));
+    }
+    return std::make_shared<const TransportLight>(std::move(light));
+}
+
 }  // namespace
 
 Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
                                      const TransportSettings& settings, int threads,
                                      const Deadline& deadline) {
-    PartSolve solve{scene, part, settings, threads, deadline};
-    TransportLight light;
-    light.sky = settings.sky;
+    TransportLight light;   // with what it gains by coarser grids
+    TransportLight solved;  // as it was solved
+    EffectTimes took;
+    int sweeps = 0;
+    for (const int cells : nested_cells(settings.cells)) {
+        const bool first = sweeps == 0;
+        std::shared_ptr<const TransportLight> coarser;
+        if (!first) coarser = on_the_way(std::move(light));
+        auto next = solve_grid({.scene = scene,
+                                .part = part,
+                                .settings = settings,
+                                .cells = cells,
+                                .coarser = coarser.get(),
+                                .threads = threads,
+                                .deadline = deadline});
+        if (!next.ok()) return next;
+        took.add(next->took);
+        sweeps += next->sweeps;
+        light = *next;
+        if (!first) extrapolate(solved, light, threads);
+        light.coarser = std::move(coarser);
+        solved = *std::move(next);
+    }
+    light.took = took;
+    light.sweeps = sweeps;
     light.sun = std::move(part.sun);
-    if (part.whole == nullptr) light.ground = bare_ground(*scene);
-    light.ground.into_cloud = solve.own_ground() && settings.ground;
-    if (settings.cells == 0) return without_grid(solve, std::move(light));
-
-    if (Status failed = prepare_grid(solve, light)) return *failed;
-    if (Status failed = add_bands_from_outside(solve, light)) return *failed;
-    if (part.whole != nullptr)
-        if (Status failed = add_bands_of_whole_ground(solve, light)) return *failed;
-    if (solve.own_ground() && (settings.ground || settings.ground_shadow))
-        if (Status failed = add_own_ground(solve, light)) return *failed;
-    light.albedo = std::move(solve.albedo);
     return light;
 }
 

@@ -11,6 +11,7 @@ std::size_t TransportLight::bytes() const {
         regions.nodes.capacity() * sizeof(IslandNode) + regions.list.capacity() * sizeof(Island);
     // Room for islands that is not in use yet, and those in use, whose `light` counts its own size.
     bytes += (islands.capacity() - islands.size()) * sizeof(LightIsland);
+    if (coarser) bytes += coarser->bytes();
     for (const LightIsland& island : islands)
         bytes += sizeof island - sizeof island.light + island.light.bytes();
     return bytes;

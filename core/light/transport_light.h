@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "core/light/ground_light.h"
@@ -46,6 +47,9 @@ struct TransportLight {
     // f = chi_(L+1), for Henyey-Greenstein g^(L+1): the share of scattering that is taken as the forward peak. Radiance
     // from `bands` is dimmed towards the eye by exp(-(1 - albedo f) tau), not by exp(-tau).
     double peak_share = 0;
+    // The same light as the next coarser grid has it, its sun depth, ground and islands left out: by how much the two
+    // differ says how far both may be from the truth. Null: there is none.
+    std::shared_ptr<const TransportLight> coarser;
     bool sky = true;      // whether the sky's light is in it, as TransportSettings asked
     GroundLight ground;   // of a scene that has one, as TransportSettings asked
     int sweeps = 0;       // transport sweeps it took, all bands

@@ -27,6 +27,8 @@ struct Options {
     double noise = 0.1;   // of a pixel of the truth that is wanted
     double seconds = 20;  // of a truth, at most
     int runs = 3;         // timed renders; the least counts
+    bool only_grids = false;
+    std::string keep;  // folder of references from an earlier run; EMPTY: none are kept
 };
 
 template <typename T>
@@ -74,6 +76,44 @@ Reference reference_of(const Scene& scene, const Planned& planned, const Options
     return reference;
 }
 
+// A reference as a file: samples, noise, seconds, then the pixels of both halves.
+std::string kept_name(const Options& options, int index) {
+    return options.keep + "/" + options.set + "-" + std::to_string(index) + "-" +
+           std::to_string(options.width) + "x" + std::to_string(options.height) + ".reference";
+}
+
+bool read_kept(const Options& options, int index, Reference& reference) {
+    if (options.keep.empty()) return false;
+    std::ifstream file(kept_name(options, index), std::ios::binary);
+    const auto take = [&](auto* to, std::size_t count) {
+        file.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(count * sizeof *to));
+    };
+    take(&reference.samples, 1);
+    take(&reference.noise, 1);
+    take(&reference.seconds, 1);
+    for (Image* half : {&reference.image.half_a, &reference.image.half_b}) {
+        half->width = options.width;
+        half->height = options.height;
+        half->pixels.resize(4 * half->pixel_count());
+        take(half->pixels.data(), half->pixels.size());
+    }
+    return file.good();
+}
+
+void keep(const Options& options, int index, const Reference& reference) {
+    if (options.keep.empty()) return;
+    std::ofstream file(kept_name(options, index), std::ios::binary);
+    const auto put = [&](const auto* from, std::size_t count) {
+        file.write(reinterpret_cast<const char*>(from),
+                   static_cast<std::streamsize>(count * sizeof *from));
+    };
+    put(&reference.samples, 1);
+    put(&reference.noise, 1);
+    put(&reference.seconds, 1);
+    for (const Image* half : {&reference.image.half_a, &reference.image.half_b})
+        put(half->pixels.data(), half->pixels.size());
+}
+
 void measure(const Options& options, int index, Device& device, std::FILE* out) {
     const auto numbered =
         calibration::numbered_scene(options.set, index, options.width, options.height);
@@ -82,9 +122,13 @@ void measure(const Options& options, int index, Device& device, std::FILE* out) 
     SceneDraft named = numbered.draft;
     named.accuracy.rung = "truth";
     const Planned planned = must(plan_scene(must(validate(named)), options.threads, {}));
-    const Reference reference = reference_of(scene, planned, options);
+    Reference reference;
+    if (!read_kept(options, index, reference)) {
+        reference = reference_of(scene, planned, options);
+        keep(options, index, reference);
+    }
     for (const Rung& rung : ladder()) {
-        if (rung.method == Method::kPaths) continue;
+        if (rung.method == Method::kPaths || (options.only_grids && rung.cells == 0)) continue;
         SceneDraft draft = numbered.draft;
         draft.accuracy.rung = rung.name;
         const Scene same = must(validate(draft));
@@ -103,13 +147,14 @@ void measure(const Options& options, int index, Device& device, std::FILE* out) 
         const auto& plan = rendered->plan;
         std::fprintf(out,
                      "%s,%d,%s,%s,%d,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,%.3g,%.4g,%.3g,%.3g,%u,%.5g,"
-                     "%.5g,%.5g,%.5g,%.5g",
+                     "%.5g,%.5g,%.5g,%.5g,%.5g,%.5g",
                      options.set.c_str(), index, numbered.kind.c_str(), rung.name, rung.cells,
                      planned.survey.particles, planned.survey.optical_depth_eye,
                      planned.survey.optical_depth_sun, scene->medium.g, scene->medium.albedo,
                      planned.survey.sun_cosine, error.nrmse, error.nrmse_noise, error.bias,
                      error.bias_noise, reference.noise, reference.samples, plan.predicted.error,
-                     time_ms, light_ms, draw_ms, plan.predicted.time_ms);
+                     time_ms, light_ms, draw_ms, plan.predicted.time_ms, rendered->grids.last,
+                     rendered->grids.before);
         for (const double figure : error_figures(rung, scene, planned.survey))
             std::fprintf(out, ",%.6g", figure);
         for (const double figure : time_figures(rung, scene, planned.survey, 0))
@@ -118,7 +163,7 @@ void measure(const Options& options, int index, Device& device, std::FILE* out) 
     }
     // The truth's own figures: noise of one path and what it took.
     std::fprintf(
-        out, "%s,%d,%s,truth,0,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,0,0,0,%.3g,%u,0,%.5g,0,%.5g,0",
+        out, "%s,%d,%s,truth,0,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,0,0,0,%.3g,%u,0,%.5g,0,%.5g,0,0,0",
         options.set.c_str(), index, numbered.kind.c_str(), planned.survey.particles,
         planned.survey.optical_depth_eye, planned.survey.optical_depth_sun, scene->medium.g,
         scene->medium.albedo, planned.survey.sun_cosine, reference.noise, reference.noise,
@@ -147,6 +192,10 @@ int main(int argc, char** argv) {
                    "of a pixel of the truth that is wanted; 1 and more: only times count");
     app.add_option("--seconds", options.seconds, "that a truth may take");
     app.add_option("--runs", options.runs);
+    app.add_option(
+        "--keep", options.keep,
+        "a folder that keeps references for the next run: only while the truth stays the same");
+    app.add_flag("--only-grids", options.only_grids, "leave out all but the transport rungs");
     app.add_option("-o,--output", options.output);
     CLI11_PARSE(app, argc, argv);
     Device device = must(Device::open(DeviceChoice::kSoftware));
@@ -155,7 +204,8 @@ int main(int argc, char** argv) {
     std::fputs(
         "set,index,kind,rung,cells,particles,depth_eye,depth_sun,g,albedo,sun_cosine,error,error_"
         "noise,bias,bias_noise,"
-        "truth_noise,samples,predicted_error,time_ms,light_ms,draw_ms,predicted_ms",
+        "truth_noise,samples,predicted_error,time_ms,light_ms,draw_ms,predicted_ms,grids_last,"
+        "grids_before",
         out);
     for (const char* name : kErrorFigureNames) std::fprintf(out, ",e_%s", name);
     for (const char* name : kTimeFigureNames) std::fprintf(out, ",t_%s", name);
