@@ -1,12 +1,20 @@
 #include "core/pipeline.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
 #include <utility>
 
+#include "core/climb.h"
 #include "core/draw/draw.h"
 #include "core/draw/march.h"
 #include "core/light/light.h"
 #include "core/light/transport.h"
 #include "core/looks/looks.h"
+#include "core/plan/island_settings.h"
+#include "core/scene/validate.h"
 #include "core/sequence.h"
 #include "core/survey/detail_of.h"
 #include "core/truth/path_tracer.h"
@@ -34,50 +42,71 @@ Status render_splats(const Scene& scene, const Planned& planned, const Tools& to
     return std::nullopt;
 }
 
-using SharedLight = std::shared_ptr<const TransportLight>;
-
-Result<SharedLight> kept_or_solved(const Scene& scene, const Planned& planned, const Tools& tools,
-                                   const Deadline& deadline, bool& was_kept) {
-    const TransportSettings& settings = planned.plan.transport;
-    const std::string key = tools.lights ? light_key(scene, settings, planned.particles.variant,
-                                                     planned.particles.detail.get())
-                                         : std::string();
-    if (tools.lights)
-        if (SharedLight light = tools.lights->find(key)) {
-            was_kept = true;
-            return light;
-        }
-    auto solved = transport_light(scene, planned.particles, planned.survey, settings, tools.threads,
-                                  deadline);
-    if (!solved.ok()) return solved.error();
-    SharedLight light = std::make_shared<const TransportLight>(*std::move(solved));
-    if (tools.lights) tools.lights->keep(key, light);
-    return light;
-}
-
-// Transport on a grid, then the march.
-Status render_march(const Scene& scene, const Planned& planned, const Tools& tools,
-                    const Deadline& deadline, Rendered& rendered) {
-    auto light = timed(rendered.times.light_ms, [&] {
-        return kept_or_solved(scene, planned, tools, deadline, rendered.light_was_kept);
-    });
-    if (!light.ok()) return light.error();
-    if (!rendered.light_was_kept) rendered.times.effects.add((*light)->took);
+Status march_light(const Scene& scene, const Planned& planned, const TransportLight& light,
+                   const Tools& tools, const Deadline& deadline, Rendered& rendered) {
     MarchSettings settings;
     settings.eye_effects = planned.plan.eye_effects();
-    auto image = timed(rendered.times.draw_ms, [&] {
-        return march(scene, planned.particles, planned.survey.view, **light, settings,
-                     tools.threads, deadline, &rendered.times.effects);
+    double draw_ms = 0;
+    auto image = timed(draw_ms, [&] {
+        return march(scene, planned.particles, planned.survey.view, light, settings, tools.threads,
+                     deadline, &rendered.times.effects);
     });
     if (!image.ok()) return image.error();
+    rendered.times.draw_ms += draw_ms;
     rendered.image = *std::move(image);
-    auto grids = timed(rendered.times.measure_ms, [&] {
-        return differences_of_grids(scene, planned.particles, planned.survey.view, **light,
-                                    settings, tools.threads, deadline);
-    });
-    if (!grids.ok()) return grids.error();
-    rendered.grids = *grids;
     return std::nullopt;
+}
+
+bool holds(double error, const Scene& scene) {
+    return error <= scene->accuracy.error.value_or(kDefaultError);
+}
+
+// Whether the scene asks for an error, if only by asking for nothing.
+bool asks_for_error(const Scene& scene) {
+    return !scene->accuracy.rung && !scene->accuracy.time_ms;
+}
+
+// Transport on a grid, as fine as the scene's wish needs; not drawn yet.
+Result<SharedLight> climbed_light(const Scene& scene, const Planned& planned, const Tools& tools,
+                                  const Deadline& deadline, Rendered& rendered) {
+    auto climbed = climb(scene, planned, {tools.lights, tools.threads}, deadline);
+    if (!climbed.ok()) return climbed.error();
+    rendered.light_was_kept = climbed->was_kept;
+    rendered.times.light_ms += climbed->light_ms;
+    rendered.times.measure_ms += climbed->measure_ms;
+    rendered.times.effects.add(climbed->took);
+    if (climbed->rung != nullptr) {
+        rendered.rung = climbed->rung;
+        rendered.stated_error = climbed->stated;
+    }
+    return std::move(climbed->light);
+}
+
+// The light's grid or, of rung `single`, the sun's depth alone, then the march.
+Status render_march(const Scene& scene, const Planned& planned, const Tools& tools,
+                    const Deadline& deadline, Rendered& rendered) {
+    const auto light = climbed_light(scene, planned, tools, deadline, rendered);
+    if (!light.ok()) return light.error();
+    return march_light(scene, planned, **light, tools, deadline, rendered);
+}
+
+// Noise of a pixel of the mean of both halves, relative to the mean of those pixels that have any.
+double noise_of(const TruthImage& truth) {
+    double square = 0, sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < truth.half_a.pixels.size(); i += 4) {
+        const float *const a = truth.half_a.pixels.data() + i, *const b =
+                                                                   truth.half_b.pixels.data() + i;
+        if (std::equal(a, a + 3, b)) continue;
+        ++count;
+        for (int c = 0; c < 3; ++c) {
+            const auto x = static_cast<double>(a[c]), y = static_cast<double>(b[c]);
+            square += 0.25 * (x - y) * (x - y);
+            sum += 0.5 * (x + y);
+        }
+    }
+    const double values = 3 * static_cast<double>(count);
+    return sum > 0 ? std::sqrt(square / values) / (sum / values) : 0;
 }
 
 // Every path of light.
@@ -93,6 +122,7 @@ Status render_paths(const Scene& scene, const Planned& planned, const Tools& too
     });
     if (!truth.ok()) return truth.error();
     rendered.image = mean_of(*truth);
+    rendered.stated_error = noise_of(*truth);
     return std::nullopt;
 }
 
@@ -105,6 +135,60 @@ Status render_look(const Scene& scene, const Planned& planned, const Tools& tool
     if (!image.ok()) return image.error();
     rendered.image = *std::move(image);
     return std::nullopt;
+}
+
+// The same plan for the transport rungs.
+Planned for_grids(const Scene& scene, Planned planned, const Tools& tools) {
+    SceneDraft draft = *scene;
+    draft.accuracy = {{}, {}, rung_of(RungId::kTransport16).name};
+    const auto named = validate(std::move(draft));
+    if (!named.ok()) return planned;  // it was valid before
+    const RungForecast forecast = planned.plan.predicted;
+    planned.plan = plan(*named, planned.survey, tools.threads, tools.speed);
+    planned.plan.predicted = forecast;
+    planned.plan.transport.islands = island_cells(planned.plan.transport, planned.survey);
+    return *with_detail_made(scene, std::move(planned), tools.threads);
+}
+
+// A picture of a rung without a grid is measured against the coarsest grid. Where it is not what the scene asks for,
+// one of a transport rung takes its place.
+Status measure_or_climb(const Scene& scene, Planned& planned, const Tools& tools,
+                        const Deadline& deadline, Rendered& rendered) {
+    if (planned.particles.size() == 0 || !(planned.survey.total_mass > 0)) return std::nullopt;
+    double measure_ms = 0;
+    const auto error = timed(measure_ms, [&] {
+        return error_of_picture(scene, planned, rendered.image, {tools.lights, tools.threads},
+                                deadline);
+    });
+    if (!error.ok()) return error.error();
+    rendered.times.measure_ms += measure_ms;
+    rendered.stated_error = *error;
+    if (!asks_for_error(scene) || holds(*error, scene) || wants_splats(scene)) return std::nullopt;
+    planned = for_grids(scene, std::move(planned), tools);
+    return render_march(scene, planned, tools, deadline, rendered);
+}
+
+// Paths are for what no grid keeps to: it is looked for first.
+Status render_grid_or_paths(const Scene& scene, Planned& planned, const Tools& tools,
+                            const Deadline& deadline, Rendered& rendered) {
+    Planned grids = for_grids(scene, planned, tools);
+    const auto light = climbed_light(scene, grids, tools, deadline, rendered);
+    if (!light.ok()) return light.error();
+    if (!holds(rendered.stated_error, scene)) {
+        rendered.rung = &rung_of(RungId::kTruth);
+        return render_paths(scene, planned, tools, deadline, rendered);
+    }
+    planned = std::move(grids);
+    return march_light(scene, planned, **light, tools, deadline, rendered);
+}
+
+// Why the picture is of another rung than was planned.
+std::string climbed_reason(const Plan& plan, const Rung& rung, double stated) {
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(),
+                  "%s was expected to do; measured, the error of %s is %.3g%%", plan.rung.c_str(),
+                  rung.name, 100 * stated);
+    return text.data();
 }
 
 }  // namespace
@@ -149,22 +233,34 @@ Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools
                                 const Deadline& deadline) {
     Rendered rendered;
     rendered.times = planned.times;
+    rendered.rung = planned.plan.predicted.rung;
     Status failed;
-    switch (planned.plan.predicted.rung->method) {
+    switch (rendered.rung->method) {
         case Method::kSplats:
             failed = render_splats(scene, planned, tools, deadline, rendered);
+            if (!failed) failed = measure_or_climb(scene, planned, tools, deadline, rendered);
             break;
         case Method::kMarch:
             failed = render_march(scene, planned, tools, deadline, rendered);
+            if (!failed && planned.plan.transport.cells == 0)
+                failed = measure_or_climb(scene, planned, tools, deadline, rendered);
             break;
         case Method::kPaths:
-            failed = render_paths(scene, planned, tools, deadline, rendered);
+            failed = asks_for_error(scene)
+                         ? render_grid_or_paths(scene, planned, tools, deadline, rendered)
+                         : render_paths(scene, planned, tools, deadline, rendered);
             break;
         case Method::kLook:
+            rendered.stated_error = std::numeric_limits<double>::quiet_NaN();
             failed = render_look(scene, planned, tools, deadline, rendered);
             break;
     }
     if (failed) return *failed;
+    if (planned.plan.rung != rendered.rung->name) {
+        planned.plan.rung_reason =
+            climbed_reason(planned.plan, *rendered.rung, rendered.stated_error);
+        planned.plan.rung = rendered.rung->name;
+    }
     for (const EffectDecision& decision : planned.plan.effects)
         if (!decision.on) rendered.times.effects.of(decision.effect) = 0;
     rendered.survey = std::move(planned.survey);

@@ -6,7 +6,6 @@
 #include "core/base/deadline.h"
 #include "core/base/image.h"
 #include "core/base/progress.h"
-#include "core/draw/grid_error.h"
 #include "core/generate/detail.h"
 #include "core/gl/device.h"
 #include "core/light/light_cache.h"
@@ -21,8 +20,10 @@ struct Rendered {
     Image image;
     StageTimes times;
     bool light_was_kept = false;  // it came from the cache
-    // Of the transport rungs: what the stated error was measured from.
-    GridDifferences grids;
+    // The rung that the picture is of: the plan's, or where that did not keep to the scene's wish, another.
+    const Rung* rung = nullptr;
+    // Its error, measured while it was made (core/climb.h), as PictureError::nrmse. NaN: nothing is known of it (a look).
+    double stated_error = 0;
 };
 
 // What rendering works with. The splat rungs need the device, on the thread that owns it; the others run on

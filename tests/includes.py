@@ -25,6 +25,7 @@ ORDER = [
     ["core/formats"],
     ["core/planning"],
     ["core/sequence"],
+    ["core/climb"],
     ["core/pipeline"],
     ["core/accuracy"],
     ["server/document"],

@@ -90,8 +90,8 @@ IslandScene island_scene(const Scene& scene, const ParticleSet& particles, const
 
 // One island's light; not lit where it has no matter or is not seen.
 Result<LightIsland> light_of_island(const IslandScene& all, std::size_t self,
-                                    const IslandCells& cells, int threads,
-                                    const Deadline& deadline) {
+                                    const IslandCells& cells, const SharedLight& coarser,
+                                    int threads, const Deadline& deadline) {
     const Island& box = all.islands.list[self];
     const ParticleSet& own = all.sets[self];
     LightIsland island;
@@ -108,12 +108,20 @@ Result<LightIsland> light_of_island(const IslandScene& all, std::size_t self,
     LightPart part{own, with, std::move(sun), box.depth};
     part.surroundings = surroundings_of(all.scene, all.neighbours, self, all.whole);
     part.whole = &all.whole;
-    auto solved = light_of_part(all.scene, std::move(part), settings, threads, deadline);
+    auto solved = light_of_part(all.scene, std::move(part), settings, coarser, threads, deadline);
     if (!solved.ok()) return solved.error();
     island.light = *std::move(solved);
     island.light.took.add(took);
     island.lit = true;
     return island;
+}
+
+// The light of the same island in the scene's coarser light; null: there is none.
+SharedLight coarser_island(const SharedLight& coarser, std::size_t island) {
+    if (!coarser || island >= coarser->islands.size() || !coarser->islands[island].lit)
+        return nullptr;
+    // It lives as long as the light that it is a part of.
+    return {coarser, &coarser->islands[island].light};
 }
 
 // Adds to the whole's figures what its islands took, each effect's time times `share`.
@@ -139,9 +147,10 @@ std::vector<std::size_t> largest_first(const std::vector<IslandCells>& islands) 
 
 Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& particles,
                                         const Survey& survey, const TransportSettings& settings,
-                                        int threads, const Deadline& deadline) {
+                                        const SharedLight& coarser, int threads,
+                                        const Deadline& deadline) {
     const TransportSettings coarse = whole_settings(settings);
-    auto whole = light_of_whole(scene, particles, survey, coarse, threads, deadline);
+    auto whole = light_of_whole(scene, particles, survey, coarse, coarser, threads, deadline);
     if (!whole.ok()) return whole;
     TransportLight& light = *whole;
     light.regions = survey.islands;
@@ -158,8 +167,8 @@ Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& p
     parallel_for(side_by_side ? threads : 1, order.size(), [&](std::size_t turn) {
         const std::size_t i = order[turn];
         const auto own_start = Deadline::Clock::now();
-        auto island =
-            light_of_island(all, i, settings.islands[i], side_by_side ? 1 : threads, deadline);
+        auto island = light_of_island(all, i, settings.islands[i], coarser_island(coarser, i),
+                                      side_by_side ? 1 : threads, deadline);
         if (!island.ok()) {
             const std::lock_guard lock(mutex);
             failed = island.error();

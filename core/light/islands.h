@@ -19,6 +19,7 @@ namespace awan {
 // not 0. Islands are solved side by side, each on one thread where there are more of them than threads.
 Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& particles,
                                         const Survey& survey, const TransportSettings& settings,
-                                        int threads, const Deadline& deadline);
+                                        const SharedLight& coarser, int threads,
+                                        const Deadline& deadline);
 
 }  // namespace awan

@@ -9,9 +9,8 @@
 namespace awan {
 namespace {
 
-// Cells of the grids there are. A solve of the first takes less than a millisecond.
-constexpr std::array kSteps = {8, 12, 16, 24, 32, 48, 64, 96};
-constexpr double kLeastGrowth = 1.25;
+using Moments = std::vector<std::array<float, kHarmonics>>;
+
 // The power of a cell's side with which errors are taken to fall.
 constexpr double kOrder = 2;
 // Below this growth two grids differ by rounding more than by their error.
@@ -40,23 +39,31 @@ std::vector<Between> along(const TransportLight& from, const TransportLight& to,
     return places;
 }
 
-}  // namespace
-
-std::vector<int> nested_cells(int cells) {
-    std::vector<int> grids{cells};
-    for (std::size_t i = kSteps.size(); i-- > 0;)
-        if (kLeastGrowth * kSteps[i] <= grids.back()) grids.push_back(kSteps[i]);
-    std::reverse(grids.begin(), grids.end());
-    return grids;
+// Of `fine` the moments of a cell, of `before` those of the coarser grid there.
+void go_on(const std::array<float, kHarmonics>& before, float gain,
+           std::array<float, kHarmonics>& fine) {
+    float change = 0;
+    for (std::size_t m = 0; m < kHarmonics; ++m)
+        change = std::max(change, gain * std::abs(fine[m] - before[m]));
+    const float most = kMostChange * std::abs(fine[0]);
+    const float share = change > most ? gain * most / change : gain;
+    for (std::size_t m = 0; m < kHarmonics; ++m) fine[m] += share * (fine[m] - before[m]);
 }
 
-std::vector<std::array<float, kHarmonics>> moments_between(const TransportLight& from,
-                                                           std::size_t band,
-                                                           const TransportLight& to, int threads) {
-    const auto& values = from.bands[band].moments;
+// Cells that a thread takes at a time.
+constexpr std::size_t kBlock = 4096;
+
+// The moments as they were solved.
+const Moments& solved_moments(const TransportLight& light, std::size_t band) {
+    return band < light.solved.size() ? light.solved[band] : light.bands[band].moments;
+}
+
+// `values`: moments of the cells of `from`.
+Moments at_cells_of(const TransportLight& to, const TransportLight& from, const Moments& values,
+                    int threads) {
     const std::vector<Between> x = along(from, to, 0), y = along(from, to, 1),
                                z = along(from, to, 2);
-    std::vector<std::array<float, kHarmonics>> moments(x.size() * y.size() * z.size());
+    Moments moments(x.size() * y.size() * z.size());
     const auto at = [&](int i, int j, int k) {
         return (static_cast<std::size_t>(k) * static_cast<std::size_t>(from.cells.y) +
                 static_cast<std::size_t>(j)) *
@@ -85,40 +92,33 @@ std::vector<std::array<float, kHarmonics>> moments_between(const TransportLight&
     return moments;
 }
 
-void extrapolate(const TransportLight& coarse, TransportLight& fine, int threads) {
-    const double ratio = coarse.cell / fine.cell;
-    if (coarse.bands.size() != fine.bands.size() || !(ratio > kLeastRatio)) return;
-    const auto gain = static_cast<float>(1 / (std::pow(ratio, kOrder) - 1));
-    for (std::size_t b = 0; b < fine.bands.size(); ++b) {
-        const auto before = moments_between(coarse, b, fine, threads);
-        auto& moments = fine.bands[b].moments;
-        for (std::size_t i = 0; i < moments.size(); ++i) {
-            float change = 0;
-            for (std::size_t m = 0; m < kHarmonics; ++m)
-                change = std::max(change, gain * std::abs(moments[i][m] - before[i][m]));
-            const float most = kMostChange * std::abs(moments[i][0]);
-            const float share = change > most ? gain * most / change : gain;
-            for (std::size_t m = 0; m < kHarmonics; ++m)
-                moments[i][m] += share * (moments[i][m] - before[i][m]);
-        }
-    }
+}  // namespace
+
+std::vector<std::array<float, kHarmonics>> moments_between(const TransportLight& from,
+                                                           std::size_t band,
+                                                           const TransportLight& to, int threads) {
+    return at_cells_of(to, from, from.bands[band].moments, threads);
 }
 
-TransportLight as_coarser(const TransportLight& light) {
-    TransportLight coarser = light.coarser ? *light.coarser : light;
-    coarser.sun = light.sun;
-    coarser.ground = light.ground;
-    coarser.regions = light.regions;
-    coarser.islands.clear();
-    for (const LightIsland& island : light.islands) {
-        LightIsland& one = coarser.islands.emplace_back();
-        one.lit = island.lit;
-        one.low = island.low;
-        one.high = island.high;
-        one.mean_s = island.mean_s;
-        if (island.lit) one.light = as_coarser(island.light);
+void extrapolate(const TransportLight& coarse, TransportLight& fine, int threads) {
+    if (coarse.bands.size() != fine.bands.size() || !(coarse.cell > 0)) return;
+    if (coarse.cells == fine.cells && coarse.origin == fine.origin) {
+        fine.bands = coarse.bands;
+        fine.solved = coarse.solved;
+        return;
     }
-    return coarser;
+    const double ratio = coarse.cell / fine.cell;
+    if (!(ratio > kLeastRatio)) return;
+    const auto gain = static_cast<float>(1 / (std::pow(ratio, kOrder) - 1));
+    for (std::size_t b = 0; b < fine.bands.size(); ++b) {
+        const Moments before = at_cells_of(fine, coarse, solved_moments(coarse, b), threads);
+        auto& moments = fine.bands[b].moments;
+        fine.solved.push_back(moments);
+        parallel_for(threads, moments.size() / kBlock + 1, [&](std::size_t block) {
+            const std::size_t end = std::min((block + 1) * kBlock, moments.size());
+            for (std::size_t i = block * kBlock; i < end; ++i) go_on(before[i], gain, moments[i]);
+        });
+    }
 }
 
 }  // namespace awan

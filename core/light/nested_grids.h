@@ -11,22 +11,16 @@
 
 namespace awan {
 
-// Cells along the longest side of the grids on the way to one with `cells`, coarsest first, `cells` itself last; from one to
-// the next they grow by 1.25 to 2 times. cells >= 1.
-std::vector<int> nested_cells(int cells);
-
-// The moments of one band of `from` at the centres of the cells of `to`, trilinear; those of the nearest cell outside. Both have grids; `band` is one of
-// from's.
+// The moments of one band of `from` at the centres of the cells of `to`, trilinear; those of the nearest cell outside.
+// Both have grids; `band` is one of from's.
 std::vector<std::array<float, kHarmonics>> moments_between(const TransportLight& from,
                                                            std::size_t band,
                                                            const TransportLight& to, int threads);
 
-// Adds to the bands of `fine` what they would gain with ever smaller cells, by how they differ from those of `coarse`: both as they were
-// solved. L. F. Richardson's extrapolation (1911), for an error that falls with the square of a cell's side. A cell's moments change by at most half of
-// its mean radiance. Where the grids are nearly alike or have other bands, nothing changes.
+// Adds to the bands of `fine`, which was just solved, what they would gain with ever smaller cells, by how they differ
+// from those of `coarse` as solved: L. F. Richardson's extrapolation (1911), for an error that falls with the square of
+// a cell's side. A cell's moments change by at most half of its mean radiance. The bands as solved go to fine.solved.
+// Where both have the same grid, fine takes the bands of coarse; where they have other bands, nothing changes.
 void extrapolate(const TransportLight& coarse, TransportLight& fine, int threads);
-
-// The light as the next coarser grid has it, with all else that `light` has; islands likewise. What has no coarser grid stays as it is.
-TransportLight as_coarser(const TransportLight& light);
 
 }  // namespace awan

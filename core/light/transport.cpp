@@ -27,7 +27,6 @@ struct PartSolve {
     const Scene& scene;
     const LightPart& part;
     const TransportSettings& settings;
-    int cells;  // of the grid; 0: none
     // The light of the next coarser grid, from which this one's solves begin; null: there is none.
     const TransportLight* coarser;
     int threads;
@@ -211,7 +210,7 @@ TransportLight without_grid(const PartSolve& solve, TransportLight light) {
 Status prepare_grid(PartSolve& solve, TransportLight& light) {
     const double floor =
         solve.over_ground ? solve.scene->ground->height : -std::numeric_limits<double>::infinity();
-    solve.grid = grid_of_part(solve.part, solve.cells, floor, solve.threads);
+    solve.grid = grid_of_part(solve.part, solve.settings.cells, floor, solve.threads);
     const Lattice& lattice = solve.grid.lattice;
     light.took.of(Effect::kDetail) += solve.grid.detail_ms;
     light.origin = lattice.origin;
@@ -252,7 +251,7 @@ Result<TransportLight> solve_grid(PartSolve solve) {
     light.sky = solve.settings.sky;
     if (solve.part.whole == nullptr) light.ground = bare_ground(*solve.scene);
     light.ground.into_cloud = solve.own_ground() && solve.settings.ground;
-    if (solve.cells == 0) return without_grid(solve, std::move(light));
+    if (solve.settings.cells == 0) return without_grid(solve, std::move(light));
 
     if (Status failed = prepare_grid(solve, light)) return *failed;
     if (Status failed = add_bands_from_outside(solve, light)) return *failed;
@@ -264,55 +263,32 @@ Result<TransportLight> solve_grid(PartSolve solve) {
     return light;
 }
 
-// What a grid that only is on the way to a finer one need not hold.
-std::shared_ptr<const TransportLight> on_the_way(TransportLight light) {
-    light.ground = {};
-    if (light.coarser && light.coarser->coarser) {
-        // Two steps back are enough to see how the differences fall.
-        TransportLight before = *light.coarser;
-        before.coarser = nullptr;
-        light.coarser = std::make_shared<const TransportLight>(std::move(before));
-    }
-    return std::make_shared<const TransportLight>(std::move(light));
-}
-
 }  // namespace
 
 Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
-                                     const TransportSettings& settings, int threads,
-                                     const Deadline& deadline) {
-    TransportLight light;   // with what it gains by coarser grids
-    TransportLight solved;  // as it was solved
-    EffectTimes took;
-    int sweeps = 0;
-    for (const int cells : nested_cells(settings.cells)) {
-        const bool first = sweeps == 0;
-        std::shared_ptr<const TransportLight> coarser;
-        if (!first) coarser = on_the_way(std::move(light));
-        auto next = solve_grid({.scene = scene,
-                                .part = part,
-                                .settings = settings,
-                                .cells = cells,
-                                .coarser = coarser.get(),
-                                .threads = threads,
-                                .deadline = deadline});
-        if (!next.ok()) return next;
-        took.add(next->took);
-        sweeps += next->sweeps;
-        light = *next;
-        if (!first) extrapolate(solved, light, threads);
-        light.coarser = std::move(coarser);
-        solved = *std::move(next);
+                                     const TransportSettings& settings, const SharedLight& coarser,
+                                     int threads, const Deadline& deadline) {
+    const bool nested = settings.cells > 0 && coarser != nullptr && coarser->cell > 0;
+    auto light = solve_grid({.scene = scene,
+                             .part = part,
+                             .settings = settings,
+                             .coarser = nested ? coarser.get() : nullptr,
+                             .threads = threads,
+                             .deadline = deadline});
+    if (!light.ok()) return light;
+    light->sun = std::move(part.sun);
+    if (nested) {
+        extrapolate(*coarser, *light, threads);
+        light->coarser = coarser;
+        if (settings.last) light->solved = {};
     }
-    light.took = took;
-    light.sweeps = sweeps;
-    light.sun = std::move(part.sun);
     return light;
 }
 
 Result<TransportLight> light_of_whole(const Scene& scene, const ParticleSet& particles,
                                       const Survey& survey, const TransportSettings& settings,
-                                      int threads, const Deadline& deadline) {
+                                      const SharedLight& coarser, int threads,
+                                      const Deadline& deadline) {
     // Of lines towards the lights only: lines towards the eye would tie the light to a camera.
     const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
     EffectTimes took;
@@ -320,14 +296,15 @@ Result<TransportLight> light_of_whole(const Scene& scene, const ParticleSet& par
         return sun_depth(particles, sun_direction(scene->sun), settings.sun_cells, threads);
     });
     auto light = light_of_part(scene, {particles, particles, std::move(sun), deepest, {}, nullptr},
-                               settings, threads, deadline);
+                               settings, coarser, threads, deadline);
     if (light.ok()) light->took.add(took);
     return light;
 }
 
 Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& particles,
                                        const Survey& survey, const TransportSettings& settings,
-                                       int threads, const Deadline& deadline) {
+                                       int threads, const Deadline& deadline,
+                                       const SharedLight& coarser) {
     if (auto error = deadline.over()) return *error;
     if (particles.size() == 0 || !(survey.total_mass > 0)) {
         TransportLight light;
@@ -336,8 +313,8 @@ Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& pa
         return light;
     }
     if (!settings.islands.empty() && settings.islands.size() == survey.islands.list.size())
-        return light_in_islands(scene, particles, survey, settings, threads, deadline);
-    return light_of_whole(scene, particles, survey, settings, threads, deadline);
+        return light_in_islands(scene, particles, survey, settings, coarser, threads, deadline);
+    return light_of_whole(scene, particles, survey, settings, coarser, threads, deadline);
 }
 
 }  // namespace awan

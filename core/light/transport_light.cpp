@@ -12,6 +12,8 @@ std::size_t TransportLight::bytes() const {
     // Room for islands that is not in use yet, and those in use, whose `light` counts its own size.
     bytes += (islands.capacity() - islands.size()) * sizeof(LightIsland);
     if (coarser) bytes += coarser->bytes();
+    for (const auto& moments : solved)
+        bytes += sizeof moments + moments.capacity() * sizeof(moments[0]);
     for (const LightIsland& island : islands)
         bytes += sizeof island - sizeof island.light + island.light.bytes();
     return bytes;

@@ -28,6 +28,8 @@ struct LightBand {
 };
 
 struct LightIsland;
+struct TransportLight;
+using SharedLight = std::shared_ptr<const TransportLight>;
 
 // The light of a scene. It does not depend on the view: it is kept while the camera moves.
 struct TransportLight {
@@ -47,9 +49,12 @@ struct TransportLight {
     // f = chi_(L+1), for Henyey-Greenstein g^(L+1): the share of scattering that is taken as the forward peak. Radiance
     // from `bands` is dimmed towards the eye by exp(-(1 - albedo f) tau), not by exp(-tau).
     double peak_share = 0;
-    // The same light as the next coarser grid has it, its sun depth, ground and islands left out: by how much the two
-    // differ says how far both may be from the truth. Null: there is none.
-    std::shared_ptr<const TransportLight> coarser;
+    // The light of the next coarser grid: by how much the two differ says how far both may be from the truth. Null:
+    // there is none.
+    SharedLight coarser;
+    // Of each band, its moments as they were solved, before they gained by `coarser`: what a finer grid goes on from.
+    // EMPTY: as the bands have them, or no finer grid will be asked for.
+    std::vector<std::vector<std::array<float, kHarmonics>>> solved;
     bool sky = true;      // whether the sky's light is in it, as TransportSettings asked
     GroundLight ground;   // of a scene that has one, as TransportSettings asked
     int sweeps = 0;       // transport sweeps it took, all bands

@@ -24,12 +24,13 @@ struct LightPart {
 
 // As transport_light; settings.islands is not looked at.
 Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
-                                     const TransportSettings& settings, int threads,
-                                     const Deadline& deadline);
+                                     const TransportSettings& settings, const SharedLight& coarser,
+                                     int threads, const Deadline& deadline);
 
 // The whole scene as one part. Precondition: the particles have mass.
 Result<TransportLight> light_of_whole(const Scene& scene, const ParticleSet& particles,
                                       const Survey& survey, const TransportSettings& settings,
-                                      int threads, const Deadline& deadline);
+                                      const SharedLight& coarser, int threads,
+                                      const Deadline& deadline);
 
 }  // namespace awan

@@ -92,6 +92,8 @@ RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey
                                                      predicted_ms(kHarrisDrawTime, times);
             break;
         case Method::kMarch:
+            forecast.draw_ms = predicted_ms(kMarchDrawTime, times) *
+                               stretch(threads, kMarchSerial) * speed.slowness;
             ms += (predicted_ms(kMarchLightTime, times) + predicted_ms(kMarchDrawTime, times)) *
                   stretch(threads, kMarchSerial);
             break;

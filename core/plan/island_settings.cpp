@@ -57,6 +57,17 @@ std::vector<IslandCells> island_cells(const TransportSettings& settings, const S
     return cells;
 }
 
+TransportSettings settings_on_the_way(const TransportSettings& settings, int cells,
+                                      const Survey& survey) {
+    if (cells == settings.cells) return settings;
+    TransportSettings coarser = settings;
+    coarser.cells = cells;
+    coarser.sun_cells = sun_cells_for(cells);
+    coarser.last = false;
+    if (!settings.islands.empty()) coarser.islands = island_cells(coarser, survey);
+    return coarser;
+}
+
 TransportSettings whole_settings(const TransportSettings& settings) {
     TransportSettings whole = settings;
     whole.islands.clear();

@@ -16,6 +16,10 @@ std::vector<IslandCells> island_cells(const TransportSettings& settings, const S
 // each other.
 TransportSettings whole_settings(const TransportSettings& settings);
 
+// The same, of a grid with `cells` on the way to that of `settings`.
+TransportSettings settings_on_the_way(const TransportSettings& settings, int cells,
+                                      const Survey& survey);
+
 inline constexpr int kWholeCells = 24;      // at most
 inline constexpr int kWholeSunCells = 192;  // at most
 inline constexpr int kLeastIslandCells = 8, kLeastIslandSunCells = 24;

@@ -11,8 +11,6 @@
 namespace awan {
 namespace {
 
-// Longer paths than these are not chosen, only taken by name.
-constexpr double kPatience_ms = 20e3;
 // Where no rung keeps to the error that is wanted: a cheaper rung than the closest is taken, if its error is at most
 // so many times the closest's.
 constexpr double kKnee = 2.5;
@@ -63,14 +61,6 @@ std::string milliseconds(double ms) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), ms < 10000 ? "%.3g ms" : "%.0f ms", ms);
     return text.data();
-}
-
-// An effect that is switched off can only be left out by the splats: the other rungs follow all light there is.
-bool wants_splats(const Scene& scene) {
-    for (const Effect effect :
-         {Effect::kSelfShadow, Effect::kMultipleScattering, Effect::kViewExtinction})
-        if (scene->effects[static_cast<int>(effect)] == Switch::kOff) return true;
-    return false;
 }
 
 struct Choice {
@@ -251,6 +241,13 @@ Plan plan_look() {
 }
 
 }  // namespace
+
+bool wants_splats(const Scene& scene) {
+    for (const Effect effect :
+         {Effect::kSelfShadow, Effect::kMultipleScattering, Effect::kViewExtinction})
+        if (scene->effects[static_cast<int>(effect)] == Switch::kOff) return true;
+    return false;
+}
 
 Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSpeed& speed) {
     if (scene->look != Look::kPhysical) return plan_look();

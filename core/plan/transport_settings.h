@@ -30,9 +30,18 @@ struct TransportSettings {
     bool ground = false;
     // Whether the cloud shades the ground and sends it light of its own.
     bool ground_shadow = false;
+    // Whether no finer grid goes on from this one.
+    bool last = false;
     // One for each of Survey::islands; EMPTY: one grid holds all.
     std::vector<IslandCells> islands;
 };
+
+// Cells along the longest side of the grids on the way to one with `cells`, coarsest first, `cells` itself last; from
+// one to the next they grow by 1.25 to 2 times. cells >= 1.
+std::vector<int> nested_cells(int cells);
+
+// Nodes along the longest side of the sun's depth, for a grid with so many cells.
+int sun_cells_for(int cells);
 
 // Of a rung of Method::kMarch.
 TransportSettings transport_settings(const Rung& rung);

@@ -147,14 +147,13 @@ void measure(const Options& options, int index, Device& device, std::FILE* out) 
         const auto& plan = rendered->plan;
         std::fprintf(out,
                      "%s,%d,%s,%s,%d,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,%.3g,%.4g,%.3g,%.3g,%u,%.5g,"
-                     "%.5g,%.5g,%.5g,%.5g,%.5g,%.5g",
+                     "%.5g,%.5g,%.5g,%.5g,%.5g",
                      options.set.c_str(), index, numbered.kind.c_str(), rung.name, rung.cells,
                      planned.survey.particles, planned.survey.optical_depth_eye,
                      planned.survey.optical_depth_sun, scene->medium.g, scene->medium.albedo,
                      planned.survey.sun_cosine, error.nrmse, error.nrmse_noise, error.bias,
                      error.bias_noise, reference.noise, reference.samples, plan.predicted.error,
-                     time_ms, light_ms, draw_ms, plan.predicted.time_ms, rendered->grids.last,
-                     rendered->grids.before);
+                     time_ms, light_ms, draw_ms, plan.predicted.time_ms, rendered->stated_error);
         for (const double figure : error_figures(rung, scene, planned.survey))
             std::fprintf(out, ",%.6g", figure);
         for (const double figure : time_figures(rung, scene, planned.survey, 0))
@@ -163,7 +162,7 @@ void measure(const Options& options, int index, Device& device, std::FILE* out) 
     }
     // The truth's own figures: noise of one path and what it took.
     std::fprintf(
-        out, "%s,%d,%s,truth,0,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,0,0,0,%.3g,%u,0,%.5g,0,%.5g,0,0,0",
+        out, "%s,%d,%s,truth,0,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,0,0,0,%.3g,%u,0,%.5g,0,%.5g,0,0",
         options.set.c_str(), index, numbered.kind.c_str(), planned.survey.particles,
         planned.survey.optical_depth_eye, planned.survey.optical_depth_sun, scene->medium.g,
         scene->medium.albedo, planned.survey.sun_cosine, reference.noise, reference.noise,
@@ -204,8 +203,7 @@ int main(int argc, char** argv) {
     std::fputs(
         "set,index,kind,rung,cells,particles,depth_eye,depth_sun,g,albedo,sun_cosine,error,error_"
         "noise,bias,bias_noise,"
-        "truth_noise,samples,predicted_error,time_ms,light_ms,draw_ms,predicted_ms,grids_last,"
-        "grids_before",
+        "truth_noise,samples,predicted_error,time_ms,light_ms,draw_ms,predicted_ms,stated",
         out);
     for (const char* name : kErrorFigureNames) std::fprintf(out, ",e_%s", name);
     for (const char* name : kTimeFigureNames) std::fprintf(out, ",t_%s", name);

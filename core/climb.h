@@ -1,0 +1,40 @@
+// The error that is stated for a picture, measured while it is made, and the light of the transport rungs refined until
+// that error is small enough.
+//
+// A grid's light goes on from those of all coarser grids (core/light/nested_grids.h). After each grid that is a rung's,
+// a small picture of the view shows by how much it differs from the one before: from that difference the error is
+// stated. All wishes climb the same steps, so a stricter one never ends at a coarser grid.
+#pragma once
+
+#include "core/base/image.h"
+#include "core/light/light_cache.h"
+#include "core/planning.h"
+
+namespace awan {
+
+struct ClimbTools {
+    LightCache* lights = nullptr;  // null: nothing is kept
+    int threads = 1;               // >= 1
+};
+
+struct Climbed {
+    SharedLight light;
+    const Rung* rung = nullptr;  // the transport rung of the light; null: it has no grid
+    double stated = 0;           // its picture's error, as PictureError::nrmse
+    bool was_kept = true;        // all of it came from the cache
+    double light_ms = 0, measure_ms = 0;
+    EffectTimes took;
+};
+
+// The light of the rung that the scene names, a rung of Method::kMarch, or of rung `single` where it is planned (its error is not measured here); where it asks for an error, of the first transport rung
+// whose stated error is at most that, or of the finest; where it asks for a time, of the finest that there is time for
+// after what planning took. Errors: kOverDeadline, kCancelled.
+Result<Climbed> climb(const Scene& scene, const Planned& planned, const ClimbTools& tools,
+                      const Deadline& deadline);
+
+// The error of a picture that was made without a grid: by how much it differs from the small picture of the coarsest
+// transport rung, and how far off that one is. Errors: kOverDeadline, kCancelled.
+Result<double> error_of_picture(const Scene& scene, const Planned& planned, const Image& picture,
+                                const ClimbTools& tools, const Deadline& deadline);
+
+}  // namespace awan
