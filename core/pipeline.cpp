@@ -150,6 +150,30 @@ Planned for_grids(const Scene& scene, Planned planned, const Tools& tools) {
     return *with_detail_made(scene, std::move(planned), tools.threads);
 }
 
+// Whether paths of tolerable length are expected to keep to what the scene asks for.
+bool paths_may_hold(const Scene& scene, const Plan& plan) {
+    // Paths are for what is finer than the default: a scene that asks for nothing is not made to wait for them.
+    if (scene->accuracy.error.value_or(kDefaultError) >= kDefaultError || wants_splats(scene))
+        return false;
+    for (const RungForecast& forecast : plan.forecasts)
+        if (forecast.rung->method == Method::kPaths) return forecast.time_ms <= kPatience_ms;
+    return false;
+}
+
+// The coarsest grid that keeps to the error that the scene asks for; paths where none does; else the finest grid.
+Status render_grid_or_paths(const Scene& scene, Planned& planned, const Tools& tools,
+                            const Deadline& deadline, Rendered& rendered) {
+    Planned grids = for_grids(scene, planned, tools);
+    const auto light = climbed_light(scene, grids, tools, deadline, rendered);
+    if (!light.ok()) return light.error();
+    if (!holds(rendered.stated_error, scene) && paths_may_hold(scene, planned.plan)) {
+        rendered.rung = &rung_of(RungId::kTruth);
+        return render_paths(scene, planned, tools, deadline, rendered);
+    }
+    planned = std::move(grids);
+    return march_light(scene, planned, **light, tools, deadline, rendered);
+}
+
 // A picture of a rung without a grid is measured against the coarsest grid. Where it is not what the scene asks for,
 // one of a transport rung takes its place.
 Status measure_or_climb(const Scene& scene, Planned& planned, const Tools& tools,
@@ -164,22 +188,7 @@ Status measure_or_climb(const Scene& scene, Planned& planned, const Tools& tools
     rendered.times.measure_ms += measure_ms;
     rendered.stated_error = *error;
     if (!asks_for_error(scene) || holds(*error, scene) || wants_splats(scene)) return std::nullopt;
-    planned = for_grids(scene, std::move(planned), tools);
-    return render_march(scene, planned, tools, deadline, rendered);
-}
-
-// Paths are for what no grid keeps to: it is looked for first.
-Status render_grid_or_paths(const Scene& scene, Planned& planned, const Tools& tools,
-                            const Deadline& deadline, Rendered& rendered) {
-    Planned grids = for_grids(scene, planned, tools);
-    const auto light = climbed_light(scene, grids, tools, deadline, rendered);
-    if (!light.ok()) return light.error();
-    if (!holds(rendered.stated_error, scene)) {
-        rendered.rung = &rung_of(RungId::kTruth);
-        return render_paths(scene, planned, tools, deadline, rendered);
-    }
-    planned = std::move(grids);
-    return march_light(scene, planned, **light, tools, deadline, rendered);
+    return render_grid_or_paths(scene, planned, tools, deadline, rendered);
 }
 
 // Why the picture is of another rung than was planned.
@@ -241,6 +250,10 @@ Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools
             if (!failed) failed = measure_or_climb(scene, planned, tools, deadline, rendered);
             break;
         case Method::kMarch:
+            if (planned.plan.transport.cells > 0 && asks_for_error(scene)) {
+                failed = render_grid_or_paths(scene, planned, tools, deadline, rendered);
+                break;
+            }
             failed = render_march(scene, planned, tools, deadline, rendered);
             if (!failed && planned.plan.transport.cells == 0)
                 failed = measure_or_climb(scene, planned, tools, deadline, rendered);
@@ -273,6 +286,10 @@ Result<Rendered> render_scene(const Scene& scene, const Tools& tools, const Dead
     auto planned = plan_scene(scene, tools.threads, deadline, tools.speed);
     if (!planned.ok()) return planned.error();
     return render_planned(scene, *std::move(planned), tools, deadline);
+}
+
+PictureNotes notes_of(const Rendered& rendered) {
+    return {rendered.plan.rung, rendered.stated_error, rendered.plan.predicted.error};
 }
 
 const char* engine_version() {

@@ -6,6 +6,7 @@
 #include "core/base/deadline.h"
 #include "core/base/image.h"
 #include "core/base/progress.h"
+#include "core/formats/image_file.h"
 #include "core/generate/detail.h"
 #include "core/gl/device.h"
 #include "core/light/light_cache.h"
@@ -25,6 +26,9 @@ struct Rendered {
     // Its error, measured while it was made (core/climb.h), as PictureError::nrmse. NaN: nothing is known of it (a look).
     double stated_error = 0;
 };
+
+// What its file keeps of it.
+PictureNotes notes_of(const Rendered& rendered);
 
 // What rendering works with. The splat rungs need the device, on the thread that owns it; the others run on
 // `threads` threads and do without.

@@ -149,13 +149,20 @@ Result<std::string> encode_png(const Image& image, double exposure_stops) {
     });
 }
 
-Result<std::string> encode_exr(const Image& image, Precision precision) {
+Result<std::string> encode_exr(const Image& image, Precision precision, const PictureNotes& notes) {
     const bool half = precision == Precision::kHalf;
     OIIO::ImageSpec spec = spec_of(image, 4, half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("compression", "zip");
     // Otherwise the time of day would be written, and equal scenes would not have equal bytes.
     spec.attribute("DateTime", "");
+    if (!notes.rung.empty()) spec.attribute("awan:rung", notes.rung);
+    const auto note = [&](const char* name, double value) {
+        if (!notes.rung.empty() && std::isfinite(value))
+            spec.attribute(name, static_cast<float>(value));
+    };
+    note("awan:error", notes.error);
+    note("awan:error_forecast", notes.error_forecast);
 
     const float largest = half ? 65504.0f : std::numeric_limits<float>::max();
     // Rows that are handed over at once: four of EXR's blocks of 16 lines.

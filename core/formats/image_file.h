@@ -18,8 +18,17 @@ Result<std::string> encode_png(const Image& image, double exposure_stops);
 // The pixels of it, row by row: 3 bytes each when image.opaque, else 4.
 std::vector<std::uint8_t> display_pixels(const Image& image, double exposure_stops);
 
+// How a picture came about, kept in its file as the attributes awan:rung, awan:error and awan:error_forecast. Of
+// numbers that are not finite nothing is kept.
+struct PictureNotes {
+    std::string rung;           // EMPTY: nothing is kept
+    double error = 0;           // as stated
+    double error_forecast = 0;  // what the plan expected
+};
+
 // Linear radiance, premultiplied alpha, channels R G B A, no tone curve, ZIP compression.
-Result<std::string> encode_exr(const Image& image, Precision precision);
+Result<std::string> encode_exr(const Image& image, Precision precision,
+                               const PictureNotes& notes = {});
 
 // Exposure in stops for "auto": what a photographer would meter on the sunlit side of a thick cloud, which is half of
 // the sun's light, as from a white wall at 45 degrees, and the sky's mean radiance. It is brought to kMeteredLevel

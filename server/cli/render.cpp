@@ -1,4 +1,8 @@
 // awan render: one picture, numbered pictures of a sequence, or an animation of it.
+#include <array>
+#include <cmath>
+#include <cstdio>
+
 #include "core/formats/animation.h"
 #include "core/formats/image_file.h"
 #include "core/light/machine_speed.h"
@@ -42,18 +46,38 @@ double exposure_of(const Scene& scene) {
     return scene->image.exposure.value_or(auto_exposure(scene));
 }
 
-Result<std::string> encode(const Image& image, const Scene& scene) {
-    if (scene->image.format == ImageFormat::kExr) return encode_exr(image, scene->image.precision);
-    return encode_png(image, exposure_of(scene));
+Result<std::string> encode(const Rendered& rendered, const Scene& scene) {
+    if (scene->image.format == ImageFormat::kExr)
+        return encode_exr(rendered.image, scene->image.precision, notes_of(rendered));
+    return encode_png(rendered.image, exposure_of(scene));
 }
 
-Result<std::string> render_still(const Scene& scene, Work& work) {
+std::string percent(double share) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.2g%%", 100 * share);
+    return text.data();
+}
+
+// Which rung it was, how far off it is, and what was expected; nothing where the picture itself goes to standard output.
+void say_error(const Rendered& rendered, const std::string& output) {
+    if (output == "-" || !std::isfinite(rendered.stated_error)) return;
+    std::printf("%s: %s, error %s (expected %s)\n", output.c_str(), rendered.plan.rung.c_str(),
+                percent(rendered.stated_error).c_str(),
+                percent(rendered.plan.predicted.error).c_str());
+}
+
+Status render_still(const Scene& scene, Work& work) {
     work.progress.say("planning");
     auto rendered =
         render_frame(scene, plan_only(scene, work.command.threads, Deadline{}, work.speed), work);
     if (!rendered) return rendered.error();
     work.progress.say("encoding");
-    return encode(rendered->image, scene);
+    const auto bytes = encode(*rendered, scene);
+    if (!bytes) return bytes.error();
+    if (Status failed = write_output(work.command.output, *bytes)) return failed;
+    work.progress.clear();
+    say_error(*rendered, work.command.output);
+    return std::nullopt;
 }
 
 Result<Rendered> render_of(const Settled& settled, double time, Work& work, Scene& scene) {
@@ -90,7 +114,7 @@ Status render_frames(const Scene& scene, const std::vector<std::uint64_t>& frame
             if (Status failed = animation->add(rendered->image, exposure_of(still))) return failed;
             continue;
         }
-        auto bytes = encode(rendered->image, still);
+        auto bytes = encode(*rendered, still);
         if (!bytes) return bytes.error();
         if (Status failed = write_output(numbered_name(work.command.output, frames[i]), *bytes))
             return failed;
@@ -130,10 +154,8 @@ int run_render(const RenderCommand& command) {
     const bool animated = *format == "webp" || *format == "apng";
     Work work(command);
     if (!animated && command.frames.empty()) {
-        auto bytes = render_still(*scene, work);
-        if (!bytes) return report_error(command.scene, bytes.error());
-        if (const Status failed = write_output(command.output, *bytes))
-            return report_error("", *failed);
+        if (const Status failed = render_still(*scene, work))
+            return report_error(command.scene, *failed);
         return kExitFine;
     }
     if (!(*scene)->sequence)

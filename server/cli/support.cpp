@@ -15,6 +15,10 @@ namespace awan {
 ProgressLine::ProgressLine() : shown_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressLine::~ProgressLine() {
+    clear();
+}
+
+void ProgressLine::clear() {
     if (shown_) std::fputs("\r\033[K", stderr);
 }
 

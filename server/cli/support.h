@@ -25,6 +25,8 @@ class ProgressLine {
     void say(const std::string& what);
     // How much of the whole is done, 0..1.
     void done(double share);
+    // Leaves the line empty, for what is printed next.
+    void clear();
 
   private:
     void show();

@@ -159,7 +159,8 @@ std::string report(Metrics& metrics, const Timing& timing) {
     std::vector<std::pair<const char*, double>> entries = {
         {"queue", timing.queue_ms},          {"generate", timing.stages.generate_ms},
         {"survey", timing.stages.survey_ms}, {"light", timing.stages.light_ms},
-        {"draw", timing.stages.draw_ms},     {"encode", timing.encode_ms}};
+        {"draw", timing.stages.draw_ms},     {"measure", timing.stages.measure_ms},
+        {"encode", timing.encode_ms}};
     for (const auto& [name, ms] : entries) metrics.stage_done(name, ms);
     for (int i = 0; i < kEffectCount; ++i) {
         const auto effect = static_cast<Effect>(i);
@@ -177,9 +178,9 @@ std::string effects_on(const Plan& plan) {
     return names;
 }
 
-Result<std::string> encode(const Image& image, const Scene& scene, std::string_view type) {
-    if (type == kExr) return encode_exr(image, scene->image.precision);
-    return encode_png(image, scene->image.exposure.value_or(auto_exposure(scene)));
+Result<std::string> encode(const Rendered& rendered, const Scene& scene, std::string_view type) {
+    if (type == kExr) return encode_exr(rendered.image, scene->image.precision, notes_of(rendered));
+    return encode_png(rendered.image, scene->image.exposure.value_or(auto_exposure(scene)));
 }
 
 // A number as text for a header.
@@ -216,10 +217,13 @@ std::optional<std::string> hopeless(const Plan& plan, const Deadline& deadline) 
     return detail;
 }
 
-void add_predictions(const RungForecast& predicted, Response& response) {
+void add_errors(const Rendered& rendered, Response& response) {
+    const RungForecast& predicted = rendered.plan.predicted;
+    if (std::isfinite(rendered.stated_error))
+        response.headers.emplace_back("Awan-Error", number_text("%.3g", rendered.stated_error));
     if (predicted.rung == nullptr) return;
     if (std::isfinite(predicted.error))
-        response.headers.emplace_back("Awan-Error", number_text("%.3g", predicted.error));
+        response.headers.emplace_back("Awan-Error-Forecast", number_text("%.3g", predicted.error));
     if (std::isfinite(predicted.time_ms))
         response.headers.emplace_back("Awan-Time", number_text("%.1f", predicted.time_ms));
 }
@@ -264,7 +268,7 @@ Response answer_render(Service::State& state, const Request& request, const Scen
     if (const Status over = pass.enter(request.deadline)) return fail(*over, request);
     timing.queue_ms += ms_since(encode_queued);
     const auto start = Clock::now();
-    auto bytes = encode(job.rendered->image, scene, type);
+    auto bytes = encode(*job.rendered, scene, type);
     timing.encode_ms = ms_since(start);
     if (!bytes) return fail(bytes.error(), request);
     timing.stages = job.rendered->times;
@@ -273,7 +277,7 @@ Response answer_render(Service::State& state, const Request& request, const Scen
     response.headers.emplace_back("Server-Timing", report(state.metrics, timing));
     response.headers.emplace_back("Awan-Effects", effects_on(job.rendered->plan));
     response.headers.emplace_back("Awan-Rung", job.rendered->plan.rung);
-    add_predictions(job.rendered->plan.predicted, response);
+    add_errors(*job.rendered, response);
     response.headers.emplace_back("Awan-Particles", std::to_string(job.rendered->survey.particles));
     response.body = std::move(bytes).value();
     return response;
