@@ -101,7 +101,7 @@ TEST(Lattice, KeepsTheMassWhateverItsAxes) {
         const Lattice lattice = lattice_around_matter(particles, u, v, w, rest, 40, 1);
         double mass = 0;
         for (const float cell : extinction_in(particles, lattice, 2))
-            mass += static_cast<double>(cell) * std::pow(lattice.cell, 3);
+            mass += static_cast<double>(cell) * std::pow(lattice.cell.x, 3);
         if (rest < 1e-6)
             EXPECT_NEAR(mass / planned->survey.total_mass, 1, 1e-4);
         else
@@ -171,7 +171,7 @@ TEST(Diffusion, SolvesItsOwnEquation) {
         scattered[i] = .99F * depth[i];
         source[i] = static_cast<float>(i % 5);
     }
-    const Diffusion diffusion = make_diffusion(cells, depth, scattered, .5);
+    const Diffusion diffusion = make_diffusion(cells, glm::vec3(1), depth, scattered, .5);
     solve_diffusion(diffusion, source, 1e-5, value);
     // Balance of every cell, by hand.
     const auto at = [&](int x, int y, int z) {

@@ -70,8 +70,9 @@ Result<SolvedBand> solve_band(const BandProblem& problem, const Ordinates& ordin
         return std::nullopt;
     };
     // What a vector of moments scatters evenly, spread by diffusion.
-    const Diffusion diffusion = make_diffusion(matter.grid.cells, matter.grid.depth,
-                                               matter.scattered, problem.split.moment[1]);
+    const Diffusion diffusion =
+        make_diffusion(matter.grid.cells, matter.grid.sides, matter.grid.depth, matter.scattered,
+                       problem.split.moment[1]);
     std::vector<float> unsettled(cells);
     const auto diffuse = [&](std::span<const float> vector, std::span<float> addition) {
         for (std::size_t i = 0; i < cells; ++i)

@@ -76,7 +76,7 @@ Inflow inflow_of(const PartSolve& solve, const Shine& shine, std::size_t index) 
         return open;
     }
     const Lattice& lattice = solve.grid.lattice;
-    const glm::dvec3 middle = lattice.origin + 0.5 * lattice.cell * glm::dvec3(lattice.cells);
+    const glm::dvec3 middle = lattice.origin + 0.5 * (lattice.cell * glm::dvec3(lattice.cells));
     return [&, open, middle, index](const glm::dvec3& direction) {
         double behind = 0;
         if (shine.from_ground != nullptr)
@@ -143,7 +143,7 @@ Status add_own_ground(const PartSolve& solve, TransportLight& light) {
     if (solve.shades_ground())
         cast_shadow(light.sun, split.albedo, split.peak_share, solve.scene->medium.g, solve.threads,
                     light.ground);
-    const auto side = static_cast<float>(solve.grid.lattice.cell);
+    const auto side = static_cast<float>(shortest(solve.grid.lattice.cell));
     std::vector<float> depth(solve.grid.extinction);
     for (float& one : depth) one *= side;
     const CloudGrid cloud{light.origin, light.cell, light.cells, depth, split.scaled()};
