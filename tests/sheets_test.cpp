@@ -1,12 +1,22 @@
-// The oracle for even sheets against what is published of them.
+// The oracle for even sheets against what is published of them, then rungs against the oracle.
 #include <gtest/gtest.h>
 
 #include "tests/adding_doubling.h"
+#include "tests/sheet_scenes.h"
 
 namespace awan {
 namespace {
 
 using test::Sheet;
+using test::SheetMatter;
+using test::SheetView;
+
+// What a rung makes of a sheet's middle, to what is there, less 1.
+double error_of(const SheetMatter& matter, const SheetView& seen, const char* rung) {
+    return test::mean_of(test::render(test::sheet_scene(matter, {}, seen, rung)).image) /
+               test::exact_of(matter, seen) -
+           1;
+}
 
 // Heaslet & Warming 1965: diffuse light through a layer that scatters evenly and absorbs nothing.
 TEST(AddingDoubling, DiffuseLightThroughALayer) {
@@ -68,6 +78,34 @@ TEST(AddingDoubling, IsReciprocal) {
     const Sheet sheet({4, .95, .7}, {.9, .4});
     for (const double azimuth : {0., 1., 3.})
         EXPECT_NEAR(sheet.back(.9, .4, azimuth) / .4, sheet.back(.4, .9, azimuth) / .9, 1e-6);
+}
+
+// Light that is scattered once, in a sheet whose upper edge hides all below: the sun's depth is right within a Gaussian.
+// Straight from above all pixels step alike and are off alike; slanting rays don't, and show the sun's depth alone.
+TEST(Sheets, ScatteredOnceWhateverTheSun) {
+    for (const double depth : {2., 32.})
+        for (const double sun : {1., .5, .1736})
+            EXPECT_NEAR(error_of({depth, .001, 0}, {sun, .5, 2, false}, "single"), 0, .005)
+                << depth << " " << sun;
+}
+
+// Light that goes through many mean free paths, or comes back from them.
+TEST(Sheets, DeepLight) {
+    const struct {
+        SheetMatter matter;
+        SheetView seen;
+        double near;    // transport-32
+        double nearer;  // transport-64
+    } cases[] = {{{8, 1, .5}, {1, 1, 0, false}, .03, .02},
+                 {{32, 1, 0}, {1, 1, 0, false}, .03, .02},
+                 {{32, 1, .5}, {.5, 1, 0, true}, .10, .05},
+                 {{64, 1, .85}, {.5, .5, 0, false}, .07, .05}};
+    for (const auto& one : cases) {
+        EXPECT_NEAR(error_of(one.matter, one.seen, "transport-32"), 0, one.near)
+            << one.matter.depth << " " << one.matter.g;
+        EXPECT_NEAR(error_of(one.matter, one.seen, "transport-64"), 0, one.nearer)
+            << one.matter.depth << " " << one.matter.g;
+    }
 }
 
 }  // namespace

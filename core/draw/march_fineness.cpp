@@ -26,10 +26,10 @@ double typical(const glm::dvec3& cell) {
     return shortest(cell) == longest(cell) ? cell.x : std::cbrt(cell.x * cell.y * cell.z);
 }
 
-// The least distance between two layers of nodes.
-double layers_apart(const SunDepth& sun) {
+// The distance between two layers of nodes along each axis.
+glm::dvec3 layers_apart(const SunDepth& sun) {
     const glm::dmat3 rows = glm::transpose(to_nodes(sun));
-    return 1 / std::max({glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2])});
+    return 1.0 / glm::dvec3(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ double longest_step(const TransportLight& light, double mean_s, double least_s) 
 
 double most_apart(const TransportLight& light) {
     double most = light.has_grid() ? kLightApart * typical(light.cell) : 1e300;
-    if (light.sun.cell.x > 0) most = std::min(most, kSunApart * layers_apart(light.sun));
+    if (light.sun.cell.x > 0) most = std::min(most, kSunApart * shortest(layers_apart(light.sun)));
     return most;
 }
 

@@ -31,7 +31,7 @@ Sharpening make_sharpening(const SweepGrid& grid, const Ordinates& ordinates) {
                 if (a > 0 && b > 0) across[i] = 2 * a * b / (a + b);
             }
     }
-    // Weights of an octant's directions times the first harmonic add up to pi / 2 x 0.2821.
+    // What the weights of an octant's directions add up to: pi / 2 times the first harmonic.
     constexpr float kWhole = 0.44311346F;
     for (std::vector<float>& across : made.across)
         for (float& one : across) one /= kWhole;

@@ -24,8 +24,8 @@ constexpr double kCoarseWork = 1e7;  // of it; about 10 ms
 constexpr double kCompact = 1.5;
 // The shortest side to the longest.
 constexpr double kFlattest = 1.0 / 32;
-// Cells to those of a cubic lattice.
-constexpr double kMoreCells = 1.2;
+// Cells to those of a cubic lattice: somewhat fewer, since light in flat cells takes more sweeps to settle.
+constexpr double kCellsToCubic = 0.9;
 // Cells along a side to the count that was asked for.
 constexpr int kMostAlong = 2;
 
@@ -305,10 +305,10 @@ Lattice fitted_cells(const MatterBox& box, int count) {
     const glm::dvec3 flat =
         glm::clamp(kCompact * box.length / longest, glm::dvec3(kFlattest), glm::dvec3(1));
     if (flat == glm::dvec3(1)) return cubic;
-    // As many cells as a cubic lattice, or somewhat more: their common scale follows.
+    // About as many cells as a cubic lattice has: their common scale follows.
     const glm::dvec3 asked = box.size / (flat * cubic.cell);
-    const double scale =
-        std::cbrt(asked.x * asked.y * asked.z / (kMoreCells * static_cast<double>(cubic.size())));
+    const double scale = std::cbrt(asked.x * asked.y * asked.z /
+                                   (kCellsToCubic * static_cast<double>(cubic.size())));
     Lattice made{box.corner, box.u, box.v, box.w, {}, {}};
     made.cells = glm::clamp(glm::ivec3(glm::round(asked / scale)), glm::ivec3(1),
                             glm::ivec3(kMostAlong * count));
