@@ -26,9 +26,9 @@ SunDepth half_plane(const glm::dvec3& to_sun, double away, double side, int cell
     const SideAxes axes = side_axes(sun.w);
     sun.u = axes.u;
     sun.v = axes.v;
-    sun.cell = side / cells;
+    sun.cell = glm::dvec3(side / cells);
     sun.nodes = {cells, cells, 2};
-    sun.origin = to_sun * away - 0.5 * (side - sun.cell) * (sun.u + sun.v);
+    sun.origin = to_sun * away - 0.5 * (side - sun.cell.x) * (sun.u + sun.v);
     const auto n = static_cast<std::size_t>(cells);
     sun.depth.assign(n * n * 2, 0.F);
     for (std::size_t j = 0; j < n; ++j)
@@ -75,9 +75,9 @@ TEST(Ground, APenumbraIsAsWideAsTheSunIsFromTheEdge) {
             ground.sun = glm::dvec3(1);
             cast_shadow(sun, 1, 0, 0, 2, ground);
             // Depth falls from 60 to 0 between two nodes: light begins at the farther one.
-            const double edge = 0.5 * sun.cell;
+            const double edge = 0.5 * sun.cell.x;
             const double r = away * std::tan(kSunRadius);
-            const double blur = std::max(sun.cell, ground.shadow.cell);
+            const double blur = std::max(sun.cell.x, ground.shadow.cell);
             double worst = 0, off = 0;
             int count = 0;
             for (double x = -2 * r; x <= 2 * r; x += r / 20) {

@@ -51,14 +51,14 @@ inline SunDepth exact_sun(const Scene& scene, const ParticleSet& set, int nodes,
     const SideAxes side = side_axes(sun.w);
     sun.u = side.u;
     sun.v = side.v;
-    sun.cell = 2 * box.half / (nodes - 1);
+    sun.cell = glm::dvec3(2 * box.half / (nodes - 1));
     sun.origin = box.center - box.half * (sun.u + sun.v + sun.w);
     sun.nodes = glm::ivec3(nodes);
     const auto n = static_cast<std::size_t>(nodes);
     sun.depth.resize(n * n * n);
     parallel_for(2, n * n, [&](std::size_t row) {
         for (std::size_t i = 0; i < n; ++i) {
-            const glm::dvec3 p = sun.origin + sun.cell * (static_cast<double>(i) * sun.u +
+            const glm::dvec3 p = sun.origin + sun.cell.x * (static_cast<double>(i) * sun.u +
                                                           static_cast<double>(row % n) * sun.v +
                                                           static_cast<double>(row / n) * sun.w);
             sun.depth[row * n + i] = static_cast<float>(line_depth(set, p, -sun.w));
@@ -79,7 +79,7 @@ TransportLight grid_light(const Scene& scene, const ParticleSet& set, int cells,
     const Around box = around(set, reach);
     TransportLight light;
     light.origin = box.center - box.half;
-    light.cell = 2 * box.half / cells;
+    light.cell = glm::dvec3(2 * box.half / cells);
     light.cells = glm::ivec3(cells);
     light.peak_from = 4;
     light.peak_share = share_of(scene->medium);

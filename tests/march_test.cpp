@@ -445,7 +445,7 @@ TEST(March, HardCasesAreFinite) {
             const double scaled = 1 - light.peak_share;
             expect_sane(test::marched(stage, light),
                         1.01 / scaled + 2 * std::max(peak, 1.0) / scaled);
-            light.cell = 0;
+            light.cell = glm::dvec3(0);
             expect_sane(test::marched(stage, light), 2 * std::max(peak, 1.0));
         }
 }

@@ -46,11 +46,12 @@ std::uint32_t slices(double length, double per_unit) {
 AirShadows::Ray place(const SunDepth& sun, const glm::dvec3& eye, const glm::dvec3& direction,
                       double end) {
     AirShadows::Ray ray;
-    const glm::dvec3 off = (eye - sun.origin) / sun.cell, step = direction / sun.cell;
+    const glm::dmat3 nodes = to_nodes(sun);
+    const glm::dvec3 off = nodes * (eye - sun.origin), step = nodes * direction;
     double from = 0, to = end;
-    clip(glm::dot(off, sun.u), glm::dot(step, sun.u), -0.5, sun.nodes.x - 0.5, from, to);
-    clip(glm::dot(off, sun.v), glm::dot(step, sun.v), -0.5, sun.nodes.y - 0.5, from, to);
-    const double w = glm::dot(off, sun.w), down = glm::dot(step, sun.w);
+    clip(off.x, step.x, -0.5, sun.nodes.x - 0.5, from, to);
+    clip(off.y, step.y, -0.5, sun.nodes.y - 0.5, from, to);
+    const double w = off.z, down = step.z;
     clip(w, down, 0, kInfinity, from, to);
     if (!(from < to)) return ray;
     const double deepest = sun.nodes.z - 1;
@@ -60,8 +61,7 @@ AirShadows::Ray place(const SunDepth& sun, const glm::dvec3& eye, const glm::dve
     ray.from = from;
     ray.to = to;
     ray.mid = std::clamp(passes, from, to);
-    const double inside = 1 / sun.cell;
-    const double behind = std::hypot(glm::dot(step, sun.u), glm::dot(step, sun.v));
+    const double inside = glm::length(step), behind = std::hypot(step.x, step.y);
     ray.first = slices(ray.mid - from, leaves ? inside : behind);
     ray.second = slices(to - ray.mid, leaves ? behind : inside);
     ray.per_first = ray.first > 0 ? ray.first / (ray.mid - from) : 0;
@@ -74,9 +74,9 @@ class DepthAlong {
   public:
     DepthAlong(const SunDepth& sun, const glm::dvec3& eye, const glm::dvec3& direction)
         : sun_(sun), last_(glm::dvec3(sun.nodes - 1)) {
-        const glm::dvec3 off = (eye - sun.origin) / sun.cell, step = direction / sun.cell;
-        from_ = {glm::dot(off, sun.u), glm::dot(off, sun.v), glm::dot(off, sun.w)};
-        step_ = {glm::dot(step, sun.u), glm::dot(step, sun.v), glm::dot(step, sun.w)};
+        const glm::dmat3 nodes = to_nodes(sun);
+        from_ = nodes * (eye - sun.origin);
+        step_ = nodes * direction;
     }
     double operator()(double t) const {
         const glm::dvec3 p = glm::clamp(from_ + t * step_, glm::dvec3(0), last_);
@@ -169,7 +169,7 @@ double bilinear(const AirShadows& shadows, double x, double y, const Value& valu
 AirShadows air_shadows(const PictureRays& picture, const Haze& haze, double ground,
                        const SunDepth& sun, int threads) {
     AirShadows shadows;
-    if (sun.depth.empty() || !(sun.cell > 0) || !(haze.extinction > 0)) return shadows;
+    if (sun.depth.empty() || !(haze.extinction > 0)) return shadows;
     shadows.spacing = spacing_for(picture.width, picture.height);
     // Blocks at the picture's edges look up light at their outer corners, beyond the picture.
     constexpr int kWhole = 16;

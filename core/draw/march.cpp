@@ -115,7 +115,7 @@ MarchScene scene_of(const Scene& scene, const View& view, const TransportLight& 
     march.seen = &seen;
     march.light = source_towards(light, view.eye, threads);
     march.medium = scene->medium;
-    if (light.cell > 0) march.peak = {light.peak_from, light.peak_share};
+    if (light.has_grid()) march.peak = {light.peak_from, light.peak_share};
     const Outside outside = outside_of(scene);
     march.to_sun = outside.to_sun;
     march.sun = glm::vec3(outside.sun);

@@ -272,7 +272,7 @@ class BlockMarch {
         Shade shade{};
         shade.scaled = scene_.scaled;
         shade.seam = static_cast<float>(seam);
-        shade.grid = light.cell > 0 && !light.bands.empty();
+        shade.grid = light.has_grid() && !light.bands.empty();
         shade.peak = scene_.table.columns > 0;
         shade.albedo = !light.albedo.empty();
         for (int c = 0; c < 3; ++c) shade.beam[c] = albedo * scene_.sun[c];

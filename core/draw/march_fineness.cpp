@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
+
+#include "core/survey/lattice.h"
 
 namespace awan {
 namespace {
@@ -18,19 +21,31 @@ constexpr double kLeastStepCells = 0.7;
 // picture, and edges were seen where the gap changes.
 constexpr double kLightApart = 0.75, kSunApart = 0.75;
 
+// The side of a cube as large as a cell.
+double typical(const glm::dvec3& cell) {
+    return shortest(cell) == longest(cell) ? cell.x : std::cbrt(cell.x * cell.y * cell.z);
+}
+
+// The distance between two layers of nodes along each axis.
+glm::dvec3 layers_apart(const SunDepth& sun) {
+    const glm::dmat3 rows = glm::transpose(to_nodes(sun));
+    return 1.0 / glm::dvec3(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
+}
+
 }  // namespace
 
 double longest_step(const TransportLight& light, double mean_s, double least_s) {
-    if (light.cell > 0) return std::clamp(mean_s, kLeastStepCells * light.cell, light.cell);
-    const glm::ivec3 n = light.sun.nodes;
-    if (light.sun.cell > 0 && !light.sun.depth.empty())
-        return light.sun.cell * std::max({n.x, n.y, n.z, 1}) / 32;
+    if (light.has_grid()) {
+        const double side = typical(light.cell);
+        return std::clamp(mean_s, kLeastStepCells * side, side);
+    }
+    if (!light.sun.depth.empty()) return longest(light.sun.cell * glm::dvec3(light.sun.nodes)) / 32;
     return least_s;
 }
 
 double most_apart(const TransportLight& light) {
-    double most = light.cell > 0 ? kLightApart * light.cell : 1e300;
-    if (light.sun.cell > 0) most = std::min(most, kSunApart * light.sun.cell);
+    double most = light.has_grid() ? kLightApart * typical(light.cell) : 1e300;
+    if (light.sun.cell.x > 0) most = std::min(most, kSunApart * shortest(layers_apart(light.sun)));
     return most;
 }
 

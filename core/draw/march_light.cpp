@@ -7,6 +7,7 @@
 
 #include "core/base/parallel.h"
 #include "core/light/harmonics.h"
+#include "core/survey/lattice.h"
 
 namespace awan {
 namespace {
@@ -103,11 +104,11 @@ EyeLight source_towards(const TransportLight& light, const glm::dvec3& eye, int 
         if (light.islands[i].lit)
             result.islands[i] = source_towards(light.islands[i].light, eye, 1);
     });
-    if (!(light.cell > 0) || light.bands.empty()) return result;
+    if (!light.has_grid() || light.bands.empty()) return result;
     const glm::dvec3 place = (eye - light.origin) / light.cell;
     const glm::dvec3 beyond =
         glm::max(glm::max(-place, place - glm::dvec3(light.cells)), glm::dvec3(0));
-    result.close = glm::length(beyond) < kCloseCells;
+    result.close = glm::length(beyond * light.cell) < kCloseCells * longest(light.cell);
     if (result.close) return result;
     const auto nx = static_cast<std::size_t>(light.cells.x),
                ny = static_cast<std::size_t>(light.cells.y);
@@ -118,7 +119,7 @@ EyeLight source_towards(const TransportLight& light, const glm::dvec3& eye, int 
                 glm::dvec3(static_cast<double>(i), static_cast<double>(row % ny),
                            static_cast<double>(row / ny)) +
                 0.5;
-            const auto y = harmonics_f(glm::normalize(place - center));
+            const auto y = harmonics_f(glm::normalize((place - center) * light.cell));
             glm::vec3 sum(0);
             for (const LightBand& band : light.bands)
                 sum += band.color * std::clamp(dot(band.moments[row * nx + i], y), 0.0f, band.most);
@@ -134,19 +135,16 @@ LightRay light_ray(const EyeLight& eye_light, const glm::dvec3& start,
     LightRay ray;
     ray.start = start;
     ray.direction = direction;
-    if (light.cell > 0) {
+    if (light.has_grid()) {
         ray.grid = glm::vec3((start - light.origin) / light.cell - 0.5);
         ray.grid_step = glm::vec3(direction / light.cell);
         if (eye_light.close) ray.harmonics = harmonics_f(-direction);
     }
     const SunDepth& sun = light.sun;
-    if (sun.cell > 0 && !sun.depth.empty()) {
-        const auto turned = [&](const glm::dvec3& p) {
-            return glm::vec3(
-                glm::dvec3(glm::dot(p, sun.u), glm::dot(p, sun.v), glm::dot(p, sun.w)) / sun.cell);
-        };
-        ray.sun = turned(start - sun.origin);
-        ray.sun_step = turned(direction);
+    if (!sun.depth.empty()) {
+        const glm::dmat3 nodes = to_nodes(sun);
+        ray.sun = glm::vec3(nodes * (start - sun.origin));
+        ray.sun_step = glm::vec3(nodes * direction);
     }
     return ray;
 }
@@ -156,8 +154,8 @@ namespace {
 void along_one(const EyeLight& eye_light, const LightRay& ray, float first, float step, int count,
                LightAt* out) {
     const TransportLight& light = *eye_light.light;
-    const bool grid = light.cell > 0;
-    const bool sun = light.sun.cell > 0 && !light.sun.depth.empty();
+    const bool grid = light.has_grid();
+    const bool sun = !light.sun.depth.empty();
     const Neighbours cells(light.cells), nodes(light.sun.nodes);
     const Rgb4 grid_from = rgb4(ray.grid), grid_step = rgb4(ray.grid_step),
                sun_from = rgb4(ray.sun), sun_step = rgb4(ray.sun_step);

@@ -4,6 +4,7 @@
 
 #include "core/light/diffusion.h"
 #include "core/light/gmres.h"
+#include "core/light/sharpening.h"
 
 namespace awan {
 namespace {
@@ -76,18 +77,23 @@ Result<SolvedBand> solve_band(const BandProblem& problem, const Ordinates& ordin
     std::array<float, kHarmonics> moment{};
     for (std::size_t m = 0; m < count; ++m)
         moment[m] = static_cast<float>(problem.split.moment[kOrderOf[m]]);
+    const Sharpening sharpening = make_sharpening(matter.grid, ordinates);
+    std::vector<float> even(cells);
     const Product one_minus_k = [&](std::span<const float> from, std::span<float> to) -> Status {
         if (auto error = deadline.over()) return error;
         for (std::size_t i = 0; i < cells; ++i)
             for (std::size_t m = 0; m < count; ++m)
                 source[i * count + m] = matter.scattered[i] * moment[m] * from[i * count + m];
+        for (std::size_t i = 0; i < cells; ++i) even[i] = from[i * count];
+        add_sharpening(sharpening, even, count, source);
         sweep(matter.grid, ordinates, source, {}, threads, space, to);
         for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i] - to[i];
         return std::nullopt;
     };
     // What a vector of moments scatters evenly, spread by diffusion.
-    const Diffusion diffusion = make_diffusion(matter.grid.cells, matter.grid.depth,
-                                               matter.scattered, problem.split.moment[1]);
+    const Diffusion diffusion =
+        make_diffusion(matter.grid.cells, matter.grid.sides, matter.grid.depth, matter.scattered,
+                       problem.split.moment[1]);
     std::vector<float> unsettled(cells);
     const auto diffuse = [&](std::span<const float> vector, std::span<float> addition) {
         for (std::size_t i = 0; i < cells; ++i)

@@ -55,8 +55,9 @@ AWAN_KERNEL(void, multiply, (const float* a, const float* b, float* to, std::siz
 
 }  // namespace
 
-Diffusion make_diffusion(const glm::ivec3& cells, std::span<const float> depth,
-                         std::span<const float> scattered, double forward) {
+Diffusion make_diffusion(const glm::ivec3& cells, const glm::vec3& sides,
+                         std::span<const float> depth, std::span<const float> scattered,
+                         double forward) {
     Diffusion diffusion;
     diffusion.cells = cells;
     const auto nx = static_cast<std::size_t>(cells.x), ny = static_cast<std::size_t>(cells.y),
@@ -71,18 +72,19 @@ Diffusion make_diffusion(const glm::ivec3& cells, std::span<const float> depth,
     const std::size_t stride[3] = {1, nx, nx * ny}, count[3] = {nx, ny, nz};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         Vector& across = diffusion.across[axis];
+        const float side = sides[static_cast<int>(axis)], per_side = 1 / side;
         across.assign(depth.size(), 0.F);
         for (std::size_t i = 0; i < depth.size(); ++i) {
             const std::size_t at = i / stride[axis] % count[axis];
             // An outer face, by Marshak's condition: half a cell's way, and behind it only what leaves.
-            const float out = 1 / (1.5F * transport[i] + 2);
+            const float out = per_side / (1.5F * side * transport[i] + 2);
             if (at == 0) diffusion.diagonal[i] += out;
             if (at + 1 == count[axis]) {
                 diffusion.diagonal[i] += out;
                 continue;
             }
             const std::size_t next = i + stride[axis];
-            across[i] = 1 / (1.5F * (transport[i] + transport[next]) + kStreaming);
+            across[i] = per_side / (1.5F * side * (transport[i] + transport[next]) + kStreaming);
             diffusion.diagonal[i] += across[i];
             diffusion.diagonal[next] += across[i];
         }

@@ -9,7 +9,7 @@
 
 namespace awan {
 
-// The seven-point operator on cubic cells, in units of the cell's side: to each cell
+// The seven-point operator on cells, in units of the cell's shortest side: to each cell
 //     sum over faces of conductance * (own value - neighbour's) + absorption * own value,
 // where light leaves through the outer faces of the grid.
 struct Diffusion {
@@ -18,11 +18,13 @@ struct Diffusion {
     std::vector<float> diagonal;   // sum of conductances, absorption and what leaves the grid
 };
 
-// depth: of each cell, extinction x side; scattered: the part of it that is scattered; forward: the mean cosine of that
-// scattering. With the transport depth t = depth - forward * scattered, a face between cells conducts
-//     1 / (3/2 (t + t') + kStreaming).
-Diffusion make_diffusion(const glm::ivec3& cells, std::span<const float> depth,
-                         std::span<const float> scattered, double forward);
+// sides: of a cell, in units of the shortest; depth: of each cell, extinction x shortest side; scattered: the part of it
+// that is scattered; forward: the mean cosine of that scattering. With the transport depth t = depth - forward *
+// scattered, a face between cells of side h conducts
+//     1 / (3/2 h (t + t') + kStreaming) / h.
+Diffusion make_diffusion(const glm::ivec3& cells, const glm::vec3& sides,
+                         std::span<const float> depth, std::span<const float> scattered,
+                         double forward);
 
 // Solves for `value` by conjugate gradients until the residual is `tolerance` of the source, at most
 // kMaxDiffusionSteps.

@@ -84,9 +84,9 @@ GroundChange sent_down(const GroundExchange& exchange, std::span<const LightBand
 // The bands that the ground's light is solved in. None: the cloud's middle sees a black ground.
 std::vector<Part> parts_of(const GroundLight& ground, const CloudGrid& grid, bool colored) {
     if (colored) return {{0, {1, 0, 0}}, {1, {0, 1, 0}}, {2, {0, 0, 1}}};
-    const glm::dvec3 middle = grid.origin + 0.5 * grid.cell * glm::dvec3(grid.cells);
+    const glm::dvec3 middle = grid.origin + 0.5 * (grid.cell * glm::dvec3(grid.cells));
     const glm::dvec3 seen = mean_radiance_below(
-        ground, {middle.x, std::max(middle.y, ground.height + 0.5 * grid.cell), middle.z});
+        ground, {middle.x, std::max(middle.y, ground.height + 0.5 * grid.cell.y), middle.z});
     if (!(luminance(seen) > 0)) return {};
     return {{-1, seen / luminance(seen)}};
 }

@@ -17,9 +17,9 @@ using SolveFromBelow = std::function<Result<LightBand>(const InflowFromBelow& in
 // The grid of a cloud and its matter.
 struct CloudGrid {
     glm::dvec3 origin{0};  // corner of cell 0, scene units
-    double cell = 0;       // side, scene units
+    glm::dvec3 cell{0};    // sides, scene units
     glm::ivec3 cells{0};
-    std::span<const float> depth;  // of each cell: extinction (all of it) x side
+    std::span<const float> depth;  // of each cell: extinction (all of it) x its shortest side
     double scaled = 1;             // share of it that dims light: what is not the forward peak's
 };
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/base/parallel.h"
+#include "core/survey/lattice.h"
 #include "core/survey/projection.h"
 
 namespace awan {
@@ -33,6 +34,11 @@ struct Spiral {
 };
 Spiral spiral(int i, int count) {
     return {(i + 0.5) / count, i * pi * (3 - std::sqrt(5.0))};
+}
+
+// Sides of a cell in units of the shortest.
+glm::dvec3 sides_of(const CloudAbove& cloud) {
+    return cloud.cell / shortest(cloud.cell);
 }
 
 // What is seen from a point in a direction: the cloud's light, and the share that comes through of what is behind it.
@@ -94,17 +100,18 @@ class CellWalk {
     glm::dvec3 next_{0}, per_{0};
 };
 
-// From p (cells) in direction d. With x the scaled depth of the way through a cell and `scaled` k, the cell adds its
+// From p (cells) in direction d (unit, in true proportions). Ways are counted in the cells' shortest sides. With x the scaled depth of the way through a cell and `scaled` k, the cell adds its
 // source times (1 - exp(-x)) / k, dimmed by the cells before it.
 Seen look(const CloudAbove& cloud, const glm::dvec3& p, const glm::dvec3& d) {
     Seen seen;
-    const Crossing crossing = cross_box(cloud.cells, p, d);
+    const glm::dvec3 in_cells = d / sides_of(cloud);
+    const Crossing crossing = cross_box(cloud.cells, p, in_cells);
     if (!(crossing.enter < crossing.leave)) return seen;
     const std::array<double, kHarmonics> y = harmonics(-d);
     std::array<float, kHarmonics> towards{};
     for (std::size_t i = 0; i < kHarmonics; ++i) towards[i] = static_cast<float>(y[i]);
 
-    CellWalk walk(cloud.cells, p, d, crossing.enter);
+    CellWalk walk(cloud.cells, p, in_cells, crossing.enter);
     double depth = 0;
     for (double t = crossing.enter; t < crossing.leave && depth < kOpaque;) {
         const double until = std::min(walk.until(), crossing.leave);
@@ -135,8 +142,8 @@ Seen look(const CloudAbove& cloud, const glm::dvec3& p, const glm::dvec3& d) {
 // for its solid angle times (product of the half sides) / |half sides * d|^3. From within or near the ball: over the
 // whole upper half of the sphere, by cosine.
 glm::dvec3 gathered(const CloudAbove& cloud, const SkyDome* sky, const glm::dvec3& p) {
-    const glm::dvec3 half = 0.5 * glm::dvec3(cloud.cells);
-    const glm::dvec3 to = (half - p) / half;
+    const glm::dvec3 middle = 0.5 * glm::dvec3(cloud.cells), half = middle * sides_of(cloud);
+    const glm::dvec3 to = (middle - p) / middle;
     const double distance = glm::length(to), radius = std::numbers::sqrt3;
     const bool cone = distance > 1.05 * radius;
     const double cosine = cone ? std::sqrt(1 - radius * radius / (distance * distance)) : 0;
@@ -177,7 +184,7 @@ CloudAbove coarser(CloudAbove cloud, int most) {
     if (by <= 1) return cloud;
     CloudAbove made;
     made.origin = cloud.origin;
-    made.cell = cloud.cell * by;
+    made.cell = cloud.cell * static_cast<double>(by);
     made.cells = (cloud.cells + by - 1) / by;
     made.scaled = cloud.scaled;
     const auto count = static_cast<std::size_t>(made.cells.x * made.cells.y * made.cells.z);

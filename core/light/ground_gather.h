@@ -12,9 +12,9 @@ namespace awan {
 // A cloud as the ground sees it: cells (x fastest, then y, then z) that dim what is behind them and shine.
 struct CloudAbove {
     glm::dvec3 origin{0};  // corner of cell 0, scene units
-    double cell = 0;       // side, scene units
+    glm::dvec3 cell{0};    // sides, scene units
     glm::ivec3 cells{0};
-    std::vector<float> depth;  // of each cell: extinction (all of it) x side
+    std::vector<float> depth;  // of each cell: extinction (all of it) x its shortest side
     double scaled = 1;         // share of it that dims light: what is not the forward peak's
     // Source function, radiance per optical depth: toward direction o, sum_i source[cell][c * kHarmonics + i] * Y_i(o).
     std::vector<std::array<float, 3 * kHarmonics>> source;

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <numbers>
 
 #include "core/base/parallel.h"
 #include "core/light/harmonics.h"
 #include "core/light/sun_depth.h"
+#include "core/survey/projection.h"
 
 namespace awan {
 namespace {
@@ -44,17 +46,42 @@ glm::dvec2 in_disc(int i, int count) {
     return {r * std::cos(turn), r * std::sin(turn)};
 }
 
-// The lattice of the sun's depth over a level ground, in the sun's frame: places are (u, v, w), scene units.
+// The lattice of the sun's depth over a level ground, in the sun's frame: places are u a + v b + w c with the lattice's
+// axes, which need not be orthogonal; a, b, c in scene units.
 struct SunBox {
     const SunDepth& sun;
     double height;         // of the ground
     glm::dvec3 low, size;  // of the lattice's nodes
+    glm::dmat3 frame;      // makes (a, b, c) of scene units
+    glm::dmat3 nodes;      // to_nodes of the lattice
 };
 
 SunBox sun_box(const SunDepth& sun, double height) {
-    const glm::dvec3 low(glm::dot(sun.origin, sun.u), glm::dot(sun.origin, sun.v),
-                         glm::dot(sun.origin, sun.w));
-    return {sun, height, low, sun.cell * glm::dvec3(sun.nodes - 1)};
+    const glm::dmat3 nodes = to_nodes(sun);
+    const glm::dmat3 frame(sun.cell * nodes[0], sun.cell * nodes[1], sun.cell * nodes[2]);
+    return {sun, height, frame * sun.origin, sun.cell * glm::dvec3(sun.nodes - 1), frame, nodes};
+}
+
+// The lattice's sides across the light, the wider.
+double column_width(const SunBox& box) {
+    return std::max(box.sun.cell.x, box.sun.cell.y);
+}
+
+// The rows of the frame that make a and b of a place.
+void set_frame(const SunBox& box, SunRaster& raster) {
+    const glm::dmat3 rows = glm::transpose(box.frame);
+    raster.u = rows[0];
+    raster.v = rows[1];
+}
+
+// Makes (a, b) of a place in the plane through the origin that faces the sun, given along its own two axes. Where the
+// lattice leans, a disc that faces the sun is an ellipse to it.
+glm::dmat2 disc_in_frame(const SunBox& box) {
+    const SideAxes side = side_axes(box.sun.w);
+    const bool faces =
+        std::abs(glm::dot(box.sun.u, box.sun.w)) + std::abs(glm::dot(box.sun.v, box.sun.w)) < 1e-9;
+    if (faces) return glm::dmat2(1);
+    return {glm::dvec2(box.frame * side.u), glm::dvec2(box.frame * side.v)};
 }
 
 // w of the ground's point at (u, v): where u sun.u.y + v sun.v.y + w sun.w.y = height.
@@ -80,8 +107,9 @@ double depth_in(const SunBox& box, double u, double v, double w) {
         glm::max(glm::max(glm::dvec2(box.low.x - u, box.low.y - v),
                           glm::dvec2(u - box.low.x - box.size.x, v - box.low.y - box.size.y)),
                  glm::dvec2(0));
-    const double kept = std::max(0.0, 1 - off.x / sun.cell) * std::max(0.0, 1 - off.y / sun.cell);
-    return kept > 0 ? kept * depth_at(sun, u * sun.u + v * sun.v + w * sun.w) : 0.0;
+    const double kept =
+        std::max(0.0, 1 - off.x / sun.cell.x) * std::max(0.0, 1 - off.y / sun.cell.y);
+    return kept > 0 ? kept * depth_at(sun, box.nodes, u * sun.u + v * sun.v + w * sun.w) : 0.0;
 }
 
 // Depth of the whole line that ends at `at` on the ground, w away, and leans by `tilt` against the sun's direction. In
@@ -101,12 +129,11 @@ double depth_along(const SunBox& box, const glm::dvec2& at, double w, const glm:
 // A raster, all 0, that holds the lattice's shadow and the blur around it. slope: tangent of the blur's radius.
 SunRaster raster_around(const SunBox& box, double slope) {
     SunRaster raster;
-    raster.u = box.sun.u;
-    raster.v = box.sun.v;
+    set_frame(box, raster);
     const glm::dvec2 size(box.size.x, box.size.y);
-    const double margin = longest_way(box) * slope + 1.5 * box.sun.cell;
+    const double margin = longest_way(box) * slope + 1.5 * column_width(box);
     const double longer = std::max(size.x, size.y) + 2 * margin;
-    raster.cell = std::max({box.sun.cell, margin / kNodesInBlur, longer / (kMostNodes - 1)});
+    raster.cell = std::max({column_width(box), margin / kNodesInBlur, longer / (kMostNodes - 1)});
     raster.nodes = glm::ivec2(glm::ceil((size + 2 * margin) / raster.cell)) + 1;
     raster.origin = glm::dvec2(box.low.x, box.low.y) + 0.5 * size -
                     0.5 * raster.cell * glm::dvec2(raster.nodes - 1);
@@ -122,20 +149,20 @@ SunRaster raster_of(const SunBox& box, double radius, int threads, const OfDepth
     const double slope = std::tan(radius);
     if (!(longest_way(box) > 0)) {
         SunRaster none;
-        none.u = box.sun.u;
-        none.v = box.sun.v;
+        set_frame(box, none);
         return none;
     }
     SunRaster raster = raster_around(box, slope);
+    const glm::dmat2 across = slope * disc_in_frame(box);
     const auto mean_at = [&](const glm::dvec2& at) {
         const double w = ground_at(box, at.x, at.y);
         // As many lines as the blur's disc has cells.
-        const double widest = std::max(0.0, w - box.low.z) * slope / box.sun.cell;
+        const double widest = std::max(0.0, w - box.low.z) * slope / column_width(box);
         const int count =
             std::clamp(static_cast<int>(std::ceil(pi * widest * widest)), 1, kMostDirections);
         double sum = 0;
         for (int n = 0; n < count; ++n) {
-            const glm::dvec2 tilt = count == 1 ? glm::dvec2(0) : slope * in_disc(n, count);
+            const glm::dvec2 tilt = count == 1 ? glm::dvec2(0) : across * in_disc(n, count);
             sum += of_depth(depth_along(box, at, w, tilt));
         }
         return static_cast<float>(sum / count);

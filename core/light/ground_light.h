@@ -19,9 +19,10 @@ inline constexpr double kSunRadius = 0.2665 * 3.14159265358979324 / 180;
 // A share of the sun's light, on a raster that faces the sun: a place on the ground is looked up by its distances along
 // u and v. A shadow on the ground gets long under a low sun, its image on this raster does not. Bilinear; 0 outside.
 struct SunRaster {
-    glm::dvec3 u{1, 0, 0}, v{0, 0, 1};  // unit, at right angles to the sun
-    glm::dvec2 origin{0};               // of node (0, 0), along u and v, scene units
-    double cell = 0;                    // scene units
+    // At right angles to the sun: a place's products with them are its coordinates, scene units.
+    glm::dvec3 u{1, 0, 0}, v{0, 0, 1};
+    glm::dvec2 origin{0};  // of node (0, 0)
+    double cell = 0;       // between nodes, scene units
     glm::ivec2 nodes{0};
     std::vector<float> share;  // along u fastest; EMPTY: 0 everywhere
 };

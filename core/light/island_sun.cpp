@@ -35,19 +35,19 @@ std::vector<double> depth_before(const Lattice& prism, const ParticleSet& all) {
         const double before = normal_cdf(-glm::dot(apart, prism.w) / s);
         if (before < 1e-5) continue;
         const double cx = glm::dot(apart, prism.u), cy = glm::dot(apart, prism.v);
-        const auto column = [&](double at, int count) {
+        const auto column = [&](double at, double cell, int count) {
             return static_cast<int>(
-                std::clamp(std::floor(at / prism.cell), -1.0, static_cast<double>(count)));
+                std::clamp(std::floor(at / cell), -1.0, static_cast<double>(count)));
         };
-        const int x0 = std::max(column(cx - reach, prism.cells.x), 0);
-        const int x1 = std::min(column(cx + reach, prism.cells.x), prism.cells.x - 1);
-        const int y0 = std::max(column(cy - reach, prism.cells.y), 0);
-        const int y1 = std::min(column(cy + reach, prism.cells.y), prism.cells.y - 1);
+        const int x0 = std::max(column(cx - reach, prism.cell.x, prism.cells.x), 0);
+        const int x1 = std::min(column(cx + reach, prism.cell.x, prism.cells.x), prism.cells.x - 1);
+        const int y0 = std::max(column(cy - reach, prism.cell.y, prism.cells.y), 0);
+        const int y1 = std::min(column(cy + reach, prism.cell.y, prism.cells.y), prism.cells.y - 1);
         if (x0 > x1 || y0 > y1) continue;
-        shares(cx, s, prism.cell, x0, x1, x);
-        shares(cy, s, prism.cell, y0, y1, y);
+        shares(cx, s, prism.cell.x, x0, x1, x);
+        shares(cy, s, prism.cell.y, y0, y1, y);
         const double most =
-            std::min(before * gaussian_mass(all, i) / (prism.cell * prism.cell), 1e30);
+            std::min(before * gaussian_mass(all, i) / (prism.cell.x * prism.cell.y), 1e30);
         for (int j = y0; j <= y1; ++j) {
             const double across = most * y[static_cast<std::size_t>(j - y0)];
             double* const row =
@@ -62,12 +62,10 @@ std::vector<double> depth_before(const Lattice& prism, const ParticleSet& all) {
 
 bool shades(const Lattice& prism, const glm::dvec3& center, double reach) {
     const glm::dvec3 apart = center - prism.origin;
-    const auto within = [&](double at, int cells) {
-        return at > -reach && at < cells * prism.cell + reach;
-    };
-    return glm::dot(apart, prism.w) < prism.cells.z * prism.cell + reach &&
-           within(glm::dot(apart, prism.u), prism.cells.x) &&
-           within(glm::dot(apart, prism.v), prism.cells.y);
+    const auto within = [&](double at, double side) { return at > -reach && at < side + reach; };
+    const glm::dvec3 size = prism.cell * glm::dvec3(prism.cells);
+    return glm::dot(apart, prism.w) < size.z + reach && within(glm::dot(apart, prism.u), size.x) &&
+           within(glm::dot(apart, prism.v), size.y);
 }
 
 SunDepth sun_depth_in(const Lattice& prism, const ParticleSet& all) {

@@ -33,8 +33,8 @@ Between between(double place, int cells) {
 std::vector<Between> along(const TransportLight& from, const TransportLight& to, int axis) {
     std::vector<Between> places;
     for (int i = 0; i < to.cells[axis]; ++i) {
-        const double at = to.origin[axis] + (i + 0.5) * to.cell;
-        places.push_back(between((at - from.origin[axis]) / from.cell, from.cells[axis]));
+        const double at = to.origin[axis] + (i + 0.5) * to.cell[axis];
+        places.push_back(between((at - from.origin[axis]) / from.cell[axis], from.cells[axis]));
     }
     return places;
 }
@@ -101,13 +101,14 @@ std::vector<std::array<float, kHarmonics>> moments_between(const TransportLight&
 }
 
 void extrapolate(const TransportLight& coarse, TransportLight& fine, int threads) {
-    if (coarse.bands.size() != fine.bands.size() || !(coarse.cell > 0)) return;
+    if (coarse.bands.size() != fine.bands.size() || !coarse.has_grid()) return;
     if (coarse.cells == fine.cells && coarse.origin == fine.origin) {
         fine.bands = coarse.bands;
         fine.solved = coarse.solved;
         return;
     }
-    const double ratio = coarse.cell / fine.cell;
+    const glm::dvec3 ratios = coarse.cell / fine.cell;
+    const double ratio = std::cbrt(ratios.x * ratios.y * ratios.z);
     if (!(ratio > kLeastRatio)) return;
     const auto gain = static_cast<float>(1 / (std::pow(ratio, kOrder) - 1));
     for (std::size_t b = 0; b < fine.bands.size(); ++b) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "core/base/parallel.h"
 #include "core/survey/lattice_detail.h"
@@ -21,9 +22,9 @@ constexpr double kMaxFineWork = 3e8;
 
 Lattice above(double floor, Lattice lattice) {
     if (!(lattice.origin.y < floor)) return lattice;
-    const double top = lattice.origin.y + lattice.cell * lattice.cells.y;
+    const double top = lattice.origin.y + lattice.cell.y * lattice.cells.y;
     lattice.origin.y = floor;
-    lattice.cells.y = std::max(1, static_cast<int>(std::ceil((top - floor) / lattice.cell)));
+    lattice.cells.y = std::max(1, static_cast<int>(std::ceil((top - floor) / lattice.cell.y)));
     return lattice;
 }
 
@@ -53,15 +54,16 @@ std::size_t index(const glm::ivec3& cells, int i, int j, int k) {
 PartGrid grid_of_part(const LightPart& part, int cells, double floor, int threads) {
     PartGrid grid;
     const double rest = std::min(kLeftOut, kLeftOutShare * part.deepest);
-    grid.lattice = above(floor, lattice_around_matter(part.own, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
-                                                      rest, cells, threads, kMaxCoarseWork));
+    const MatterBox box =
+        box_around_matter(part.own, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, rest, threads);
+    grid.lattice = above(floor, within_work(part.own, box, cells, kMaxCoarseWork, fitted_cells));
     const Lattice& lattice = grid.lattice;
     grid.sub = cells <= 32 ? 3 : 2;
-    while (grid.sub > 1 &&
-           lattice_work(part.all, lattice.cell / grid.sub, lattice.cells * grid.sub) > kMaxFineWork)
+    while (grid.sub > 1 && lattice_work(part.all, lattice.cell / static_cast<double>(grid.sub),
+                                        lattice.cells * grid.sub) > kMaxFineWork)
         --grid.sub;
     grid.fine = lattice;
-    grid.fine.cell = lattice.cell / grid.sub;
+    grid.fine.cell = lattice.cell / static_cast<double>(grid.sub);
     grid.fine.cells = lattice.cells * grid.sub;
     grid.fine_extinction = extinction_in(part.all, grid.fine, threads);
     if (part.all.detail) {
@@ -75,21 +77,26 @@ PartGrid grid_of_part(const LightPart& part, int cells, double floor, int thread
 
 // Of a fine cell of depth x along the beam, whose front the beam reaches with the scaled depth e behind it, the beam
 // leaves the integral over the cell: exp(-e) (1 - exp(-k x)) / k with k = `scaled`. It is taken along the beam and not
-// from the cell's middle, so that a thick cell does not get more light than there is.
+// from the cell's middle, so that a thick cell does not get more light than there is. Through a cubic cell the beam's
+// way is taken as its side, through a flat one as the way through its middle.
 std::vector<float> beam_source(const PartGrid& grid, const SunDepth& sun, double scaled,
                                int threads, const Deadline& deadline) {
     std::vector<float> source(grid.lattice.size());
     const glm::ivec3 n = grid.fine.cells;
     const int sub = grid.sub;
+    const glm::dvec3 cell = grid.fine.cell, ways = cell / glm::max(glm::abs(sun.w), 1e-12);
+    const double side = shortest(cell), way = longest(cell) == side ? side : shortest(ways);
+    const double per_way = side / way;
+    const glm::dmat3 nodes = to_nodes(sun);
     const auto left_in = [&](int i, int j, int k) {
         const auto extinction = static_cast<double>(grid.fine_extinction[index(n, i, j, k)]);
         if (!(extinction > 0)) return 0.0;
         const glm::dvec3 middle = grid.fine.at(glm::dvec3(i, j, k) + 0.5);
-        const double across = scaled * extinction * grid.fine.cell;
-        const double entry = std::max(scaled * depth_at(sun, middle) - 0.5 * across, 0.0);
-        return -std::expm1(-across) * std::exp(-entry) / scaled;
+        const double across = scaled * extinction * way;
+        const double entry = std::max(scaled * depth_at(sun, nodes, middle) - 0.5 * across, 0.0);
+        return -std::expm1(-across) * std::exp(-entry) / scaled * per_way;
     };
-    // A cell's side is `sub` fine sides long: the mean of sub^3 fine cells, sub times as deep.
+    // A cell's shortest side is `sub` fine ones long: the mean of sub^3 fine cells, sub times as deep.
     parallel_for(threads, static_cast<std::size_t>(grid.lattice.cells.z), [&](std::size_t z) {
         if (deadline.over()) return;
         const int layer = static_cast<int>(z);
@@ -118,18 +125,18 @@ std::vector<glm::vec3> colored_albedo(const ParticleSet& particles, const Lattic
 
 Matter matter_of(const PartGrid& grid, const ScatteringSplit& split,
                  const std::vector<glm::vec3>& albedo, int channel) {
-    const double f = split.peak_share;
+    const double f = split.peak_share, side = shortest(grid.lattice.cell);
     Matter matter;
     matter.grid.cells = grid.lattice.cells;
+    matter.grid.sides = glm::vec3(grid.lattice.cell / side);
     matter.grid.harmonics = split.harmonics;
     matter.grid.depth.resize(grid.extinction.size());
     matter.albedo.resize(grid.extinction.size());
     matter.scattered.resize(grid.extinction.size());
     for (std::size_t i = 0; i < grid.extinction.size(); ++i) {
         const double a = albedo.empty() ? split.albedo : static_cast<double>(albedo[i][channel]);
-        const double depth =
-            std::min(static_cast<double>(grid.extinction[i]) * grid.lattice.cell * (1 - a * f),
-                     static_cast<double>(kMaxCellDepth));
+        const double depth = std::min(static_cast<double>(grid.extinction[i]) * side * (1 - a * f),
+                                      static_cast<double>(kMaxCellDepth));
         matter.grid.depth[i] = static_cast<float>(depth);
         matter.albedo[i] = static_cast<float>(a);
         matter.scattered[i] = static_cast<float>(depth * a * (1 - f) / (1 - a * f));

@@ -24,11 +24,11 @@ struct PartGrid {
     double detail_ms = 0;                // time that detail took
 };
 
-// The grid lies around part.own and has `cells` cells along its longest side, fewer where filling it would be too much
-// work. From above, nothing under the ground is there: `floor` is its height, -infinity without one.
+// The grid lies around part.own and has as many cells as cubes would be, `cells` of them along its longest side, but as
+// flat as the matter is (fitted_cells), and fewer where filling it would be too much work. From above, nothing under the ground is there: `floor` is its height, -infinity without one.
 PartGrid grid_of_part(const LightPart& part, int cells, double floor, int threads);
 
-// The light that the sun's beam, of irradiance 1, leaves in each cell: (all extinction) x side x the mean over the cell
+// The light that the sun's beam, of irradiance 1, leaves in each cell: (all extinction) x shortest side x the mean over the cell
 // of exp(-scaled depth from the sun). `scaled`: the share of the depth that dims light (delta_m.h). All 0 where the
 // deadline passed.
 std::vector<float> beam_source(const PartGrid& grid, const SunDepth& sun, double scaled,
@@ -44,7 +44,7 @@ std::vector<glm::vec3> colored_albedo(const ParticleSet& particles, const Lattic
 struct Matter {
     SweepGrid grid;
     std::vector<float> albedo;  // of each cell
-    // Of each cell: the scaled depth of its side times the albedo of p'.
+    // Of each cell: the scaled depth of its shortest side times the albedo of p'.
     std::vector<float> scattered;
 };
 

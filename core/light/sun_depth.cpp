@@ -4,8 +4,11 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <utility>
 
+#include "core/base/parallel.h"
+#include "core/light/sun_columns.h"
 #include "core/survey/lattice.h"
 #include "core/survey/lattice_detail.h"
 #include "core/survey/projection.h"
@@ -20,6 +23,8 @@ constexpr double kLeftOut = 0.01;
 
 SunDepth sun_depth(const ParticleSet& particles, const glm::dvec3& towards_sun, int cells,
                    int threads) {
+    if (auto leaning = leaning_sun_depth(particles, towards_sun, cells, threads))
+        return *std::move(leaning);
     const Lattice lattice = sun_lattice(particles, towards_sun, cells, threads);
     const auto columns =
         static_cast<std::size_t>(lattice.cells.x) * static_cast<std::size_t>(lattice.cells.y);
@@ -41,26 +46,58 @@ SunDepth sun_depth_on(const Lattice& lattice, const ParticleSet& particles,
     sun.w = lattice.w;
     sun.cell = lattice.cell;
     // Nodes stand in the middle of the columns and on the faces between their cells.
-    sun.origin = lattice.origin + 0.5 * sun.cell * (sun.u + sun.v);
+    sun.origin = lattice.origin + 0.5 * (sun.cell.x * sun.u + sun.cell.y * sun.v);
     sun.nodes = lattice.cells + glm::ivec3(0, 0, 1);
     std::vector<float> extinction = extinction_in(particles, lattice, threads);
     add_detail(particles, lattice, threads, extinction);
     const std::size_t layer = entry.size();
     sun.depth = std::move(entry);
     sun.depth.resize(layer * static_cast<std::size_t>(sun.nodes.z));
-    const auto cell = static_cast<float>(sun.cell);
+    const auto cell = static_cast<float>(sun.cell.z);
     for (std::size_t i = 0; i < extinction.size(); ++i)
         sun.depth[layer + i] = sun.depth[i] + extinction[i] * cell;
+    settle_nodes(sun, threads);
     return sun;
 }
 
+glm::dmat3 to_nodes(const SunDepth& sun) {
+    const glm::dvec3 across = glm::cross(sun.v, sun.w);
+    const double volume = glm::dot(sun.u, across);
+    return glm::transpose(glm::dmat3(across / (volume * sun.cell.x),
+                                     glm::cross(sun.w, sun.u) / (volume * sun.cell.y),
+                                     glm::cross(sun.u, sun.v) / (volume * sun.cell.z)));
+}
+
+void settle_nodes(SunDepth& sun, int threads) {
+    constexpr float kAcross = 1.F / 24 + 1.F / 12, kAlong = 1.F / 12;
+    const std::vector<float> before = sun.depth;
+    const auto nx = static_cast<std::size_t>(sun.nodes.x),
+               ny = static_cast<std::size_t>(sun.nodes.y),
+               nz = static_cast<std::size_t>(sun.nodes.z), layer = nx * ny;
+    parallel_for(threads, nz, [&](std::size_t k) {
+        for (std::size_t j = 0; j < ny; ++j)
+            for (std::size_t i = 0; i < nx; ++i) {
+                const std::size_t at = k * layer + j * nx + i;
+                // The second difference; at an end there is none.
+                const auto bend = [&](std::size_t place, std::size_t count, std::size_t step) {
+                    if (place == 0 || place + 1 == count) return 0.F;
+                    return before[at - step] - 2 * before[at] + before[at + step];
+                };
+                const float bent =
+                    kAcross * (bend(i, nx, 1) + bend(j, ny, nx)) + kAlong * bend(k, nz, layer);
+                sun.depth[at] = std::max(before[at] - bent, 0.F);
+            }
+    });
+}
+
 double depth_at(const SunDepth& sun, const glm::dvec3& point) {
+    return sun.depth.empty() ? 0 : depth_at(sun, to_nodes(sun), point);
+}
+
+double depth_at(const SunDepth& sun, const glm::dmat3& nodes, const glm::dvec3& point) {
     if (sun.depth.empty()) return 0;
-    const glm::dvec3 apart = point - sun.origin;
-    const glm::dvec3 at = glm::clamp(
-        glm::dvec3(glm::dot(apart, sun.u), glm::dot(apart, sun.v), glm::dot(apart, sun.w)) /
-            sun.cell,
-        glm::dvec3(0), glm::dvec3(sun.nodes - 1));
+    const glm::dvec3 at =
+        glm::clamp(nodes * (point - sun.origin), glm::dvec3(0), glm::dvec3(sun.nodes - 1));
     const glm::ivec3 low = glm::min(glm::ivec3(at), glm::max(sun.nodes - 2, glm::ivec3(0)));
     const glm::ivec3 high = glm::min(low + 1, sun.nodes - 1);
     const glm::dvec3 t = at - glm::dvec3(low);

@@ -47,14 +47,14 @@ AWAN_INLINE void fill(float* to, std::size_t count, const Lanes& value) {
     for (std::size_t i = 0; i < count; ++i) store(to + i * kDirections, value);
 }
 
-// |cosines| of the 16 directions to the axes.
+// |cosines| of the 16 directions to the axes, over the cell's sides.
 struct Cosines {
     Lanes x, y, z;
 };
 
 // The light's way through one cell. psi_x, psi_y, psi_z: radiance that enters through the faces across x, y and z, and
-// on return what leaves through those opposite; psi: the mean over the cell. With c the cosine to an axis, s the depth
-// of the cell's side, q the source:
+// on return what leaves through those opposite; psi: the mean over the cell. With c the cosine to an axis over the
+// cell's side along it (in units of its shortest), s the depth of the shortest side, q the source:
 //     sum over axes of c (psi_out - psi_in) + s psi = q,     psi = theta psi_out + (1 - theta) psi_in along each axis,
 //     theta = (3 + tau) / (6 + tau), tau = s / c,     so 1 / theta = (6 c + s) / (3 c + s).
 // The factors 1 / theta (tx, ty, tz) share one division. psi_x comes last from the cell before: all that can be is
@@ -106,6 +106,10 @@ AWAN_INLINE void walk_octant(const Task& task) {
     load(cosines.x, task.ordinates.cosine[0].data());
     load(cosines.y, task.ordinates.cosine[1].data());
     load(cosines.z, task.ordinates.cosine[2].data());
+    // A cell is as if it were cubic and light crossed its longer sides at flatter angles.
+    cosines.x /= task.grid.sides.x;
+    cosines.y /= task.grid.sides.y;
+    cosines.z /= task.grid.sides.z;
     load(in, task.inflow);
     Lanes value[kHarmonics];
     for (std::size_t m = 0; m < kHarmonics; ++m) load(value[m], task.octant.value[m].data());

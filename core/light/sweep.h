@@ -13,7 +13,9 @@ namespace awan {
 struct SweepGrid {
     glm::ivec3 cells{0};
     int harmonics = 16;  // 1 (l = 0) or 16 (l <= 3): floats a cell in moments and sources
-    // Of each cell: scaled extinction (core/light/delta_m.h) x side, 0..kMaxCellDepth; x fastest.
+    // Sides of a cell, in units of the shortest.
+    glm::vec3 sides{1};
+    // Of each cell: scaled extinction (core/light/delta_m.h) x shortest side, 0..kMaxCellDepth; x fastest.
     std::vector<float> depth;
 
     std::size_t size() const { return depth.size(); }
@@ -39,7 +41,7 @@ struct SweepSpace {
 // For given sources q solves
 //     o . grad psi + sigma psi = q
 // for the radiance psi in each of the directions o, and gives its moments: integral of psi Y_i. source: moments of q
-// times the cell's side, `harmonics` floats a cell; moments: as many. inflow: what enters; empty: nothing does. Between
+// times the cell's shortest side, `harmonics` floats a cell; moments: as many. inflow: what enters; empty: nothing does. Between
 // the faces of a cell psi changes by weighted diamond differences with the weight theta = (3 + tau) / (6 + tau), tau
 // the depth of the cell along the direction. That is second order in thin cells, as the diamond scheme (theta = 1/2)
 // is, but stays positive in thick ones, where that does not. It is linear, which GMRES needs. The sums of four groups

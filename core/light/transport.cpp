@@ -79,7 +79,7 @@ Inflow inflow_of(const PartSolve& solve, const Shine& shine, std::size_t index) 
         return open;
     }
     const Lattice& lattice = solve.grid.lattice;
-    const glm::dvec3 middle = lattice.origin + 0.5 * lattice.cell * glm::dvec3(lattice.cells);
+    const glm::dvec3 middle = lattice.origin + 0.5 * (lattice.cell * glm::dvec3(lattice.cells));
     return [&, open, middle, index](const glm::dvec3& direction) {
         double behind = 0;
         if (shine.from_ground != nullptr)
@@ -153,7 +153,7 @@ Status add_own_ground(const PartSolve& solve, TransportLight& light) {
     if (solve.shades_ground())
         cast_shadow(solve.part.sun, split.albedo, split.peak_share, solve.scene->medium.g,
                     solve.threads, light.ground);
-    const auto side = static_cast<float>(solve.grid.lattice.cell);
+    const auto side = static_cast<float>(shortest(solve.grid.lattice.cell));
     std::vector<float> depth(solve.grid.extinction);
     for (float& one : depth) one *= side;
     const CloudGrid cloud{light.origin, light.cell, light.cells, depth, split.scaled()};
@@ -268,7 +268,7 @@ Result<TransportLight> solve_grid(PartSolve solve) {
 Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
                                      const TransportSettings& settings, const SharedLight& coarser,
                                      int threads, const Deadline& deadline) {
-    const bool nested = settings.cells > 0 && coarser != nullptr && coarser->cell > 0;
+    const bool nested = settings.cells > 0 && coarser != nullptr && coarser->has_grid();
     auto light = solve_grid({.scene = scene,
                              .part = part,
                              .settings = settings,

@@ -36,10 +36,11 @@ struct TransportLight {
     // Corner of cell 0, scene units. Light at a point is interpolated trilinearly between the centres of cells;
     // outside of them it is that of the nearest.
     glm::dvec3 origin{0};
-    // Side of a cubic cell, scene units. 0: there is no grid (rung `single`). Where rung `single` has particles with
+    // Sides of a cell, scene units. 0: there is no grid (rung `single`). Where rung `single` has particles with
     // colours there is a grid, but without bands: it only holds `albedo`.
-    double cell = 0;
+    glm::dvec3 cell{0};
     glm::ivec3 cells{0};
+    bool has_grid() const { return cell.x > 0; }
     std::vector<LightBand> bands;
     // Of each cell, for the sun's beam; EMPTY: medium.albedo everywhere.
     std::vector<glm::vec3> albedo;

@@ -20,6 +20,15 @@ constexpr double kCut = 4;  // in s
 constexpr int kCoarse = 32;
 constexpr double kCoarseWork = 1e7;  // of it; about 10 ms
 
+// Of fitted cells. Lengths within this factor of each other count as the same.
+constexpr double kCompact = 1.5;
+// The shortest side to the longest.
+constexpr double kFlattest = 1.0 / 32;
+// Cells to those of a cubic lattice: somewhat fewer, since light in flat cells takes more sweeps to settle.
+constexpr double kCellsToCubic = 0.9;
+// Cells along a side to the count that was asked for.
+constexpr int kMostAlong = 2;
+
 struct Span {
     int first = 0, last = -1;  // cells, inclusive
     bool empty() const { return last < first; }
@@ -85,8 +94,9 @@ std::vector<LayerSpan> layer_spans(const ParticleSet& particles, const Lattice& 
     parallel_for(threads, (spans.size() + kShare - 1) / kShare, [&](std::size_t share) {
         const std::size_t end = std::min(spans.size(), (share + 1) * kShare);
         for (std::size_t i = share * kShare; i < end; ++i) {
-            const Span z = span_of(glm::dot(particles.center[i] - lattice.origin, lattice.w),
-                                   kCut * gaussian_s(particles, i), lattice.cell, lattice.cells.z);
+            const Span z =
+                span_of(glm::dot(particles.center[i] - lattice.origin, lattice.w),
+                        kCut * gaussian_s(particles, i), lattice.cell.z, lattice.cells.z);
             spans[i] = {static_cast<std::int16_t>(z.first), static_cast<std::int16_t>(z.last)};
         }
     });
@@ -100,7 +110,7 @@ void add_layers(const ParticleSet& particles, const Lattice& lattice, int first,
                 std::vector<float>& cells) {
     const MassBelow& below = mass_below();
     const glm::ivec3 n = lattice.cells;
-    const double volume = lattice.cell * lattice.cell * lattice.cell;
+    const double volume = lattice.cell.x * lattice.cell.y * lattice.cell.z;
     std::vector<float> wx(static_cast<std::size_t>(n.x)), wy(static_cast<std::size_t>(n.y)),
         wz(static_cast<std::size_t>(n.z));
     for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -111,14 +121,14 @@ void add_layers(const ParticleSet& particles, const Lattice& lattice, int first,
         const glm::dvec3 apart = particles.center[i] - lattice.origin;
         const double cz = glm::dot(apart, lattice.w);
         const double cx = glm::dot(apart, lattice.u), cy = glm::dot(apart, lattice.v);
-        const Span x = span_of(cx, kCut * s, lattice.cell, n.x);
-        const Span y = span_of(cy, kCut * s, lattice.cell, n.y);
+        const Span x = span_of(cx, kCut * s, lattice.cell.x, n.x);
+        const Span y = span_of(cy, kCut * s, lattice.cell.y, n.y);
         if (x.empty() || y.empty()) continue;
         const double mass = mass_of(i);
         if (!(mass > 0)) continue;
-        weights_of(below, cx, s, lattice.cell, x, wx.data());
-        weights_of(below, cy, s, lattice.cell, y, wy.data());
-        weights_of(below, cz, s, lattice.cell, z, wz.data());
+        weights_of(below, cx, s, lattice.cell.x, x, wx.data());
+        weights_of(below, cy, s, lattice.cell.y, y, wy.data());
+        weights_of(below, cz, s, lattice.cell.z, z, wz.data());
         const auto scale = static_cast<float>(std::min(mass / volume, 1e30));
         const auto count = static_cast<std::size_t>(x.last - x.first + 1);
         for (int k = z.first; k <= z.last; ++k)
@@ -161,7 +171,7 @@ std::vector<float> deposit(const ParticleSet& particles, const Lattice& lattice,
 // The particles' extent along the axes, each to kCut s.
 Lattice whole_box(const ParticleSet& particles, const glm::dvec3& u, const glm::dvec3& v,
                   const glm::dvec3& w, int count) {
-    Lattice box{{}, u, v, w, 0, {}};
+    Lattice box{{}, u, v, w, {}, {}};
     const glm::dvec3 base = particles.center[0];
     glm::dvec3 low(INFINITY), high(-INFINITY);
     for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -172,22 +182,62 @@ Lattice whole_box(const ParticleSet& particles, const glm::dvec3& u, const glm::
         high = glm::max(high, q + reach);
     }
     const glm::dvec3 size = high - low;
-    box.cell = std::max({size.x, size.y, size.z}) / count;
+    box.cell = glm::dvec3(std::max({size.x, size.y, size.z}) / count);
     box.cells =
         glm::clamp(glm::ivec3(glm::ceil(size / box.cell)), glm::ivec3(1), glm::ivec3(count));
     box.origin = base + low.x * u + low.y * v + low.z * w;
     return box;
 }
 
+using Layers = std::vector<float>;
+
+// The densest cell of each layer across each of the axes.
+std::array<Layers, 3> densest_of(const std::vector<float>& cells, const glm::ivec3& n) {
+    std::array<Layers, 3> densest;
+    for (int axis = 0; axis < 3; ++axis)
+        densest[static_cast<std::size_t>(axis)].resize(static_cast<std::size_t>(n[axis]));
+    std::size_t at = 0;
+    for (int k = 0; k < n.z; ++k)
+        for (int j = 0; j < n.y; ++j)
+            for (int i = 0; i < n.x; ++i, ++at) {
+                const int index[3] = {i, j, k};
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    float& most = densest[axis][static_cast<std::size_t>(index[axis])];
+                    most = std::max(most, cells[at]);
+                }
+            }
+    return densest;
+}
+
+// MatterBox::length in cells. Beyond the outermost cells there is no matter.
+glm::dvec3 lengths_of(const std::vector<float>& cells, const glm::ivec3& n) {
+    const std::size_t stride[3] = {1, static_cast<std::size_t>(n.x),
+                                   static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y)};
+    double whole = 0;
+    for (const float cell : cells) whole += static_cast<double>(cell);
+    glm::dvec3 lengths(1);
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t step = stride[axis], count = static_cast<std::size_t>(n[axis]);
+        double change = 0;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            const std::size_t at = i / step % count;
+            const float before = at > 0 ? cells[i - step] : 0.F;
+            change += static_cast<double>(std::abs(cells[i] - before));
+            if (at + 1 == count) change += static_cast<double>(cells[i]);
+        }
+        if (change > 0) lengths[axis] = whole / change;
+    }
+    return lengths;
+}
+
 }  // namespace
 
-double lattice_work(const ParticleSet& particles, double cell, const glm::ivec3& cells) {
+double lattice_work(const ParticleSet& particles, const glm::dvec3& cell, const glm::ivec3& cells) {
     double work = 0;
     for (const float radius : particles.radius) {
-        const double side = kCut * static_cast<double>(radius) / cell + 1;
-        work += std::min(side, static_cast<double>(cells.x)) *
-                std::min(side, static_cast<double>(cells.y)) *
-                std::min(side, static_cast<double>(cells.z));
+        const glm::dvec3 sides =
+            glm::min(kCut * static_cast<double>(radius) / cell + 1.0, glm::dvec3(cells));
+        work += sides.x * sides.y * sides.z;
     }
     return work;
 }
@@ -205,9 +255,8 @@ std::vector<float> colored_extinction_in(const ParticleSet& particles, const Lat
     });
 }
 
-Lattice lattice_around_matter(const ParticleSet& particles, const glm::dvec3& u,
-                              const glm::dvec3& v, const glm::dvec3& w, double rest, int count,
-                              int threads, double most_work) {
+MatterBox box_around_matter(const ParticleSet& particles, const glm::dvec3& u, const glm::dvec3& v,
+                            const glm::dvec3& w, double rest, int threads) {
     int coarse = kCoarse;
     Lattice box = whole_box(particles, u, v, w, coarse);
     while (coarse > 4 && lattice_work(particles, box.cell, box.cells) > kCoarseWork) {
@@ -215,22 +264,10 @@ Lattice lattice_around_matter(const ParticleSet& particles, const glm::dvec3& u,
         box = whole_box(particles, u, v, w, coarse);
     }
     const std::vector<float> cells = extinction_in(particles, box, threads);
-    // Layers that could be left out: the longest line in them stays below `rest`.
     const glm::ivec3 n = box.cells;
-    std::array<std::vector<float>, 3> densest;
-    for (int axis = 0; axis < 3; ++axis)
-        densest[static_cast<std::size_t>(axis)].resize(static_cast<std::size_t>(n[axis]));
-    std::size_t at = 0;
-    for (int k = 0; k < n.z; ++k)
-        for (int j = 0; j < n.y; ++j)
-            for (int i = 0; i < n.x; ++i, ++at) {
-                const int index[3] = {i, j, k};
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    float& most = densest[axis][static_cast<std::size_t>(index[axis])];
-                    most = std::max(most, cells[at]);
-                }
-            }
-    const double longest = box.cell * std::max({n.x, n.y, n.z});
+    const std::array<Layers, 3> densest = densest_of(cells, n);
+    // Layers that could be left out: the longest line in them stays below `rest`.
+    const double longest = box.cell.x * std::max({n.x, n.y, n.z});
     glm::ivec3 first(0), last(n - 1);
     for (int axis = 0; axis < 3; ++axis) {
         const auto light = [&](int layer) {
@@ -242,22 +279,58 @@ Lattice lattice_around_matter(const ParticleSet& particles, const glm::dvec3& u,
         while (first[axis] < last[axis] && light(first[axis])) ++first[axis];
         while (last[axis] > first[axis] && light(last[axis])) --last[axis];
     }
-    Lattice found{box.at(glm::dvec3(first)), u, v, w, 0, {}};
-    const glm::dvec3 size = box.cell * glm::dvec3(last - first + 1);
-    const auto divide = [&] {
-        found.cell = std::max({size.x, size.y, size.z}) / count;
-        found.cells = glm::clamp(glm::ivec3(glm::ceil(size / found.cell - 1e-6)), glm::ivec3(1),
-                                 glm::ivec3(count));
-    };
-    divide();
-    while (count > 8 && lattice_work(particles, found.cell, found.cells) > most_work) {
+    return {u,
+            v,
+            w,
+            box.at(glm::dvec3(first)),
+            box.cell * glm::dvec3(last - first + 1),
+            box.cell * lengths_of(cells, n)};
+}
+
+Lattice cubic_cells(const MatterBox& box, int count) {
+    Lattice made{box.corner, box.u, box.v, box.w, {}, {}};
+    const double side = std::max({box.size.x, box.size.y, box.size.z}) / count;
+    made.cell = glm::dvec3(side);
+    made.cells =
+        glm::clamp(glm::ivec3(glm::ceil(box.size / side - 1e-6)), glm::ivec3(1), glm::ivec3(count));
+    // What cells are too long is shared by both ends.
+    const glm::dvec3 spare = 0.5 * (glm::dvec3(made.cells) * side - box.size);
+    made.origin -= spare.x * box.u + spare.y * box.v + spare.z * box.w;
+    return made;
+}
+
+Lattice fitted_cells(const MatterBox& box, int count) {
+    const Lattice cubic = cubic_cells(box, count);
+    const double longest = std::max({box.length.x, box.length.y, box.length.z});
+    const glm::dvec3 flat =
+        glm::clamp(kCompact * box.length / longest, glm::dvec3(kFlattest), glm::dvec3(1));
+    if (flat == glm::dvec3(1)) return cubic;
+    // About as many cells as a cubic lattice has: their common scale follows.
+    const glm::dvec3 asked = box.size / (flat * cubic.cell);
+    const double scale = std::cbrt(asked.x * asked.y * asked.z /
+                                   (kCellsToCubic * static_cast<double>(cubic.size())));
+    Lattice made{box.corner, box.u, box.v, box.w, {}, {}};
+    made.cells = glm::clamp(glm::ivec3(glm::round(asked / scale)), glm::ivec3(1),
+                            glm::ivec3(kMostAlong * count));
+    made.cell = box.size / glm::dvec3(made.cells);
+    return made;
+}
+
+Lattice within_work(const ParticleSet& particles, const MatterBox& box, int count, double most_work,
+                    Division division) {
+    Lattice made = division(box, count);
+    while (count > 8 && lattice_work(particles, made.cell, made.cells) > most_work) {
         count = count * 3 / 4;
-        divide();
+        made = division(box, count);
     }
-    // Cells are cubic: what they are too long is shared by both ends.
-    const glm::dvec3 spare = 0.5 * (glm::dvec3(found.cells) * found.cell - size);
-    found.origin -= spare.x * u + spare.y * v + spare.z * w;
-    return found;
+    return made;
+}
+
+Lattice lattice_around_matter(const ParticleSet& particles, const glm::dvec3& u,
+                              const glm::dvec3& v, const glm::dvec3& w, double rest, int count,
+                              int threads, double most_work) {
+    const MatterBox box = box_around_matter(particles, u, v, w, rest, threads);
+    return within_work(particles, box, count, most_work, cubic_cells);
 }
 
 }  // namespace awan

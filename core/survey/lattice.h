@@ -2,6 +2,7 @@
 // sun's depth are made from.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -11,11 +12,19 @@
 
 namespace awan {
 
-// Cubic cells along three orthonormal axes. Corner of cell (i, j, k): origin + cell (i u + j v + k w).
+// The shortest side of a cell. Where cells are not cubes, an optical depth "of a cell's side" is that of this side.
+inline double shortest(const glm::dvec3& cell) {
+    return std::min({cell.x, cell.y, cell.z});
+}
+inline double longest(const glm::dvec3& cell) {
+    return std::max({cell.x, cell.y, cell.z});
+}
+
+// Cells along three orthonormal axes. Corner of cell (i, j, k): origin + i cell.x u + j cell.y v + k cell.z w.
 struct Lattice {
     glm::dvec3 origin{0};  // scene units
     glm::dvec3 u{1, 0, 0}, v{0, 1, 0}, w{0, 0, 1};
-    double cell = 0;  // scene units
+    glm::dvec3 cell{0};  // sides, scene units
     glm::ivec3 cells{0};
 
     std::size_t size() const {
@@ -24,14 +33,40 @@ struct Lattice {
     }
     // Scene position of lattice coordinates (cells from the corner).
     glm::dvec3 at(const glm::dvec3& c) const {
-        return origin + (cell * c.x) * u + (cell * c.y) * v + (cell * c.z) * w;
+        return origin + (cell.x * c.x) * u + (cell.y * c.y) * v + (cell.z * c.z) * w;
     }
 };
 
-// The smallest box along the axes outside of which no line has more optical depth than `rest`
-// (dimensionless), found on a coarse volume; then divided so that `count` cells lie along its longest side, or, where
-// extinction_in would need more than `most_work` updates (lattice_work), as few as 8.
-// Precondition: particles are not empty and have mass.
+// Where matter is, along three orthonormal axes.
+struct MatterBox {
+    glm::dvec3 u{1, 0, 0}, v{0, 1, 0}, w{0, 0, 1};
+    glm::dvec3 corner{0}, size{0};  // scene units
+    // The length over which extinction changes along each axis, scene units: the sum of extinction over that of the
+    // magnitude of its derivative. A Gaussian has 1.25 s; what is even along an axis, half its width.
+    glm::dvec3 length{0};
+};
+
+// The smallest box along the axes outside of which no line has more optical depth than `rest` (dimensionless), found on
+// a coarse volume. Precondition: particles are not empty and have mass.
+MatterBox box_around_matter(const ParticleSet& particles, const glm::dvec3& u, const glm::dvec3& v,
+                            const glm::dvec3& w, double rest, int threads);
+
+// The box divided into cubic cells, `count` of them along its longest side.
+Lattice cubic_cells(const MatterBox& box, int count);
+
+// The box divided into about as many cells as cubic_cells would make, but as flat as the matter is: each of their sides
+// is in proportion to the length over which extinction changes along it. Cubic where those lengths are within a factor
+// of 3/2.
+Lattice fitted_cells(const MatterBox& box, int count);
+
+// Divides the box by one of these into `count` cells, or, where extinction_in would need more than `most_work` updates
+// (lattice_work), into as few as 8.
+using Division = Lattice (*)(const MatterBox& box, int count);
+Lattice within_work(const ParticleSet& particles, const MatterBox& box, int count, double most_work,
+                    Division division);
+
+// The box around the matter in cubic cells, `count` of them along its longest side, or, where extinction_in would need
+// more than `most_work` updates (lattice_work), as few as 8.
 Lattice lattice_around_matter(const ParticleSet& particles, const glm::dvec3& u,
                               const glm::dvec3& v, const glm::dvec3& w, double rest, int count,
                               int threads,
@@ -46,6 +81,6 @@ std::vector<float> colored_extinction_in(const ParticleSet& particles, const Lat
                                          int channel, int threads);
 
 // Cell updates that extinction_in does; about 1e9 a second and thread.
-double lattice_work(const ParticleSet& particles, double cell, const glm::ivec3& cells);
+double lattice_work(const ParticleSet& particles, const glm::dvec3& cell, const glm::ivec3& cells);
 
 }  // namespace awan

@@ -7,7 +7,7 @@ namespace awan {
 
 void add_detail(const ParticleSet& particles, const Lattice& lattice, int threads,
                 std::vector<float>& extinction) {
-    if (!particles.detail || lattice.cell > particles.detail->bump) return;
+    if (!particles.detail || longest(lattice.cell) > particles.detail->bump) return;
     const DetailField& field = *particles.detail;
     const auto row = static_cast<std::size_t>(lattice.cells.x);
     parallel_for(threads, extinction.size() / row, [&](std::size_t line) {
