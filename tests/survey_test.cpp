@@ -165,6 +165,9 @@ TEST(Projection, DiscSlopesAreThoseOfItsPoints) {
 TEST(Gauss, TableIsTheNormalDistribution) {
     for (double x = -7; x < 7; x += 0.001)
         ASSERT_NEAR(normal_cdf(x), 0.5 * std::erfc(-x / std::numbers::sqrt2), 2e-7);
+    for (const double end : {-5.5, 5.5})  // of the table that it is made from
+        for (const double x : {std::nextafter(end, -6.0), end, std::nextafter(end, 6.0)})
+            ASSERT_NEAR(normal_cdf(x), end > 0 ? 1 : 0, 2e-7);
     EXPECT_EQ(normal_cdf(std::numeric_limits<double>::infinity()), 1);
     EXPECT_EQ(normal_cdf(-std::numeric_limits<double>::infinity()), 0);
 }

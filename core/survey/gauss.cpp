@@ -1,5 +1,6 @@
 #include "core/survey/gauss.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -28,7 +29,8 @@ double normal_cdf(double x) {
     if (!(x > -kReach)) return 0;
     if (!(x < kReach)) return 1;
     const double t = (x + kReach) * (kIntervals / (2 * kReach));
-    const auto i = static_cast<std::size_t>(t);
+    // Just below the reach t rounds up to the end of the table.
+    const auto i = std::min(static_cast<std::size_t>(t), std::size_t{kIntervals - 1});
     return kTable[i] + (t - static_cast<double>(i)) * (kTable[i + 1] - kTable[i]);
 }
 
