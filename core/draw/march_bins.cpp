@@ -20,13 +20,19 @@ constexpr double kLeastCut = 3.8, kMostCut = 9;
 constexpr std::size_t kMaxEntries = 1u << 23;  // of the lists, 4 bytes each
 constexpr std::size_t kShare = 4096;           // particles that a thread takes at a time
 
-// Blocks whose pixels' centres see slopes low..high.
-bool blocks_along(Interval slopes, double tangent, int pixels, bool up, std::int16_t& first,
-                  std::int16_t& last) {
+// Blocks that see slopes low..high: those whose pixels' middles do, or with `all` those that have any of it.
+bool blocks_along(Interval slopes, double tangent, int pixels, bool up, bool all,
+                  std::int16_t& first, std::int16_t& last) {
     const PixelSpan seen = pixels_between(slopes, tangent, pixels, up);
-    if (seen.first > seen.last) return false;
-    first = static_cast<std::int16_t>(seen.first / kBlockSide);
-    last = static_cast<std::int16_t>(seen.last / kBlockSide);
+    int low = seen.first, high = seen.last;
+    if (all) {
+        if (seen.low > seen.high || seen.high < -0.5 || seen.low > pixels - 0.5) return false;
+        low = std::max(static_cast<int>(std::floor(seen.low + 0.5)), 0);
+        high = std::min(static_cast<int>(std::floor(seen.high + 0.5)), pixels - 1);
+    }
+    if (low > high) return false;
+    first = static_cast<std::int16_t>(low / kBlockSide);
+    last = static_cast<std::int16_t>(high / kBlockSide);
     return true;
 }
 
@@ -54,9 +60,10 @@ bool place(const Own& own, const View& view, int width, int height, SeenParticle
                                          -std::expm1(-cut * cut / 2));
     const Interval x = disc_slopes(seen.q.x, seen.q.z, s * cut);
     const Interval y = disc_slopes(seen.q.y, seen.q.z, s * cut);
-    return blocks_along(x, view.tan_half_fov * view.aspect, width, false, seen.blocks.first_x,
+    const bool all = seen.level > 0;
+    return blocks_along(x, view.tan_half_fov * view.aspect, width, false, all, seen.blocks.first_x,
                         seen.blocks.last_x) &&
-           blocks_along(y, view.tan_half_fov, height, true, seen.blocks.first_y,
+           blocks_along(y, view.tan_half_fov, height, true, all, seen.blocks.first_y,
                         seen.blocks.last_y);
 }
 
