@@ -78,6 +78,7 @@ Status render_march(const Scene& scene, const Planned& planned, const Tools& too
 Status render_paths(const Scene& scene, const Planned& planned, const Tools& tools,
                     const Deadline& deadline, Rendered& rendered) {
     TruthOptions options;
+    options.whole_pixels = true;
     options.samples = planned.plan.samples;
     options.eye_effects = planned.plan.eye_effects();
     options.threads = tools.threads;

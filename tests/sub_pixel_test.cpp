@@ -5,6 +5,7 @@
 #include <random>
 
 #include "core/survey/narrow.h"
+#include "core/truth/path_tracer.h"
 #include "tests/march_lights.h"
 
 namespace awan {
@@ -73,6 +74,54 @@ TEST(SubPixel, Study) {
                             density, distance, per_size, kCloud / per_size / .65, seen.alpha / whole.alpha,
                             seen.light / whole.light, ms, ms0);
             }
+        }
+    }
+}
+
+TEST(SubPixel, Many) {
+    for (const int count : {20000, 200000, 1000000}) {
+        const auto list = cloud_of(count, 0.65 * std::cbrt(600.0 / count), 3);
+        for (const double per_size : {64.0, 16.0, 4.0, 0.5, 1e-3}) {
+            double ms = 0, ms0 = 0;
+            const int pixels = std::max(8, static_cast<int>(2 * per_size));
+            const double sizes = pixels / per_size;
+            const Seen seen = look(list, 1e4, sizes, pixels, glm::dvec3(0.13, 0.37, 0) * (kCloud / per_size), &ms);
+            const Seen whole = look(list, 1e4, 2, 640, {0, 0, 0}, &ms0);
+            std::printf("count %d pixels a size %g (pixel %.2f radii): alpha %.3f light %.3f  %.1f ms (whole %.1f)\n",
+                        count, per_size, kCloud / per_size / list[0].radius, seen.alpha / whole.alpha,
+                        seen.light / whole.light, ms, ms0);
+        }
+    }
+}
+
+TEST(SubPixel, Truth) {
+    for (const int count : {1, 600, 20000}) {
+        const auto list = count == 1 ? std::vector<Ball>{{{0, 0, 0}, 0.65, 30}} : cloud_of(count, 0.65 * std::cbrt(600.0 / count), 3);
+        for (const double per_size : {20.0, 5.0, 1.0, 0.1, 1e-3}) {
+            const int pixels = std::max(8, static_cast<int>(2 * per_size));
+            const double sizes = pixels / per_size;
+            const glm::dvec3 off = glm::dvec3(0.13, 0.37, 0) * (kCloud / per_size);
+            const Seen whole = look(list, 1e4, 2, 640, {0, 0, 0});
+            SceneDraft draft = test::balls(list);
+            draft.image.background = Background::kTransparent;
+            draft.image.width = draft.image.height = pixels;
+            draft.camera.eye = glm::dvec3(0, 0, kCloud * 1e4);
+            draft.camera.target = off;
+            test::Stage stage = test::stage(draft);
+            stage.view.tan_half_fov = sizes / 1e4 / 2;
+            TruthOptions options;
+            options.whole_pixels = true;
+            options.samples = 4;
+            const auto start = std::chrono::steady_clock::now();
+            const Image image = mean_of(*trace_truth(stage.scene, stage.particles, stage.view, options, {}, {}));
+            const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+            double alpha = 0, light = 0;
+            const double pixel = sizes / 1e4 / pixels;
+            for (std::size_t i = 0; i < image.pixel_count(); ++i) {
+                alpha += static_cast<double>(image.pixels[4 * i + 3]) * pixel * pixel;
+                light += static_cast<double>(image.pixels[4 * i]) * pixel * pixel;
+            }
+            std::printf("truth count %d pixels a size %g: alpha %.4f light/alpha %g, %.0f ms\n", count, per_size, alpha / whole.alpha, light / alpha, ms);
         }
     }
 }
