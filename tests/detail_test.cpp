@@ -132,6 +132,7 @@ Detailed detailed_cloud(double amount, const char* rung, int side = 64) {
 
 Result<TruthImage> traced(const Detailed& cloud, std::uint32_t samples) {
     TruthOptions options;
+    options.whole_pixels = true;
     options.samples = samples;
     options.threads = 2;
     return trace_truth(cloud.scene, cloud.planned.particles, cloud.planned.survey.view, options, {},

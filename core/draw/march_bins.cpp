@@ -47,7 +47,7 @@ struct Own {
 bool place(const Own& own, const View& view, int width, int height, SeenParticle& seen) {
     const double pixel = 2 * view.tan_half_fov / height;
     const double gap = std::ldexp(pixel * std::max(0.0, seen.q.z), -seen.level);
-    const double s = std::max({own.s, least_width(own.depth) * gap, 1e-12});
+    const double s = std::max({own.s, kLeastWidth * gap, 1e-12});
     const double depth = widened_depth(own.depth, s / own.s);
     if (!(depth > 0)) return false;
     const double cut = std::clamp(std::sqrt(2 * std::log(std::max(1.0, depth / kFaintDepth))),

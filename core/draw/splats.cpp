@@ -122,7 +122,7 @@ Seen see(const Scene& scene, const ParticleSet& particles, std::size_t i, const 
     const double own_s = gaussian_s(particles, i);
     const double pixel = 2 * view.tan_half_fov / scene->image.height;
     const double own_tau = central_depth(particles, i);
-    seen.s = std::max({own_s, least_width(own_tau) * pixel * std::max(0.0, seen.q.z), 1e-12});
+    seen.s = std::max({own_s, kLeastWidth * pixel * std::max(0.0, seen.q.z), 1e-12});
     seen.widened = seen.s > own_s;
     if (!(own_s > 0) || !(own_tau > 0)) return seen;
     seen.tau = widened_depth(own_tau, seen.s / own_s);

@@ -7,7 +7,7 @@
 namespace awan {
 
 double least_width(double depth) {
-    return 0.6 + 0.06 * std::log1p(std::clamp(depth, 0.0, 1e9));
+    return kLeastWidth + 0.06 * std::log1p(std::clamp(depth, 0.0, 1e9));
 }
 
 double covered_area(double depth) {

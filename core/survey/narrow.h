@@ -11,8 +11,10 @@
 
 namespace awan {
 
-// Least s, in gaps between rays, of a Gaussian of that central depth: sampled at the rays it sums to its area within
-// 1%. The deeper, the steeper are its edges, and the wider it has to be. 0.6 where it is thin.
+// Least s, in gaps between rays, of a Gaussian that is drawn: a narrower one is widened to that. Sampled at the rays, a
+// thin one sums to its area within 1%.
+inline constexpr double kLeastWidth = 0.6;
+// The same for a Gaussian of any central depth: the deeper, the steeper are its edges, and the closer rays have to be.
 double least_width(double depth);
 
 // Ein(z), z >= 0; relative error < 1e-9.

@@ -98,7 +98,7 @@ class Area {
     // A particle's s, in sides of a part; that of a deep one counts less, for its steep edges.
     double width_in(const Part& part, const Spot& spot) const {
         const double depth = central_depth(particles_, spot.particle);
-        return spot.s * least_width(0) / (least_width(depth) * part.square.side);
+        return spot.s * kLeastWidth / (least_width(depth) * part.square.side);
     }
 
     double narrowest(const Part& part) const {
