@@ -110,7 +110,7 @@ inline double exact_alpha(const Outcome& outcome, double x, double y) {
 }
 
 // A pixel shows its middle's ray where all matter is wide beside it, and the mean over its area, within
-// 2%, where some is not.
+// 3%, where some is not.
 inline void expect_alpha(const Outcome& outcome, double bound) {
     const Image& image = outcome.rendered.image;
     double worst = 0, largest = 0;
@@ -128,7 +128,7 @@ inline void expect_alpha(const Outcome& outcome, double bound) {
                 for (int i = 0; i < kRays; ++i)
                     mean += exact_alpha(outcome, x + (i + 0.5) / kRays, y + (j + 0.5) / kRays);
             mean /= kRays * kRays;
-            off = std::min(off, std::max(0.0, std::abs(alpha - mean) - 0.02 * mean));
+            off = std::min(off, std::max(0.0, std::abs(alpha - mean) - 0.03 * mean));
             largest = std::max(largest, mean);
         }
         worst = std::max(worst, off);

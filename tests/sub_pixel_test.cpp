@@ -92,7 +92,7 @@ TEST(Narrow, CoveredAreasAreTheIntegral) {
 
 TEST(SubPixel, OneParticleCoversItsArea) {
     for (const double density : {0.01, 1.0, 30.0, 1e5})
-        for (const double pixel : {0.5, 1.0, 3.0, 20.0, 1e3, 1e6}) {
+        for (const double pixel : {0.5, 1.0, 3.0, 20.0, 300.0, 5e3}) {
             const double s = 0.325;
             const double exact = 2 * std::numbers::pi * s * s *
                                  covered_area(density * s * std::sqrt(2 * std::numbers::pi));
@@ -132,7 +132,7 @@ TEST(SubPixel, ManyAreStillSeen) {
     }
 }
 
-// A cloud before another, both far below a pixel, and a large ball before half of both.
+// Clouds far below a pixel in one picture with a ball that is not.
 TEST(SubPixel, NearMatterHidesWhatIsFar) {
     auto list = cloud_of(200, 3, {0, 0, 1000});
     const auto behind = cloud_of(200, 3, {400, 30, 0});

@@ -341,17 +341,23 @@ void march_block(const MarchScene& scene, int block_x, int block_y,
     if (!items.empty()) block.run(items);
     // Of tiles that are divided, what stands behind the cloud.
     block.draw(image);
-    if (fine.empty()) return;
+    if (items.empty()) return;
 
     FinePixels pixels;
-    for (std::size_t first = 0; first < fine.size();) {
-        const FineBatch batch = batch_from(fine, first);
+    const auto march_part = [&](const FineBatch& batch) {
         BlockMarch part(scene, place_block(scene, block_x, block_y, batch.places, room), room);
         part.run(batch.items);
         part.add_to(pixels);
+    };
+    const int left = block_x * kBlockSide, top = block_y * kBlockSide;
+    const std::vector<TilePlace> sharp = sharp_places(image, left, top, fine);
+    if (!sharp.empty()) march_part({sharp, items});
+    for (std::size_t first = 0; first < fine.size();) {
+        const FineBatch batch = batch_from(fine, first);
+        march_part(batch);
         first += batch.places.size();
     }
-    pixels.draw(block_x * kBlockSide, block_y * kBlockSide, image);
+    if (!sharp.empty() || !fine.empty()) pixels.draw(left, top, image);
 }
 
 }  // namespace awan

@@ -53,7 +53,75 @@ void divide(const TilePlace& place, int level, const std::vector<Touched>& touch
     }
 }
 
+// A change from pixel to pixel that is looked at more closely: of alpha, and of light in shares of the block's brightest.
+constexpr float kSharp = 0.12f;
+
+// Alpha and light of a block's pixels; beyond the picture those at its rim.
+struct BlockPixels {
+    float alpha[kBlockSide][kBlockSide], light[kBlockSide][kBlockSide];
+    float brightest = 0;
+};
+BlockPixels pixels_of(const Image& image, int left, int top) {
+    BlockPixels block;
+    for (int y = 0; y < kBlockSide; ++y)
+        for (int x = 0; x < kBlockSide; ++x) {
+            const auto row = static_cast<std::size_t>(std::min(top + y, image.height - 1)),
+                       column = static_cast<std::size_t>(std::min(left + x, image.width - 1));
+            const float* const pixel =
+                image.pixels.data() + 4 * (row * static_cast<std::size_t>(image.width) + column);
+            block.alpha[y][x] = pixel[3];
+            block.light[y][x] = pixel[0] + pixel[1] + pixel[2];
+            block.brightest = std::max(block.brightest, block.light[y][x]);
+        }
+    return block;
+}
+
+// The largest change within a square of 2 x 2 pixels and to those beside it.
+float change_at(const float (&pixels)[kBlockSide][kBlockSide], int x, int y) {
+    float change = 0;
+    for (int j = y; j < y + 2; ++j)
+        for (int i = x; i < x + 2; ++i) {
+            const float here = pixels[j][i];
+            change = std::max({change, std::abs(here - pixels[j][std::max(i - 1, 0)]),
+                               std::abs(here - pixels[j][std::min(i + 1, kBlockSide - 1)]),
+                               std::abs(here - pixels[std::max(j - 1, 0)][i]),
+                               std::abs(here - pixels[std::min(j + 1, kBlockSide - 1)][i])});
+        }
+    return change;
+}
+
 }  // namespace
+
+std::vector<TilePlace> sharp_places(const Image& image, int left, int top,
+                                    const std::vector<FineTile>& tiles) {
+    std::uint32_t divided = 0;
+    for (const FineTile& tile : tiles)
+        divided |= 1u << ((static_cast<int>(tile.place.y) - top) / kTileSide * 4 +
+                          (static_cast<int>(tile.place.x) - left) / kTileSide);
+    const BlockPixels block = pixels_of(image, left, top);
+    struct Sharp {
+        float change;
+        TilePlace place;
+    };
+    std::vector<Sharp> sharp;
+    for (int y = 0; y < kBlockSide; y += 2)
+        for (int x = 0; x < kBlockSide; x += 2) {
+            if (top + y >= image.height || left + x >= image.width) continue;
+            if ((divided >> (y / kTileSide * 4 + x / kTileSide) & 1u) != 0) continue;
+            const float change =
+                std::max(change_at(block.alpha, x, y),
+                         change_at(block.light, x, y) / std::max(block.brightest, 1e-30f));
+            if (change > kSharp)
+                sharp.push_back(
+                    {change, {static_cast<double>(left + x), static_cast<double>(top + y), 0.5}});
+        }
+    std::stable_sort(sharp.begin(), sharp.end(),
+                     [](const Sharp& a, const Sharp& b) { return a.change > b.change; });
+    std::vector<TilePlace> places;
+    for (std::size_t i = 0; i < std::min<std::size_t>(sharp.size(), kTiles); ++i)
+        places.push_back(sharp[i].place);
+    return places;
+}
 
 std::vector<FineTile> fine_tiles(const MarchScene& scene, int block_x, int block_y,
                                  const std::vector<std::uint32_t>& items) {
