@@ -19,8 +19,8 @@ namespace awan::test {
 // 0: not compared. Oracles: core/truth/oracles.h, double precision.
 struct CaseBounds {
     // |alpha - exact|, of the exact alpha's largest in the picture. Splats are cut at 3.5 s and scaled by 1.0022 for
-    // it, those of the march at 3.8 s. Holds where s is no less than .6 pixels: thinner particles are widened by
-    // design.
+    // it, those of the march at 3.8 s. Of splats it holds where s is no less than .6 pixels: thinner ones are
+    // widened by design.
     double alpha_splats = 2.5e-3, alpha_march = 1e-3, alpha_truth = 2e-6;
     // |radiance - sunlight scattered once|, of the brightest pixel: of rung single, and, where matter is so thin that
     // there is no more light than that, of transport and harris. Truth: of the pictures' sums.
@@ -110,7 +110,7 @@ inline double exact_alpha(const Outcome& outcome, double x, double y) {
 }
 
 // A pixel shows its middle's ray where all matter is wide beside it, and the mean over its area, within
-// 3%, where some is not.
+// 5%, where some is not.
 inline void expect_alpha(const Outcome& outcome, double bound) {
     const Image& image = outcome.rendered.image;
     double worst = 0, largest = 0;
@@ -128,7 +128,7 @@ inline void expect_alpha(const Outcome& outcome, double bound) {
                 for (int i = 0; i < kRays; ++i)
                     mean += exact_alpha(outcome, x + (i + 0.5) / kRays, y + (j + 0.5) / kRays);
             mean /= kRays * kRays;
-            off = std::min(off, std::max(0.0, std::abs(alpha - mean) - 0.03 * mean));
+            off = std::min(off, std::max(0.0, std::abs(alpha - mean) - 0.05 * mean));
             largest = std::max(largest, mean);
         }
         worst = std::max(worst, off);

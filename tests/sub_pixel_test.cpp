@@ -147,10 +147,30 @@ TEST(SubPixel, NearMatterHidesWhatIsFar) {
     options.whole_pixels = true;
     const auto truth = trace_truth(stage.scene, stage.particles, stage.view, options, {}, {});
     ASSERT_TRUE(truth.ok());
+    const Sums sums = sums_of(image, 1), exact = sums_of(truth->half_a, 1);
+    EXPECT_NEAR(sums.alpha / exact.alpha, 1, 0.01);
+    // The ball is just wide enough for its pixels' middles to stand for them.
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 4; ++x)
-            EXPECT_NEAR(test::pixel(image, x, y).a, test::pixel(truth->half_a, x, y).a, 0.002)
+            EXPECT_NEAR(test::pixel(image, x, y).a, test::pixel(truth->half_a, x, y).a, 0.006)
                 << x << " " << y;
+}
+
+TEST(SubPixel, TheSurveySaysHowMuchThereIs) {
+    const auto share = [](double pixel) {
+        auto list = cloud_of(100, 1);
+        list.push_back({{0, 0, 0}, 40, 1});
+        SceneDraft draft = test::balls(list);
+        draft.image.width = draft.image.height = 100;
+        draft.camera.eye = {0, 0, 1e4};
+        draft.camera.fov = 2 * 180 / std::numbers::pi * std::atan(50 * pixel / 1e4);
+        const test::Stage stage = test::stage(draft);
+        return survey(stage.scene, stage.particles, 1, {})->sub_pixel;
+    };
+    EXPECT_EQ(share(0.1), 0);
+    EXPECT_GT(share(3), 0.01);
+    EXPECT_LT(share(3), 0.2);
+    EXPECT_EQ(share(80), 1);
 }
 
 // With a handful of paths.

@@ -53,7 +53,8 @@ void divide(const TilePlace& place, int level, const std::vector<Touched>& touch
     }
 }
 
-// A change from pixel to pixel that is looked at more closely: of alpha, and of light in shares of the block's brightest.
+// A change from pixel to pixel that is looked at more closely: of alpha, and of light in shares of the block's
+// brightest.
 constexpr float kSharp = 0.12f;
 
 // Alpha and light of a block's pixels; beyond the picture those at its rim.

@@ -29,9 +29,9 @@ struct FineBatch {
 };
 FineBatch batch_from(const std::vector<FineTile>& tiles, std::size_t first);
 
-// Squares of 2 x 2 pixels of a block across which, or beside which, alpha or light changes by so much that their middles
-// stand badly for them: silhouettes, bright rims. Each as a tile with rays half a pixel apart; at most 16, those that
-// change most. image: with the block's pixels in it. tiles: those that are divided already (fine_tiles).
+// Squares of 2 x 2 pixels of a block across which, or beside which, alpha or light changes by so much that their
+// middles stand badly for them: silhouettes, bright rims. Each as a tile with rays half a pixel apart; at most 16:
+// those that change most. image: with the block's pixels in it. tiles: those that are divided already (fine_tiles).
 std::vector<TilePlace> sharp_places(const Image& image, int left, int top,
                                     const std::vector<FineTile>& tiles);
 
