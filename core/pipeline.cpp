@@ -113,6 +113,7 @@ double noise_of(const TruthImage& truth) {
 Status render_paths(const Scene& scene, const Planned& planned, const Tools& tools,
                     const Deadline& deadline, Rendered& rendered) {
     TruthOptions options;
+    options.whole_pixels = true;
     options.samples = planned.plan.samples;
     options.eye_effects = planned.plan.eye_effects();
     options.threads = tools.threads;

@@ -132,6 +132,7 @@ Detailed detailed_cloud(double amount, const char* rung, int side = 64) {
 
 Result<TruthImage> traced(const Detailed& cloud, std::uint32_t samples) {
     TruthOptions options;
+    options.whole_pixels = true;
     options.samples = samples;
     options.threads = 2;
     return trace_truth(cloud.scene, cloud.planned.particles, cloud.planned.survey.view, options, {},
@@ -204,8 +205,8 @@ TEST(Detail, MarchAndTruthSeeTheSameDepth) {
         off += (a - b) * (a - b);
         sum += b * b;
     }
-    // Steps of a fifth of a bump at silhouettes.
-    EXPECT_LT(std::sqrt(off / sum), 0.03);
+    // Steps of a fifth of a bump at silhouettes; pixels of which only the sharpest are seen by more than one ray.
+    EXPECT_LT(std::sqrt(off / sum), 0.06);
 }
 
 TEST(Detail, TransportIsNearTheTruth) {

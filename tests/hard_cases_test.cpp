@@ -155,7 +155,8 @@ const std::vector<HardCase> kCases = {
     {"radius 0, 1e-23, 1e20",
      "specks_of_a_thousandth_of_a_pixel",
      [] { return cube_of(3000, 1e-3, 100, 24, 18); },
-     {.alpha_splats = 0, .alpha_march = 0}},
+     // The oracle's own rays miss them (sub_pixel_test).
+     {.alpha_splats = 0, .alpha_march = 0, .alpha_truth = 0}},
     {"coordinates offset by 1e6..1e9", "offset_1e6",
      [] {
          return moved(picture(some_balls()), {1e6, -1e6, 1e6});
@@ -189,7 +190,7 @@ const std::vector<HardCase> kCases = {
      [] {
          return seen_from(slab(3000, 1e-6), {0, 1, 5}, {0, 0, 0});
      },
-     {.alpha_splats = 0, .alpha_march = 0}},
+     {.alpha_splats = 0, .alpha_march = 0, .alpha_truth = 0}},
     {"slab 1e-6 thick",
      "from_above",
      [] {
@@ -348,7 +349,8 @@ const std::vector<Pair> kPairs = {
      [] {
          return picture({{{0, 0, 0}, 4, 2, glm::vec3(.5)}});
      },
-     2e-2, 4e-3},
+     // Rounding may decide which pixels are sharp enough for more rays.
+     2e-2, 1e-2},
 };
 
 std::vector<PairOnRung> pairs_on_rungs() {

@@ -41,15 +41,30 @@ TransportLight no_light() {
     return {};
 }
 
-// Largest difference of alpha from the exact one.
+double exact_alpha(const test::Stage& stage, double x, double y) {
+    const View& view = stage.view;
+    const double u = (x / stage.scene->image.width * 2 - 1) * view.tan_half_fov * view.aspect;
+    const double v = (1 - y / stage.scene->image.height * 2) * view.tan_half_fov;
+    const glm::dvec3 d = glm::normalize(view.forward + u * view.right + v * view.up);
+    return -std::expm1(-test::line_depth(stage.particles, view.eye, d));
+}
+
+// Largest difference of alpha from the exact one: that of a pixel's middle, or, where pixels change sharply, the mean
+// of four rays.
 double worst_alpha(const test::Stage& stage, const Image& image) {
     double worst = 0;
     for (int y = 0; y < image.height; y += 3)
         for (int x = 0; x < image.width; x += 2) {
-            const test::Ray ray = test::ray(stage.view, image, x, y);
-            const double exact =
-                -std::expm1(-test::line_depth(stage.particles, ray.eye, ray.direction));
-            worst = std::max(worst, std::abs(test::pixel(image, x, y).a - exact));
+            const double alpha = test::pixel(image, x, y).a;
+            double off = std::abs(alpha - exact_alpha(stage, x + 0.5, y + 0.5));
+            if (off > 1e-4) {
+                double mean = 0;
+                for (const double dy : {0.25, 0.75})
+                    for (const double dx : {0.25, 0.75})
+                        mean += exact_alpha(stage, x + dx, y + dy) / 4;
+                off = std::min(off, std::abs(alpha - mean));
+            }
+            worst = std::max(worst, off);
         }
     return worst;
 }
@@ -441,7 +456,9 @@ TEST(March, HardCasesAreFinite) {
             const test::Stage stage = test::stage(draft);
             TransportLight light = lights(stage);
             SCOPED_TRACE(one.name);
-            const double peak = phase_of_chords(stage.scene->medium, 0, 2);
+            // Light that is scattered back twice goes forward.
+            const double peak = std::max(phase_of_chords(stage.scene->medium, 0, 2),
+                                         phase_of_chords(stage.scene->medium, 2, 0));
             const double scaled = 1 - light.peak_share;
             expect_sane(test::marched(stage, light),
                         1.01 / scaled + 2 * std::max(peak, 1.0) / scaled);

@@ -10,6 +10,7 @@
 
 #include "core/light/light.h"
 #include "core/survey/gauss.h"
+#include "core/survey/narrow.h"
 #include "tests/scenes.h"
 
 namespace awan {
@@ -126,7 +127,7 @@ TEST(Draw, ASplatMayBeLargerThanAnyPointSprite) {
     EXPECT_LT(alpha_error(draft, list), kExact);
 }
 
-TEST(Draw, SpecksKeepTheirOpticalDepthTimesArea) {
+TEST(Draw, SpecksKeepTheAreaThatTheyCover) {
     // s is 1/40 of a pixel: what the pixels take together is what the particle takes.
     const double tan_half = std::tan(20 * std::numbers::pi / 180),
                  pixel_size = 2 * tan_half * 20 / 48;
@@ -135,8 +136,9 @@ TEST(Draw, SpecksKeepTheirOpticalDepthTimesArea) {
     double sum = 0;
     for (int y = 0; y < 48; ++y)
         for (int x = 0; x < 64; ++x) sum += pixel(rendered.image, x, y).a;
-    const double s = radius / 2, exact = density * s * kRootTwoPi * 2 * std::numbers::pi * s * s /
-                                         (pixel_size * pixel_size);
+    const double s = radius / 2;
+    const double exact = covered_area(density * s * kRootTwoPi) * 2 * std::numbers::pi * s * s /
+                         (pixel_size * pixel_size);
     EXPECT_NEAR(sum / exact, 1, 0.02);
 }
 

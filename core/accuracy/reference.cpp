@@ -81,6 +81,7 @@ Result<TracingTime> tracing_time(const Scene& scene, const Planned& planned,
     std::array<double, kPilotSamples.size()> took_ms{};
     for (std::size_t i = 0; i < kPilotSamples.size(); ++i) {
         TruthOptions pilot;
+        pilot.whole_pixels = true;
         pilot.samples = kPilotSamples[i];
         pilot.threads = options.threads;
         const auto start = Clock::now();
@@ -150,6 +151,7 @@ Result<Reference> trace_reference(const Scene& scene, Planned& planned, const Re
         *detailed ? detail_of(scene, planned.survey, options.threads) : nullptr;
 
     TruthOptions tracing;
+    tracing.whole_pixels = true;
     tracing.samples = shape.samples;
     tracing.threads = options.threads;
     tracing.seed = kReferenceSeed;

@@ -2,8 +2,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/draw/march_tile.h"
-
 namespace awan {
 namespace {
 
@@ -32,7 +30,7 @@ double farthest_for_air(const Air& air, double apart) {
     return kApart * air.haze.scale_height / apart;
 }
 
-AirTile air_tile(const Air& air, double x, double y) {
+AirTile air_tile(const Air& air, const TilePlace& place) {
     AirTile tile{};
     tile.up = static_cast<float>(air.up);
     tile.down = static_cast<float>(air.down);
@@ -42,8 +40,8 @@ AirTile air_tile(const Air& air, double x, double y) {
     }
     if (air.shadows.spacing > 0)
         for (int lane = 0; lane < simd::kLanes; ++lane)
-            tile.lost[lane] = static_cast<float>(
-                whole_lost(air.shadows, x + lane % kTileSide + 0.5, y + lane / kTileSide + 0.5));
+            tile.lost[lane] =
+                static_cast<float>(whole_lost(air.shadows, place.ray_x(lane), place.ray_y(lane)));
     return tile;
 }
 

@@ -4,6 +4,7 @@
 #include "core/base/float_lanes.h"
 #include "core/draw/air.h"
 #include "core/draw/march_light.h"
+#include "core/draw/march_tile.h"
 
 namespace awan {
 
@@ -22,7 +23,6 @@ struct AirTile {
     float sun[3], ambient[3];  // as in Air
     simd::Floats lost;         // L of the whole rays
 };
-// x, y: pixel coordinates of the tile's top left corner.
-AirTile air_tile(const Air& air, double x, double y);
+AirTile air_tile(const Air& air, const TilePlace& place);
 
 }  // namespace awan

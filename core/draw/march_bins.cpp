@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "core/base/parallel.h"
+#include "core/draw/march_levels.h"
 #include "core/generate/gaussian.h"
+#include "core/survey/narrow.h"
 #include "core/survey/projection.h"
 
 namespace awan {
@@ -17,25 +20,35 @@ constexpr double kLeastCut = 3.8, kMostCut = 9;
 constexpr std::size_t kMaxEntries = 1u << 23;  // of the lists, 4 bytes each
 constexpr std::size_t kShare = 4096;           // particles that a thread takes at a time
 
-// Blocks whose pixels' centres see slopes low..high.
-bool blocks_along(Interval slopes, double tangent, int pixels, bool up, std::int16_t& first,
-                  std::int16_t& last) {
+// Blocks that see slopes low..high: those whose pixels' middles do, or with `all` those that have any of it.
+bool blocks_along(Interval slopes, double tangent, int pixels, bool up, bool all,
+                  std::int16_t& first, std::int16_t& last) {
     const PixelSpan seen = pixels_between(slopes, tangent, pixels, up);
-    if (seen.first > seen.last) return false;
-    first = static_cast<std::int16_t>(seen.first / kBlockSide);
-    last = static_cast<std::int16_t>(seen.last / kBlockSide);
+    int low = seen.first, high = seen.last;
+    if (all) {
+        if (seen.low > seen.high || seen.high < -0.5 || seen.low > pixels - 0.5) return false;
+        low = std::max(static_cast<int>(std::floor(seen.low + 0.5)), 0);
+        high = std::min(static_cast<int>(std::floor(seen.high + 0.5)), pixels - 1);
+    }
+    if (low > high) return false;
+    first = static_cast<std::int16_t>(low / kBlockSide);
+    last = static_cast<std::int16_t>(high / kBlockSide);
     return true;
 }
 
-bool see(const ParticleSet& particles, std::size_t i, const View& view, int width, int height,
-         SeenParticle& seen) {
-    const glm::dvec3 p = particles.center[i] - view.eye;
-    seen.q = {glm::dot(p, view.right), glm::dot(p, view.up), glm::dot(p, view.forward)};
-    const double own_s = gaussian_s(particles, i);
+// A particle as it is, before it is decided how closely rays stand.
+struct Own {
+    SeenParticle seen{};
+    double s = 0;      // scene units
+    double depth = 0;  // through its centre
+};
+
+// Widens it to what rays at its level see, and finds where it is seen. False: it is not in the picture.
+bool place(const Own& own, const View& view, int width, int height, SeenParticle& seen) {
     const double pixel = 2 * view.tan_half_fov / height;
-    const double s = std::max({own_s, kMinWidthPixels * pixel * std::max(0.0, seen.q.z), 1e-12});
-    const double thinned = (own_s / s) * (own_s / s);
-    const double depth = thinned * central_depth(particles, i);
+    const double gap = std::ldexp(pixel * std::max(0.0, seen.q.z), -seen.level);
+    const double s = std::max({own.s, kLeastWidth * gap, 1e-12});
+    const double depth = widened_depth(own.depth, s / own.s);
     if (!(depth > 0)) return false;
     const double cut = std::clamp(std::sqrt(2 * std::log(std::max(1.0, depth / kFaintDepth))),
                                   kLeastCut, kMostCut);
@@ -43,14 +56,38 @@ bool see(const ParticleSet& particles, std::size_t i, const View& view, int widt
     seen.reach = static_cast<float>(s * cut);
     seen.nearest = glm::length(seen.q) - s * cut;
     // On a line through the centre exp(-cut^2 / 2) of the mass beside it lies beyond the cut.
-    seen.extinction = static_cast<float>(static_cast<double>(particles.density[i]) * thinned *
-                                         (own_s / s) / -std::expm1(-cut * cut / 2));
+    seen.extinction = static_cast<float>(depth / (s * std::sqrt(2 * std::numbers::pi)) /
+                                         -std::expm1(-cut * cut / 2));
     const Interval x = disc_slopes(seen.q.x, seen.q.z, s * cut);
     const Interval y = disc_slopes(seen.q.y, seen.q.z, s * cut);
-    return blocks_along(x, view.tan_half_fov * view.aspect, width, false, seen.blocks.first_x,
+    const bool all = seen.level > 0;
+    return blocks_along(x, view.tan_half_fov * view.aspect, width, false, all, seen.blocks.first_x,
                         seen.blocks.last_x) &&
-           blocks_along(y, view.tan_half_fov, height, true, seen.blocks.first_y,
+           blocks_along(y, view.tan_half_fov, height, true, all, seen.blocks.first_y,
                         seen.blocks.last_y);
+}
+
+// With rays a pixel apart, and the level that it asks for. False: it is not in the picture.
+bool see(const ParticleSet& particles, std::size_t i, const View& view, int width, int height,
+         Own& own) {
+    const glm::dvec3 p = particles.center[i] - view.eye;
+    own.seen.q = {glm::dot(p, view.right), glm::dot(p, view.up), glm::dot(p, view.forward)};
+    own.s = gaussian_s(particles, i);
+    own.depth = central_depth(particles, i);
+    if (!(own.s > 0) || !(own.depth > 0)) return false;
+    own.seen.level = 0;
+    if (!place(own, view, width, height, own.seen)) return false;
+    const double pixel = 2 * view.tan_half_fov / height * std::max(0.0, own.seen.q.z);
+    own.seen.level = level_for(own.s / pixel, least_width(own.depth));
+    return true;
+}
+
+std::vector<NarrowParticle> narrow_of(const std::vector<std::vector<Own>>& parts) {
+    std::vector<NarrowParticle> narrow;
+    for (const std::vector<Own>& part : parts)
+        for (const Own& own : part)
+            if (own.seen.level > 0) narrow.push_back({own.seen.q, own.seen.level, own.seen.blocks});
+    return narrow;
 }
 
 }  // namespace
@@ -58,18 +95,27 @@ bool see(const ParticleSet& particles, std::size_t i, const View& view, int widt
 std::vector<SeenParticle> see_particles(const ParticleSet& particles, const View& view, int width,
                                         int height, int threads) {
     const std::size_t shares = (particles.size() + kShare - 1) / kShare;
-    std::vector<std::vector<SeenParticle>> parts(shares);
+    std::vector<std::vector<Own>> parts(shares);
     parallel_for(threads, shares, [&](std::size_t share) {
         const std::size_t end = std::min(particles.size(), (share + 1) * kShare);
         for (std::size_t i = share * kShare; i < end; ++i) {
-            SeenParticle seen{};
-            if (see(particles, i, view, width, height, seen)) parts[share].push_back(seen);
+            Own own;
+            if (see(particles, i, view, width, height, own)) parts[share].push_back(own);
         }
     });
+    const std::vector<std::uint8_t> levels =
+        affordable_levels(narrow_of(parts), view, width, height);
     std::vector<SeenParticle> all;
+    std::size_t narrow = 0;
     for (auto& part : parts) {
-        all.insert(all.end(), part.begin(), part.end());
-        std::vector<SeenParticle>().swap(part);
+        for (Own& own : part) {
+            if (own.seen.level > 0) {
+                own.seen.level = levels[narrow++];
+                if (!place(own, view, width, height, own.seen)) continue;
+            }
+            all.push_back(own.seen);
+        }
+        std::vector<Own>().swap(part);
     }
     std::stable_sort(all.begin(), all.end(), [](const SeenParticle& a, const SeenParticle& b) {
         return a.nearest < b.nearest;

@@ -22,16 +22,19 @@ struct BlockBox {
 // A particle in the eye's frame (right, up, forward), ready to be sampled.
 struct SeenParticle {
     glm::dvec3 q;
-    double nearest;    // no matter of it lies closer to the eye than this
-    float s;           // standard deviation, scene units; widened to kMinWidthPixels
+    double nearest;  // no matter of it lies closer to the eye than this
+    float s;  // standard deviation, scene units; widened to what rays can see (survey/narrow.h)
     float extinction;  // at its centre, 1/unit; what lies beyond `reach` is put back in
     float reach;       // where it is cut off, scene units
     BlockBox blocks;
+    std::uint8_t level;  // rays that see it stand at most 2^-level pixels apart
 };
 
 // The particles in the picture, nearest first (ties: in the set's order). A Gaussian is cut off where the optical depth
 // of lines through it falls below 3e-5, but at no less than 3.8 s and no more than 9 s, and scaled so that its mass
-// stays whole. One whose s is below 0.6 pixels is widened to that, its optical depth times area kept.
+// stays whole. Where rays a pixel apart would miss matter of one that is narrower than that, they are to stand closer
+// (`level`), as far as a picture's work allows (march_levels.h), and for what is narrower still it is widened, the area
+// that it covers kept.
 std::vector<SeenParticle> see_particles(const ParticleSet& particles, const View& view, int width,
                                         int height, int threads);
 

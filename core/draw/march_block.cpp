@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/draw/march_fine.h"
 #include "core/draw/march_lookup.h"
 #include "core/draw/march_room.h"
 #include "core/draw/march_targets.h"
@@ -54,11 +55,8 @@ struct Verdict {
 // One block on its way through the cloud.
 class BlockMarch {
   public:
-    BlockMarch(const MarchScene& scene, int block_x, int block_y, BlockRoom& room)
-        : scene_(scene),
-          room_(room),
-          kernels_(march_kernels()),
-          block_(place_block(scene, block_x, block_y, room)) {}
+    BlockMarch(const MarchScene& scene, const PlacedBlock& block, BlockRoom& room)
+        : scene_(scene), room_(room), kernels_(march_kernels()), block_(block) {}
 
     // Chunk by chunk, front to back. A chunk in which a step turns out too deep is only taken up to there, and goes on
     // with half the step.
@@ -82,26 +80,16 @@ class BlockMarch {
         }
     }
 
+    // The block's pixels.
     void draw(Image& image) const {
-        const BlockFrame& frame = block_.frame;
-        const View& view = scene_.view;
-        const float up[3] = {static_cast<float>(to_scene(view, frame.right).y),
-                             static_cast<float>(to_scene(view, frame.up).y),
-                             static_cast<float>(to_scene(view, frame.forward).y)};
         const auto width = static_cast<std::size_t>(image.width);
         for (int t = 0; t < kTiles; ++t) {
-            const int x = block_.left + t % 4 * kTileSide, y = block_.top + t / 4 * kTileSide;
+            const auto x = static_cast<int>(room_.places[t].x),
+                       y = static_cast<int>(room_.places[t].y);
             const int across = std::min(kTileSide, image.width - x);
             if (across <= 0) continue;
             float pixels[simd::kLanes][4];
-            simd::Floats backdrop[4];
-            const simd::Floats* const behind = scene_.sky.backdrop != nullptr ? backdrop : nullptr;
-            if (behind != nullptr) take_backdrop(t, backdrop);
-            if (scene_.air != nullptr)
-                kernels_.finish_air(scene_, air_tile(*scene_.air, x, y), block_.sun, up, behind,
-                                    room_.tiles[t], pixels);
-            else
-                kernels_.finish(scene_, up, behind, room_.tiles[t], pixels);
+            finish(t, pixels);
             for (int j = 0; j < std::min(kTileSide, image.height - y); ++j)
                 std::memcpy(
                     image.pixels.data() +
@@ -110,7 +98,37 @@ class BlockMarch {
         }
     }
 
+    // The rays of tiles that are finer than pixels, to the sums of the pixels that they are in.
+    void add_to(FinePixels& fine) const {
+        for (int t = 0; t < block_.tiles; ++t) {
+            float rays[simd::kLanes][4];
+            finish(t, rays);
+            const TilePlace& place = room_.places[t];
+            for (int lane = 0; lane < simd::kLanes; ++lane)
+                fine.add(static_cast<int>(place.ray_x(lane)) - block_.left,
+                         static_cast<int>(place.ray_y(lane)) - block_.top, place.gap * place.gap,
+                         rays[lane]);
+        }
+    }
+
   private:
+    // What a tile's rays have met, and what stands behind it: r g b alpha of each.
+    void finish(int t, float (*to)[4]) const {
+        const BlockFrame& frame = block_.frame;
+        const View& view = scene_.view;
+        const float up[3] = {static_cast<float>(to_scene(view, frame.right).y),
+                             static_cast<float>(to_scene(view, frame.up).y),
+                             static_cast<float>(to_scene(view, frame.forward).y)};
+        simd::Floats backdrop[4];
+        const simd::Floats* const behind = scene_.sky.backdrop != nullptr ? backdrop : nullptr;
+        if (behind != nullptr) take_backdrop(t, backdrop);
+        if (scene_.air != nullptr)
+            kernels_.finish_air(scene_, air_tile(*scene_.air, room_.places[t]), block_.sun, up,
+                                behind, room_.tiles[t], to);
+        else
+            kernels_.finish(scene_, up, behind, room_.tiles[t], to);
+    }
+
     bool any_alive() const {
         return std::any_of(room_.tiles, room_.tiles + kTiles,
                            [](const Tile& tile) { return tile.alive; });
@@ -247,7 +265,7 @@ class BlockMarch {
                 kernels_.spread(room_.bilinear[spacing][t], room_.corners, own.first, own.last,
                                 albedo, haze, room_.light);
             else
-                look_up_pixels(scene_, block_, t, own, room_);
+                look_up_pixels(scene_, t, own, room_);
             (haze ? kernels_.march_haze : kernels_.march)(shade(t, seam), room_.light, count, tile);
         }
     }
@@ -281,10 +299,11 @@ class BlockMarch {
         return shade;
     }
 
-    // Pixel of a lane, in the picture: the last one's for those beyond it.
+    // Pixel that a ray is in: the picture's last one's for those beyond it.
     std::size_t pixel_of(int t, int lane) const {
-        const int x = std::min(block_.left + t % 4 * kTileSide + lane % 4, scene_.width - 1);
-        const int y = std::min(block_.top + t / 4 * kTileSide + lane / 4, scene_.height - 1);
+        const TilePlace& place = room_.places[t];
+        const int x = std::min(static_cast<int>(place.ray_x(lane)), scene_.width - 1);
+        const int y = std::min(static_cast<int>(place.ray_y(lane)), scene_.height - 1);
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(scene_.width) +
                static_cast<std::size_t>(x);
     }
@@ -312,9 +331,33 @@ class BlockMarch {
 
 void march_block(const MarchScene& scene, int block_x, int block_y,
                  const std::vector<std::uint32_t>& items, BlockRoom& room, Image& image) {
-    BlockMarch block(scene, block_x, block_y, room);
+    const std::vector<FineTile> fine = fine_tiles(scene, block_x, block_y, items);
+    BlockMarch block(scene, place_block(scene, block_x, block_y, room), room);
+    for (const FineTile& one : fine) {
+        const int across = static_cast<int>(one.place.x) / kTileSide % 4,
+                  down = static_cast<int>(one.place.y) / kTileSide % 4;
+        room.tiles[down * 4 + across].alive = false;
+    }
     if (!items.empty()) block.run(items);
+    // Of tiles that are divided, what stands behind the cloud.
     block.draw(image);
+    if (items.empty()) return;
+
+    FinePixels pixels;
+    const auto march_part = [&](const FineBatch& batch) {
+        BlockMarch part(scene, place_block(scene, block_x, block_y, batch.places, room), room);
+        part.run(batch.items);
+        part.add_to(pixels);
+    };
+    const int left = block_x * kBlockSide, top = block_y * kBlockSide;
+    const std::vector<TilePlace> sharp = sharp_places(image, left, top, fine);
+    if (!sharp.empty()) march_part({sharp, items});
+    for (std::size_t first = 0; first < fine.size();) {
+        const FineBatch batch = batch_from(fine, first);
+        march_part(batch);
+        first += batch.places.size();
+    }
+    if (!sharp.empty() || !fine.empty()) pixels.draw(left, top, image);
 }
 
 }  // namespace awan

@@ -74,13 +74,12 @@ void look_up_corners(const MarchScene& scene, const PlacedBlock& block, const Sa
     }
 }
 
-void look_up_pixels(const MarchScene& scene, const PlacedBlock& block, int tile,
-                    const SampleRange& samples, BlockRoom& room) {
+void look_up_pixels(const MarchScene& scene, int tile, const SampleRange& samples,
+                    BlockRoom& room) {
     LightAt at[kChunk + 2];
     TileLight& light = room.light;
     for (int lane = 0; lane < simd::kLanes; ++lane) {
-        const double x = block.left + tile % 4 * kTileSide + lane % 4 + 0.5;
-        const double y = block.top + tile / 4 * kTileSide + lane / 4 + 0.5;
+        const double x = room.places[tile].ray_x(lane), y = room.places[tile].ray_y(lane);
         look_up(scene, x, y, samples, at);
         look_up_air(scene, x, y, samples, at);
         for (int k = samples.first; k <= samples.last + 2; ++k) {
@@ -100,7 +99,7 @@ int first_too_shaded(const MarchScene& scene, const PlacedBlock& block,
                      const SampleRange& samples) {
     if (samples.first > samples.last) return kChunk;
     LightAt at[kChunk + 2];
-    look_up(scene, block.left + kBlockSide / 2.0, block.top + kBlockSide / 2.0, samples, at);
+    look_up(scene, block.middle_x, block.middle_y, samples, at);
     const float allowed = kRise * scene.step_depth / scene.scaled;
     for (int k = samples.first; k <= samples.last; ++k) {
         const LightAt* const sample = at + (k - samples.first);

@@ -25,9 +25,8 @@ bool has_matter(const Tile& tile, int count);
 void look_up_corners(const MarchScene& scene, const PlacedBlock& block, const SampleRange& samples,
                      int spacing, BlockRoom& room);
 
-// Fills room.light of one tile, each pixel along its own ray.
-void look_up_pixels(const MarchScene& scene, const PlacedBlock& block, int tile,
-                    const SampleRange& samples, BlockRoom& room);
+// Fills room.light of one tile, each ray's own.
+void look_up_pixels(const MarchScene& scene, int tile, const SampleRange& samples, BlockRoom& room);
 
 // The first sample with matter in which the depth towards the sun changes more than a step may cost, as the block's
 // middle ray has it, or kChunk: within such a step the beam is not what it is in its middle, however thin the step is

@@ -13,7 +13,7 @@
 
 namespace awan {
 
-// The rays of a block. Pixel coordinates (x, y) from its top left corner are seen along slopes (u0 + du x, v0 + dv y):
+// The rays of a block. Pixel coordinates (x, y) from its origin are seen along slopes (u0 + du x, v0 + dv y):
 // the direction (slope, slope, 1) in the eye's frame (right, up, forward). `forward` is the block's middle ray, `right`
 // and `up` stand at right angles to it; all three are unit, in the eye's frame.
 struct BlockFrame {

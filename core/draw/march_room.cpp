@@ -15,35 +15,41 @@ constexpr double kMostSamples = 2048;
 // The longest step over the shortest. Matter in which steps get as short as this is so dense that rays soon end.
 constexpr double kFinest = 4096;
 
-// A tile's pixels between the four corners around them.
-Bilinear bilinear_of(int tile, int spacing) {
+// A tile of a block's pixels, relative to the block.
+TilePlace pixels_of(int tile) {
+    return {static_cast<double>(tile % 4 * kTileSide), static_cast<double>(tile / 4 * kTileSide),
+            1};
+}
+
+// A tile's rays between the four corners around them. The tile's place is relative to its block.
+Bilinear bilinear_of(const TilePlace& place, int spacing) {
     Bilinear b;
-    const int x = tile % 4 * kTileSide, y = tile / 4 * kTileSide;
-    const int i = x / spacing, j = y / spacing, side = kBlockSide / spacing + 1;
+    const double width = spacing;
+    const int side = kBlockSide / spacing + 1;
+    const int i = static_cast<int>(place.x / width), j = static_cast<int>(place.y / width);
     for (int c = 0; c < 4; ++c) {
         b.corner[c] = (j + c / 2) * side + i + c % 2;
         for (int lane = 0; lane < simd::kLanes; ++lane) {
-            const float u = (static_cast<float>(x - i * spacing + lane % 4) + 0.5f) /
-                            static_cast<float>(spacing);
-            const float v = (static_cast<float>(y - j * spacing + lane / 4) + 0.5f) /
-                            static_cast<float>(spacing);
+            const auto u = static_cast<float>((place.ray_x(lane) - i * width) / width);
+            const auto v = static_cast<float>((place.ray_y(lane) - j * width) / width);
             b.weight[c][lane] = (c % 2 == 1 ? u : 1 - u) * (c / 2 == 1 ? v : 1 - v);
         }
     }
     return b;
 }
 
-BlockFrame frame_of(const MarchScene& scene, int left, int top) {
+// Pixel coordinates are counted from (x, y), which the middle ray need not go through.
+BlockFrame frame_of(const MarchScene& scene, double x, double y, double middle_x, double middle_y) {
     BlockFrame frame;
-    frame.forward = frame_direction(scene, left + kBlockSide / 2, top + kBlockSide / 2);
+    frame.forward = frame_direction(scene, middle_x, middle_y);
     const SideAxes side = side_axes(frame.forward);
     frame.right = side.u;
     frame.up = side.v;
     const double tan = scene.view.tan_half_fov, wide = tan * scene.view.aspect;
     frame.du = 2 * wide / scene.width;
     frame.dv = -2 * tan / scene.height;
-    frame.u0 = left * frame.du - wide;
-    frame.v0 = top * frame.dv + tan;
+    frame.u0 = x * frame.du - wide;
+    frame.v0 = y * frame.dv + tan;
     return frame;
 }
 
@@ -66,22 +72,25 @@ void clear(Tile& tile, const simd::Floats ray[3], bool in_picture) {
     tile.left = tile.scaled_left = simd::all(1.0f);
 }
 
-void place_tiles(const MarchScene& scene, const PlacedBlock& block, BlockRoom& room) {
+// Sets the tiles' rays. (x, y): the picture's point that the frame counts pixels from.
+void place_tiles(const MarchScene& scene, const PlacedBlock& block, double x, double y,
+                 BlockRoom& room) {
     const MarchKernels& kernels = march_kernels();
-    float x[simd::kLanes], y[simd::kLanes];
+    float at_x[simd::kLanes], at_y[simd::kLanes];
     for (int t = 0; t < kTiles; ++t) {
-        x[t] = static_cast<float>(t % 4 * kTileSide + kTileSide / 2);
-        y[t] = static_cast<float>(t / 4 * kTileSide + kTileSide / 2);
+        const TilePlace& place = room.places[t];
+        at_x[t] = static_cast<float>(place.x - x + 0.5 * kTileSide * place.gap);
+        at_y[t] = static_cast<float>(place.y - y + 0.5 * kTileSide * place.gap);
     }
-    kernels.rays(block.frame, x, y, room.middle);
+    kernels.rays(block.frame, at_x, at_y, room.middle);
     for (int t = 0; t < kTiles; ++t) {
-        const int across = t % 4 * kTileSide, down = t / 4 * kTileSide;
+        const TilePlace& place = room.places[t];
         for (int lane = 0; lane < simd::kLanes; ++lane) {
-            x[lane] = static_cast<float>(across + lane % 4) + 0.5f;
-            y[lane] = static_cast<float>(down + lane / 4) + 0.5f;
+            at_x[lane] = static_cast<float>(place.ray_x(lane) - x);
+            at_y[lane] = static_cast<float>(place.ray_y(lane) - y);
         }
         simd::Floats ray[3];
-        kernels.rays(block.frame, x, y, ray);
+        kernels.rays(block.frame, at_x, at_y, ray);
         simd::Floats apart{};
         for (int axis = 0; axis < 3; ++axis) {
             const simd::Floats off = ray[axis] - room.middle[axis][t];
@@ -90,7 +99,7 @@ void place_tiles(const MarchScene& scene, const PlacedBlock& block, BlockRoom& r
         // A little more, for rounding.
         room.spread[t] = std::sqrt(simd::largest(apart)) * 1.001f;
         clear(room.tiles[t], ray,
-              block.left + across < scene.width && block.top + down < scene.height);
+              t < block.tiles && place.x < scene.width && place.y < scene.height);
     }
 }
 
@@ -139,7 +148,8 @@ void BlockRoomDelete::operator()(BlockRoom* room) const {
 BlockRoomPtr make_block_room() {
     BlockRoomPtr room(new BlockRoom);
     for (int s = 0; s < kSpacingCount; ++s)
-        for (int t = 0; t < kTiles; ++t) room->bilinear[s][t] = bilinear_of(t, kSpacings[s]);
+        for (int t = 0; t < kTiles; ++t)
+            room->of_pixels[s][t] = bilinear_of(pixels_of(t), kSpacings[s]);
     return room;
 }
 
@@ -147,9 +157,48 @@ PlacedBlock place_block(const MarchScene& scene, int block_x, int block_y, Block
     PlacedBlock block;
     block.left = block_x * kBlockSide;
     block.top = block_y * kBlockSide;
-    block.frame = frame_of(scene, block.left, block.top);
+    block.middle_x = block.left + kBlockSide / 2;
+    block.middle_y = block.top + kBlockSide / 2;
+    for (int t = 0; t < kTiles; ++t) {
+        room.places[t] = pixels_of(t);
+        room.places[t].x += block.left;
+        room.places[t].y += block.top;
+    }
+    room.bilinear = room.of_pixels;
+    block.frame = frame_of(scene, block.left, block.top, block.middle_x, block.middle_y);
     block.sun = sun_in(block.frame, scene);
-    place_tiles(scene, block, room);
+    place_tiles(scene, block, block.left, block.top, room);
+    return block;
+}
+
+PlacedBlock place_block(const MarchScene& scene, int block_x, int block_y,
+                        std::span<const TilePlace> places, BlockRoom& room) {
+    PlacedBlock block;
+    block.left = block_x * kBlockSide;
+    block.top = block_y * kBlockSide;
+    block.tiles = static_cast<int>(places.size());
+    double low_x = 1e300, low_y = 1e300, high_x = -1e300, high_y = -1e300;
+    for (const TilePlace& place : places) {
+        low_x = std::min(low_x, place.x);
+        low_y = std::min(low_y, place.y);
+        high_x = std::max(high_x, place.x + kTileSide * place.gap);
+        high_y = std::max(high_y, place.y + kTileSide * place.gap);
+    }
+    // The frame is that of their own middle, so that floats are fine enough for tiles far below a pixel.
+    block.middle_x = 0.5 * (low_x + high_x);
+    block.middle_y = 0.5 * (low_y + high_y);
+    for (std::size_t t = 0; t < kTiles; ++t) {
+        room.places[t] = places[std::min(t, places.size() - 1)];
+        TilePlace in_block = room.places[t];
+        in_block.x -= block.left;
+        in_block.y -= block.top;
+        for (int s = 0; s < kSpacingCount; ++s)
+            room.of_places[s][t] = bilinear_of(in_block, kSpacings[s]);
+    }
+    room.bilinear = room.of_places;
+    block.frame = frame_of(scene, block.middle_x, block.middle_y, block.middle_x, block.middle_y);
+    block.sun = sun_in(block.frame, scene);
+    place_tiles(scene, block, block.middle_x, block.middle_y, room);
     return block;
 }
 

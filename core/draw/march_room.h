@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iterator>
+#include <span>
 #include <vector>
 
 #include "core/draw/march_block.h"
@@ -19,9 +20,12 @@ inline constexpr int kMostCorners = 81;
 
 struct BlockRoom {
     Tile tiles[kTiles];
+    TilePlace places[kTiles];
     TileLight light;
     LightAt corners[kMostCorners][kChunk + 2];
-    Bilinear bilinear[kSpacingCount][kTiles];
+    Bilinear of_pixels[kSpacingCount][kTiles];  // of a block of 16 x 16 pixels
+    Bilinear of_places[kSpacingCount][kTiles];  // of other tiles
+    const Bilinear (*bilinear)[kTiles] = of_pixels;
     simd::Floats middle[3];  // the tiles' middle rays, as the directions of a Tile, a tile a lane
     simd::Floats spread;     // how far a tile's rays are from its middle ray, a tile a lane
     BlockParticles particles;
@@ -36,7 +40,9 @@ struct BlockRoom {
 
 // Where a block is and how it is stepped through.
 struct PlacedBlock {
-    int left = 0, top = 0;  // pixels
+    int left = 0, top = 0;              // of the 16 x 16 pixels that it lies in
+    double middle_x = 0, middle_y = 0;  // where the middle ray meets the picture, pixels
+    int tiles = kTiles;
     BlockFrame frame{};
     SunInBlock sun{};
     DetailRays detail;
@@ -46,8 +52,11 @@ struct PlacedBlock {
     double stretch = 1;  // of all steps, where a ray is long
 };
 
-// Sets the tiles' rays, and all that does not depend on particles.
+// Sets the tiles' rays, and all that does not depend on particles: of a block's pixels, or of 1 to 16 tiles among them
+// whose rays stand closer.
 PlacedBlock place_block(const MarchScene& scene, int block_x, int block_y, BlockRoom& room);
+PlacedBlock place_block(const MarchScene& scene, int block_x, int block_y,
+                        std::span<const TilePlace> places, BlockRoom& room);
 
 // Puts the block's particles (indices into scene.seen, nearest first; not empty) into its frame, and chooses its steps.
 void place_particles(const MarchScene& scene, const std::vector<std::uint32_t>& items,

@@ -16,6 +16,15 @@ inline constexpr int kTileSide = 4;  // pixels
 inline constexpr int kTiles = 16;    // of a block
 inline constexpr int kChunk = 32;    // samples that are taken at a time
 
+// Where a tile's rays are, in picture coordinates (pixels): 4 x 4 of them, `gap` from each other, and half of that
+// within the corner (x, y).
+struct TilePlace {
+    double x = 0, y = 0, gap = 1;
+
+    double ray_x(int lane) const { return x + (lane % kTileSide + 0.5) * gap; }
+    double ray_y(int lane) const { return y + (lane / kTileSide + 0.5) * gap; }
+};
+
 // The particles of a block in its frame, scene units.
 struct BlockParticles {
     std::vector<float> x, y;   // of the centre, across the middle ray

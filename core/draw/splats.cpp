@@ -12,6 +12,7 @@
 #include "core/generate/gaussian.h"
 #include "core/scene/outside.h"
 #include "core/shaders/shared.h"
+#include "core/survey/narrow.h"
 #include "core/survey/projection.h"
 
 namespace awan {
@@ -120,10 +121,11 @@ Seen see(const Scene& scene, const ParticleSet& particles, std::size_t i, const 
     seen.distance = glm::length(seen.q);
     const double own_s = gaussian_s(particles, i);
     const double pixel = 2 * view.tan_half_fov / scene->image.height;
-    seen.s = std::max({own_s, kMinWidthPixels * pixel * std::max(0.0, seen.q.z), 1e-12});
+    const double own_tau = central_depth(particles, i);
+    seen.s = std::max({own_s, kLeastWidth * pixel * std::max(0.0, seen.q.z), 1e-12});
     seen.widened = seen.s > own_s;
-    const double thinned = (own_s / seen.s) * (own_s / seen.s);
-    seen.tau = thinned * central_depth(particles, i);
+    if (!(own_s > 0) || !(own_tau > 0)) return seen;
+    seen.tau = widened_depth(own_tau, seen.s / own_s);
     if (!(seen.tau > 0)) return seen;
     const double cut =
         std::max(kMinReach, std::sqrt(2 * std::log(std::max(1.0, seen.tau / kFaintDepth))));

@@ -23,8 +23,10 @@ struct SplatList {
 inline constexpr int kTileWidth = 8, kTileHeight = 16;  // as in splat.glsl
 
 // All particles in the picture. A Gaussian is cut off where the optical depth of lines through it falls below 5e-4, but
-// not within 3.5 s, and scaled so that its mass stays whole. One whose s is below 0.6 pixels is widened to that, its
-// optical depth times area kept. With effect view_extinction they are sorted by distance from the eye, ties by index.
+// not within 3.5 s, and scaled so that its mass stays whole. One whose s is below 0.6 pixels is widened to that, the
+// area that it covers kept (survey/narrow.h): exact where such particles stand independently of each other, too much
+// where they overlap, as in a cloud that is small beside a pixel.
+// With effect view_extinction they are sorted by distance from the eye, ties by index.
 // Neighbours in that order with the same centre and radius are merged into one, so that it does not matter which of
 // them is drawn over which: optical depths add, light and colour are weighted by them. air: the haze that they are seen
 // through (air_image.h); null: none.

@@ -24,10 +24,6 @@ struct PixelSpan {
 };
 PixelSpan pixels_between(Interval slopes, double tangent, int pixels, bool up);
 
-// Least s of a Gaussian that is drawn, pixels; a narrower one is widened with its optical depth x area kept: sampled at
-// pixel centres it sums to its whole within 1%.
-inline constexpr double kMinWidthPixels = 0.6;
-
 // A right-handed orthonormal pair beside the unit vector `axis`; continuous but at one point.
 // Duff et al. 2017, "Building an orthonormal basis, revisited".
 struct SideAxes {

@@ -9,6 +9,7 @@
 #include "core/generate/gaussian.h"
 #include "core/survey/ground_view.h"
 #include "core/survey/haze_view.h"
+#include "core/survey/narrow.h"
 #include "core/survey/optical_depth.h"
 #include "core/survey/volume.h"
 
@@ -22,6 +23,7 @@ void measure_projection(const ParticleSet& particles, int image_height, Survey& 
     const View& view = survey.view;
     const double px_per_slope = image_height / (2 * view.tan_half_fov);
     survey.min_projected_px = std::numeric_limits<double>::infinity();
+    double area = 0, narrow = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const double s = gaussian_s(particles, i);
         const double distance = glm::length(particles.center[i] - view.eye);
@@ -30,7 +32,13 @@ void measure_projection(const ParticleSet& particles, int image_height, Survey& 
             distance > s ? s / distance * px_per_slope : std::numeric_limits<double>::infinity();
         survey.min_projected_px = std::min(survey.min_projected_px, px);
         survey.max_projected_px = std::max(survey.max_projected_px, px);
+        // Roughly what it covers: ln(1 + tau) instead of Ein.
+        const double depth = central_depth(particles, i);
+        const double covered = s * s * std::log1p(depth);
+        area += covered;
+        if (px < least_width(depth)) narrow += covered;
     }
+    if (area > 0) survey.sub_pixel = std::min(narrow / area, 1.0);
 }
 
 void measure_picture(const ParticleSet& particles, Survey& survey) {

@@ -61,13 +61,14 @@ std::vector<Tile> tiles_of(int width, int height) {
 // Those that a ray through any of the tile's pixels may meet.
 ParticleSet particles_before(const Tile& tile, const ParticleSet& particles,
                              const Picture& picture) {
+    // The middles of the pixels around the tile.
     const auto direction = [&](int x, int y) {
         return pixel_ray(picture.view, picture.width, picture.height, x, y).direction;
     };
     return truth::particles_near(
         particles, picture.view.eye,
-        {direction(tile.left, tile.top), direction(tile.right - 1, tile.top),
-         direction(tile.left, tile.bottom - 1), direction(tile.right - 1, tile.bottom - 1)});
+        {direction(tile.left - 1, tile.top - 1), direction(tile.right, tile.top - 1),
+         direction(tile.left - 1, tile.bottom), direction(tile.right, tile.bottom)});
 }
 
 // Of paths that met the cloud.
@@ -90,8 +91,8 @@ PathCount trace_tile(const Tile& tile, const ParticleSet& particles, const Pictu
             const std::optional<Pixel> pixel =
                 picture.stop ? std::nullopt : trace_pixel(picture, near, x, y);
             if (!pixel) return count;
-            store(truth.half_a, x, y, pixel->half[0], pixel->alpha);
-            store(truth.half_b, x, y, pixel->half[1], pixel->alpha);
+            store(truth.half_a, x, y, pixel->half[0], pixel->alpha[0]);
+            store(truth.half_b, x, y, pixel->half[1], pixel->alpha[1]);
             count.add(pixel->paths, pixel->scatterings);
         }
     return count;
@@ -143,6 +144,7 @@ Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles,
         .view = view,
         .width = scene->image.width,
         .height = scene->image.height,
+        .whole_pixels = options.whole_pixels,
         .opaque = truth.half_a.opaque,
         .matter = *matter,
         .setting = setting,

@@ -41,6 +41,9 @@ struct TruthOptions {
     std::uint32_t max_orders = 0;
     SkySampling sky = SkySampling::kEscape;
     EyeEffects eye_effects{};
+    // Pixels show the mean over their area, as all pictures do; else what the ray through their middle does, for which
+    // there are closed forms.
+    bool whole_pixels = false;
     std::uint64_t seed = 1;
     int threads = 1;
 };
@@ -53,8 +56,8 @@ struct TruthImage {
     double scatterings = 0;
 };
 
-// Linear radiance as core/draw gives it: premultiplied, alpha = 1 - transmittance of clouds and haze (exact, by
-// line_optical_depth, no noise), over the sky and the ground or over nothing as the scene's background says.
+// Linear radiance as core/draw gives it: premultiplied, alpha = 1 - transmittance of clouds and haze (exact on
+// every ray, by line_optical_depth), over the sky and the ground or over nothing as the scene's background says.
 // A picture depends on scene, samples and seed, not on threads. Errors: kOverDeadline, kCancelled.
 Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles, const View& view,
                                const TruthOptions& options, const Progress& progress,

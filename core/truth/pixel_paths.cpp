@@ -5,6 +5,7 @@
 
 #include "core/generate/keyed_random.h"
 #include "core/truth/oracles.h"
+#include "core/truth/pixel_area.h"
 #include "core/truth/primary_ray.h"
 
 namespace awan::truth {
@@ -15,25 +16,77 @@ constexpr std::uint32_t kLook = 32;
 // Of the light behind the clouds: below, it is not traced.
 constexpr double kDark = 1e-9;
 
-// A pixel's ray and how much of what lies along it is seen. Lengths in cells.
+// A pixel's middle ray and how much of what lies behind the clouds is seen in the pixel. Lengths in cells.
 struct Sight {
     glm::dvec3 eye;
     glm::dvec3 direction;
     // Distance of the ground; infinite: there is none on the ray.
     double ground;
-    // Share of the light from behind that the clouds keep away, exact.
-    double covered;
-    // 1 - covered, with all its digits.
-    double through;
+    // Share of the light from behind that gets through the clouds, of each half's rays.
+    std::array<double, 2> through;
     std::optional<HazePath> haze;
 };
 
-Sight sight_of(const Picture& picture, const PixelRay& ray, const glm::dvec3& eye, double ground,
-               double depth) {
-    Sight sight{eye, ray.direction, ground, -std::expm1(-depth), std::exp(-depth), {}};
-    if (picture.air) sight.haze.emplace(picture.air->haze, ray.origin.y, ray.direction.y);
+Sight sight_of(const Picture& picture, const glm::dvec3& eye, const glm::dvec3& direction,
+               double ground, const std::array<double, 2>& through) {
+    Sight sight{eye, direction, ground, through, {}};
+    const double height = picture.view.eye.y;
+    if (picture.air) sight.haze.emplace(picture.air->haze, height, direction.y);
     return sight;
 }
+
+// The rays of a pixel that meet matter, for paths to be shared out among them by what they keep from the eye.
+class CloudRays {
+  public:
+    CloudRays(const Picture& picture, const glm::dvec3& eye, const std::vector<AreaRay>& rays)
+        : picture_(picture), eye_(eye) {
+        for (const AreaRay& ray : rays) {
+            const double covered = ray.share * -std::expm1(-ray.depth);
+            through_ += ray.share * std::exp(-ray.depth);
+            rest_ -= ray.share;
+            if (!(covered > 0)) continue;
+            covered_ += covered;
+            rays_.push_back({ray.direction, covered_, covered, {}, {}});
+        }
+    }
+
+    // Share of the light from behind that the clouds keep away, and 1 less that with all its digits.
+    double covered() const { return covered_; }
+    double through() const { return through_ + std::max(rest_, 0.0); }
+
+    struct Met {
+        const Sight& sight;
+        double t;  // NaN: the ray meets nothing after all
+    };
+    // Where the light that is at `share` of all (0..1), ray by ray and front to back, has its first meeting.
+    Met meeting(double share) {
+        const double at = share * covered_;
+        const auto above =
+            std::upper_bound(rays_.begin(), rays_.end() - 1, at,
+                             [](double value, const Ray& ray) { return value < ray.up_to; });
+        Ray& ray = *above;
+        if (!ray.primary) {
+            const double ground = ground_ahead(picture_.setting, eye_, ray.direction);
+            ray.sight = sight_of(picture_, eye_, ray.direction, ground, {});
+            ray.primary.emplace(picture_.matter, eye_, ray.direction, ground);
+        }
+        const double own =
+            std::clamp((at - (ray.up_to - ray.covered)) / ray.covered, 1e-12, 1 - 1e-12);
+        return {*ray.sight, ray.primary->meets() ? ray.primary->first_meeting(own) : NAN};
+    }
+
+  private:
+    struct Ray {
+        glm::dvec3 direction;
+        double up_to, covered;  // sum of `covered` up to this one
+        std::optional<Sight> sight;
+        std::optional<PrimaryRay> primary;
+    };
+    const Picture& picture_;
+    glm::dvec3 eye_;
+    std::vector<Ray> rays_;
+    double covered_ = 0, through_ = 0, rest_ = 1;
+};
 
 // Light from distance t as the eye gets it: dimmed by the haze before it, with that haze's own light.
 glm::dvec3 through_haze(const Picture& picture, const Sight& sight, const glm::dvec3& light,
@@ -45,8 +98,8 @@ glm::dvec3 through_haze(const Picture& picture, const Sight& sight, const glm::d
                                                                sight.direction, end, random);
 }
 
-// Adds the mean of samples / 2 paths to each half of a pixel. path(random, stratum): the radiance of one; stratum is
-// uniform in (0, 1) and spread evenly over them. False: out of time.
+// Adds the mean of samples / 2 paths to each half of a pixel. path(random, stratum, half): the radiance of one; stratum
+// is uniform in (0, 1) and spread evenly over them. False: out of time.
 template <typename Path>
 bool add_mean(const Picture& picture, std::uint64_t key, std::uint32_t samples, Pixel& pixel,
               const Path& path) {
@@ -60,7 +113,7 @@ bool add_mean(const Picture& picture, std::uint64_t key, std::uint32_t samples, 
                 return false;
             }
             PathRandom random(keyed(keyed(key, half), i));
-            sum += path(random, (i + random.unit()) / each);
+            sum += path(random, (i + random.unit()) / each, half);
         }
         pixel.half[half] += sum / static_cast<double>(each);
     }
@@ -74,17 +127,21 @@ std::uint32_t worthwhile_paths(std::uint32_t samples, double covered) {
     return 2 * std::max(static_cast<std::uint32_t>(std::ceil(share * (samples / 2))), 1u);
 }
 
-// Light from the clouds. False: out of time.
-bool add_clouds(const Picture& picture, const Sight& sight, const PrimaryRay& primary,
-                std::uint64_t key, Pixel& pixel) {
-    if (!(sight.covered > 0) || !primary.meets()) return true;
+// Light from the clouds. rays: of each half. False: out of time.
+bool add_clouds(const Picture& picture, std::array<CloudRays*, 2> rays, std::uint64_t key,
+                Pixel& pixel) {
+    const double covered = 0.5 * (rays[0]->covered() + rays[1]->covered());
+    if (!(covered > 0)) return true;
     Tally tally;
-    const std::uint32_t paths = worthwhile_paths(picture.samples, sight.covered);
-    const auto path = [&](PathRandom& random, double stratum) {
-        const double t = primary.first_meeting(stratum);
-        const glm::dvec3 light = walk_from_matter(picture.setting, sight.eye + t * sight.direction,
-                                                  sight.direction, random, tally);
-        return sight.covered * through_haze(picture, sight, light, t, random);
+    const std::uint32_t paths = worthwhile_paths(picture.samples, covered);
+    const auto path = [&](PathRandom& random, double stratum, std::uint32_t half) {
+        if (!(rays[half]->covered() > 0)) return glm::dvec3(0);
+        const CloudRays::Met met = rays[half]->meeting(stratum);
+        if (std::isnan(met.t)) return glm::dvec3(0);
+        const Sight& sight = met.sight;
+        const glm::dvec3 light = walk_from_matter(
+            picture.setting, sight.eye + met.t * sight.direction, sight.direction, random, tally);
+        return rays[half]->covered() * through_haze(picture, sight, light, met.t, random);
     };
     if (!add_mean(picture, key, paths, pixel, path)) return false;
     pixel.paths = paths;
@@ -94,34 +151,61 @@ bool add_clouds(const Picture& picture, const Sight& sight, const PrimaryRay& pr
 
 // Light that comes through the clouds from the ground, which the ray meets. False: out of time.
 bool add_ground(const Picture& picture, const Sight& sight, std::uint64_t key, Pixel& pixel) {
-    if (!(sight.through > kDark)) return true;
+    if (!(std::max(sight.through[0], sight.through[1]) > kDark)) return true;
     glm::dvec3 place = sight.eye + sight.ground * sight.direction;
     place.y = picture.setting.ground_height;
     Tally unused;
-    return add_mean(picture, key, picture.samples, pixel, [&](PathRandom& random, double) {
+    const auto path = [&](PathRandom& random, double, std::uint32_t half) {
         const glm::dvec3 light = walk_from_ground(picture.setting, place, random, unused);
-        return sight.through * through_haze(picture, sight, light, sight.ground, random);
-    });
+        return sight.through[half] * through_haze(picture, sight, light, sight.ground, random);
+    };
+    return add_mean(picture, key, picture.samples, pixel, path);
 }
 
 // Light that comes through the clouds from the sky, or, where no sky is drawn, from the haze alone. False: out of time.
 bool add_sky(const Picture& picture, const Sight& sight, std::uint64_t key, Pixel& pixel) {
     const glm::dvec3 sky =
         picture.opaque ? sky_radiance(picture.setting, sight.direction) : glm::dvec3(0);
-    if (!sight.haze || !(sight.through > kDark)) {
+    if (!sight.haze || !(std::max(sight.through[0], sight.through[1]) > kDark)) {
         // It is known, without a path.
-        for (glm::dvec3& half : pixel.half) half += sight.through * sky;
+        for (std::size_t half = 0; half < 2; ++half) pixel.half[half] += sight.through[half] * sky;
         return true;
     }
-    return add_mean(picture, key, picture.samples, pixel, [&](PathRandom& random, double) {
-        return sight.through * through_haze(picture, sight, sky, sight.ground, random);
-    });
+    const auto path = [&](PathRandom& random, double, std::uint32_t half) {
+        return sight.through[half] * through_haze(picture, sight, sky, sight.ground, random);
+    };
+    return add_mean(picture, key, picture.samples, pixel, path);
 }
 
-double alpha_of(const Picture& picture, const Sight& sight) {
+// covered: by the clouds.
+double alpha_of(const Picture& picture, const Sight& sight, double covered, double through) {
     if (picture.opaque) return 1;
-    if (!sight.haze) return sight.covered;
-    return 1 - sight.through * sight.haze->transmittance(sight.ground * picture.matter.cell);
+    if (!sight.haze) return covered;
+    return 1 - through * sight.haze->transmittance(sight.ground * picture.matter.cell);
+}
+
+// The rays that a pixel is seen by. Gaussians alone have their depth in closed form, their detail has not.
+AreaRays rays_of(const Picture& picture, const ParticleSet& near, int x, int y,
+                 const PixelRay& middle, const glm::dvec3& eye, std::uint64_t key) {
+    const Matter& matter = picture.matter;
+    const auto end = [&](const glm::dvec3& d) {
+        return ground_ahead(picture.setting, eye, d) * matter.cell;
+    };
+    AreaRays area;
+    if (picture.whole_pixels) {
+        // Bumps rise and fall as a Gaussian of about a quarter of their width does.
+        const double smallest = matter.detail ? 0.25 * matter.detail->bump : INFINITY;
+        area =
+            area_rays(picture.view, picture.width, picture.height, x, y, near, smallest, end, key);
+    } else {
+        const glm::dvec3 d = middle.direction;
+        area.rays = {{d, 1, line_optical_depth(near, middle.origin, d, 0, end(d))}};
+    }
+    if (matter.detail)
+        for (AreaRay& ray : area.rays)
+            ray.depth =
+                PrimaryRay(matter, eye, ray.direction, end(ray.direction) / matter.cell).depth();
+    return area;
 }
 
 }  // namespace
@@ -134,20 +218,25 @@ std::optional<Pixel> trace_pixel(const Picture& picture, const ParticleSet& near
     const PixelRay ray = pixel_ray(picture.view, picture.width, picture.height, x, y);
     const glm::dvec3 eye = (ray.origin - matter.origin) / matter.cell;
     const double ground = ground_ahead(picture.setting, eye, ray.direction);
-    const PrimaryRay primary(matter, eye, ray.direction, ground);
-    // Gaussians alone have their depth in closed form, their detail has not.
-    const double depth = matter.detail ? primary.depth()
-                                       : line_optical_depth(near, ray.origin, ray.direction, 0,
-                                                            ground * matter.cell);
-    const Sight sight = sight_of(picture, ray, eye, ground, depth);
+    const AreaRays area = rays_of(picture, near, x, y, ray, eye, keyed(key, 2));
+    CloudRays first(picture, eye, area.rays);
+    // Rays at random are noise: the halves have their own.
+    std::optional<CloudRays> second;
+    if (area.random)
+        second.emplace(picture, eye, rays_of(picture, near, x, y, ray, eye, keyed(key, 3)).rays);
+    const std::array<CloudRays*, 2> clouds{&first, second ? &*second : &first};
+    const Sight sight =
+        sight_of(picture, eye, ray.direction, ground, {clouds[0]->through(), clouds[1]->through()});
     Pixel pixel;
-    if (!add_clouds(picture, sight, primary, key, pixel)) return std::nullopt;
+    if (!add_clouds(picture, clouds, key, pixel)) return std::nullopt;
     // A picture without a background shows no ground.
     const bool in_time = picture.opaque && std::isfinite(ground)
                              ? add_ground(picture, sight, keyed(key, 1), pixel)
                              : add_sky(picture, sight, keyed(key, 1), pixel);
     if (!in_time) return std::nullopt;
-    pixel.alpha = alpha_of(picture, sight);
+    for (std::size_t half = 0; half < 2; ++half)
+        pixel.alpha[half] =
+            alpha_of(picture, sight, clouds[half]->covered(), clouds[half]->through());
     return pixel;
 }
 

@@ -20,6 +20,8 @@ namespace awan::truth {
 struct Picture {
     const View& view;
     int width, height;  // pixels
+    // Whether pixels show the mean over their area, or what their middle's ray does.
+    bool whole_pixels;
     // Whether sky and ground are drawn behind the clouds.
     bool opaque;
     const Matter& matter;
@@ -38,7 +40,7 @@ struct Picture {
 struct Pixel {
     // Mean radiance of each half of the paths.
     std::array<glm::dvec3, 2> half{glm::dvec3(0), glm::dvec3(0)};
-    double alpha = 0;
+    std::array<double, 2> alpha{0, 0};  // of the halves
     // Of paths that met the cloud: how many there were, and their scatterings.
     double paths = 0, scatterings = 0;
 };

@@ -1,0 +1,47 @@
+#include "core/survey/narrow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace awan {
+
+double least_width(double depth) {
+    return kLeastWidth + 0.06 * std::log1p(std::clamp(depth, 0.0, 1e9));
+}
+
+double covered_area(double depth) {
+    const double z = std::clamp(depth, 0.0, 1e300);
+    // Ein(z) = ln z + gamma + E1(z); for small z by its series, the sum of -(-z)^n / (n n!).
+    if (z > 4) return std::log(z) + std::numbers::egamma - std::expint(-z);
+    double sum = 0, power = -1;
+    for (int n = 1; n < 40; ++n) {
+        power *= -z / n;
+        sum += power / n;
+        if (std::abs(power) < 1e-12 * sum) break;
+    }
+    return sum;
+}
+
+double depth_covering(double area) {
+    if (!(area > 0)) return 0;
+    // Ein(z) is about z (1 - z / 4) for small z, and ln z + gamma for large ones.
+    double z = area < 2 ? area * (1 + 0.25 * area)
+                        : std::exp(std::min(area - std::numbers::egamma, 690.0));
+    // Newton's method; Ein is concave, and so all but the first of its steps only rise towards the root.
+    for (int i = 0; i < 8; ++i) {
+        const double slope = z < 1e-8 ? 1 - z / 2 : -std::expm1(-z) / z;
+        const double next = std::max(z + (area - covered_area(z)) / slope, 0.5 * z);
+        const bool done = std::abs(next - z) < 1e-7 * z;
+        z = next;
+        if (done) break;
+    }
+    return z;
+}
+
+double widened_depth(double depth, double wider) {
+    if (!(wider > 1)) return depth;
+    return depth_covering(covered_area(depth) / (wider * wider));
+}
+
+}  // namespace awan

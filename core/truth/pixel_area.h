@@ -1,0 +1,38 @@
+// The rays by which a pixel's area is seen: a pixel shows the mean of what they show.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "core/generate/particle_set.h"
+#include "core/survey/survey.h"
+
+namespace awan::truth {
+
+struct AreaRay {
+    glm::dvec3 direction;  // unit
+    double share;          // of the pixel, that it stands for
+    double depth;          // optical
+};
+
+struct AreaRays {
+    std::vector<AreaRay> rays;
+    // Whether some stand at random: another seed would give others.
+    bool random = false;
+};
+
+// Where every particle is wide beside a pixel, its middle; else the 2 x 2 points of Gauss and Legendre's rule. Where
+// particles are narrower than the pixel it is divided as a quadtree until they are wide beside its parts, or there are
+// some hundred parts: then, rays stand at random in each, and what they miss is noise. Parts without matter have no
+// rays: shares may sum to less than 1.
+//
+// near: the particles that the pixel's rays may meet; smallest: least s of what else is seen in the matter, scene units
+// (bumps of detail; they ask for the 2 x 2 points at most, since they are left out where they are below a pixel);
+// end(direction): how far a ray goes, scene units.
+AreaRays area_rays(const View& view, int width, int height, int x, int y, const ParticleSet& near,
+                   double smallest, const std::function<double(const glm::dvec3&)>& end,
+                   std::uint64_t seed);
+
+}  // namespace awan::truth
