@@ -18,8 +18,8 @@ struct SheetMatter {
 };
 
 // What leaves a sheet that a beam of irradiance 1 (across the beam) meets under the cosine `sun`: radiance, without the
-// beam that goes straight through. Cosines are > 0; azimuth: between the directions in which the beam and the light that
-// leaves go, 0: onward.
+// beam that goes straight through. Cosines are > 0; azimuth: between the directions in which the beam and the light
+// that leaves go, 0: onward.
 class Sheet {
     static constexpr int kGauss = 32;  // directions up, and as many down
     static constexpr double kThinnest = 1e-7;
@@ -48,8 +48,8 @@ class Sheet {
     double through(double view, double sun, double azimuth) const {
         return sum(view, sun, azimuth, &Mode::through);
     }
-    // Irradiance that leaves either side for one of 1 on the sheet (across it: the beam's is sun x 1), scattered at least
-    // once.
+    // Irradiance that leaves either side for one of 1 on the sheet (across it: the beam's is sun x 1), scattered at
+    // least once.
     double back_share(double sun) const { return share(sun, modes_[0].back); }
     double through_share(double sun) const { return share(sun, modes_[0].through); }
     double straight_share(double sun) const { return std::exp(-matter_.depth / sun); }
@@ -186,7 +186,8 @@ class Sheet {
         return right;
     }
 
-    // Two layers alike, one upon the other, each of a depth through which exp(-depth / cosine) = straight goes unhindered.
+    // Two layers alike, one upon the other, each of a depth through which exp(-depth / cosine) = straight goes
+    // unhindered.
     Mode doubled(const Mode& layer, const std::vector<double>& straight) const {
         const std::size_t size = n();
         const auto sum = [&](Matrix to, const Matrix& from, bool row, bool column) {

@@ -80,8 +80,9 @@ TEST(AddingDoubling, IsReciprocal) {
         EXPECT_NEAR(sheet.back(.9, .4, azimuth) / .4, sheet.back(.4, .9, azimuth) / .9, 1e-6);
 }
 
-// Light that is scattered once, in a sheet whose upper edge hides all below: the sun's depth is right within a Gaussian.
-// Straight from above all pixels step alike and are off alike; slanting rays don't, and show the sun's depth alone.
+// Light that is scattered once, in a sheet whose upper edge hides all below: the sun's depth is right within a
+// Gaussian. Straight from above all pixels step alike and are off alike; slanting rays don't, and show the sun's depth
+// alone.
 TEST(Sheets, ScatteredOnceWhateverTheSun) {
     for (const double depth : {2., 32.})
         for (const double sun : {1., .5, .1736})

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/generate/gaussian.h"
 #include "core/light/diffusion.h"
 #include "core/light/gmres.h"
 #include "core/light/legendre.h"
@@ -119,6 +120,51 @@ TEST(Lattice, StandsAboutTheMiddleOfWhatItHolds) {
                                                       {0, 0, 1}, 1e-3, count, 1);
         const glm::dvec3 middle = lattice.at(0.5 * glm::dvec3(lattice.cells));
         EXPECT_LT(glm::length(middle - glm::dvec3(0, 1, 2)), 0.5 * 20 / 32) << count;
+    }
+}
+
+// A flat field of Gaussians, uneven across it.
+ParticleSet flat_field() {
+    std::vector<test::Ball> list;
+    for (int i = 0; i < 16; ++i)
+        for (int j = 0; j < 16; ++j)
+            list.push_back({{2. * i, .3 * std::sin(3. * i + j), 2. * j}, 3, 1 + .5 * std::sin(i)});
+    return plan_scene(test::valid(test::balls(list)), 1, {})->particles;
+}
+
+TEST(Lattice, CellsAreAsFlatAsTheMatter) {
+    const ParticleSet field = flat_field();
+    const MatterBox box = box_around_matter(field, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, .01, 1);
+    const Lattice cubic = cubic_cells(box, 32), fitted = fitted_cells(box, 32);
+    EXPECT_GT(fitted.cells.y, 1.5 * cubic.cells.y);
+    EXPECT_LT(fitted.cell.y, .5 * fitted.cell.x);
+    EXPECT_LE(fitted.size(), cubic.size());
+    double mass = 0, whole = 0;
+    for (const float cell : extinction_in(field, fitted, 1))
+        mass += static_cast<double>(cell) * fitted.cell.x * fitted.cell.y * fitted.cell.z;
+    for (std::size_t i = 0; i < field.size(); ++i) whole += gaussian_mass(field, i);
+    EXPECT_NEAR(mass / whole, 1, .01);
+
+    const auto ball = plan_scene(test::valid(test::balls({{{0, 0, 0}, 4, 1}})), 1, {})->particles;
+    const MatterBox round = box_around_matter(ball, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, .01, 1);
+    EXPECT_EQ(fitted_cells(round, 24).cells, cubic_cells(round, 24).cells);
+}
+
+TEST(SunDepth, IsTheLineIntegralInFlatMatterToo) {
+    const ParticleSet field = flat_field();
+    for (const glm::dvec3 way :
+         {glm::dvec3(0, 1, 0), glm::dvec3(.8, .6, 0), glm::dvec3(-.6, -.4, .7)}) {
+        const glm::dvec3 towards = glm::normalize(way);
+        const SunDepth sun = sun_depth(field, towards, 96, 2);
+        EXPECT_EQ(sun.v, glm::dvec3(1, 0, 0)) << "it lies in the matter";
+        double worst = 0;
+        for (int i = 0; i < 200; ++i) {
+            const glm::dvec3 at(15 + 15 * std::sin(i * 12.9), 4 * std::sin(i * 78.2),
+                                15 + 15 * std::sin(i * 37.7));
+            const double exact = line_optical_depth(field, at, towards, 0, INFINITY);
+            worst = std::max(worst, std::abs(depth_at(sun, at) - exact) / (.1 + exact));
+        }
+        EXPECT_LT(worst, .05);
     }
 }
 

@@ -18,8 +18,8 @@ struct Diffusion {
     std::vector<float> diagonal;   // sum of conductances, absorption and what leaves the grid
 };
 
-// sides: of a cell, in units of the shortest; depth: of each cell, extinction x shortest side; scattered: the part of it
-// that is scattered; forward: the mean cosine of that scattering. With the transport depth t = depth - forward *
+// sides: of a cell, in units of the shortest; depth: of each cell, extinction x shortest side; scattered: the part of
+// it that is scattered; forward: the mean cosine of that scattering. With the transport depth t = depth - forward *
 // scattered, a face between cells of side h conducts
 //     1 / (3/2 h (t + t') + kStreaming) / h.
 Diffusion make_diffusion(const glm::ivec3& cells, const glm::vec3& sides,

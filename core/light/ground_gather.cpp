@@ -100,8 +100,9 @@ class CellWalk {
     glm::dvec3 next_{0}, per_{0};
 };
 
-// From p (cells) in direction d (unit, in true proportions). Ways are counted in the cells' shortest sides. With x the scaled depth of the way through a cell and `scaled` k, the cell adds its
-// source times (1 - exp(-x)) / k, dimmed by the cells before it.
+// From p (cells) in direction d (unit, in true proportions). Ways are counted in the cells' shortest sides. With x the
+// scaled depth of the way through a cell and `scaled` k, the cell adds its source times (1 - exp(-x)) / k, dimmed by
+// the cells before it.
 Seen look(const CloudAbove& cloud, const glm::dvec3& p, const glm::dvec3& d) {
     Seen seen;
     const glm::dvec3 in_cells = d / sides_of(cloud);

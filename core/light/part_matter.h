@@ -25,12 +25,13 @@ struct PartGrid {
 };
 
 // The grid lies around part.own and has as many cells as cubes would be, `cells` of them along its longest side, but as
-// flat as the matter is (fitted_cells), and fewer where filling it would be too much work. From above, nothing under the ground is there: `floor` is its height, -infinity without one.
+// flat as the matter is (fitted_cells), and fewer where filling it would be too much work. From above, nothing under
+// the ground is there: `floor` is its height, -infinity without one.
 PartGrid grid_of_part(const LightPart& part, int cells, double floor, int threads);
 
-// The light that the sun's beam, of irradiance 1, leaves in each cell: (all extinction) x shortest side x the mean over the cell
-// of exp(-scaled depth from the sun). `scaled`: the share of the depth that dims light (delta_m.h). All 0 where the
-// deadline passed.
+// The light that the sun's beam, of irradiance 1, leaves in each cell: (all extinction) x shortest side x the mean over
+// the cell of exp(-scaled depth from the sun). `scaled`: the share of the depth that dims light (delta_m.h). All 0
+// where the deadline passed.
 std::vector<float> beam_source(const PartGrid& grid, const SunDepth& sun, double scaled,
                                int threads, const Deadline& deadline);
 

@@ -3,6 +3,13 @@
 #include <algorithm>
 
 namespace awan {
+namespace {
+
+// In a cell much deeper than this light changes from face to face and not evenly from cell to cell: there the
+// difference of two large flows would be wrong by more than the small flow that is left.
+constexpr float kTooDeep = 18;
+
+}  // namespace
 
 Sharpening make_sharpening(const SweepGrid& grid, const Ordinates& ordinates) {
     Sharpening made;
@@ -21,7 +28,7 @@ Sharpening make_sharpening(const SweepGrid& grid, const Ordinates& ordinates) {
                 const float c = ordinates.cosine[axis][d] / side;
                 sum += ordinates.octants[0].weighted[d][0] * c / (6 * c + s);
             }
-            own[i] = 0.5F * s * sum;
+            own[i] = 0.5F * s * sum / (1 + s * s * (1 / (kTooDeep * kTooDeep)));
         }
         std::vector<float>& across = made.across[axis];
         across.assign(own.size(), 0.F);

@@ -17,7 +17,8 @@ namespace awan {
 // diffusion, of conductance
 //     mean over directions of s c / 2 (6 c + s)
 // beside 1 / 3 s (1 - mean cosine), which is right: in cells of depth 2 a third too much. A deep cloud would send
-// back too little light and let too much through. So its opposite is added to the source.
+// back too little light and let too much through. So its opposite is added to the source; less of it in cells so deep
+// that light does not change evenly.
 struct Sharpening {
     glm::ivec3 cells{0};
     std::vector<float> across[3];  // conductance to the next cell along x, y, z (0 after the last)

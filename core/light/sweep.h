@@ -41,11 +41,11 @@ struct SweepSpace {
 // For given sources q solves
 //     o . grad psi + sigma psi = q
 // for the radiance psi in each of the directions o, and gives its moments: integral of psi Y_i. source: moments of q
-// times the cell's shortest side, `harmonics` floats a cell; moments: as many. inflow: what enters; empty: nothing does. Between
-// the faces of a cell psi changes by weighted diamond differences with the weight theta = (3 + tau) / (6 + tau), tau
-// the depth of the cell along the direction. That is second order in thin cells, as the diamond scheme (theta = 1/2)
-// is, but stays positive in thick ones, where that does not. It is linear, which GMRES needs. The sums of four groups
-// of octants are kept apart and added in a fixed order: the same bytes for every number of threads.
+// times the cell's shortest side, `harmonics` floats a cell; moments: as many. inflow: what enters; empty: nothing
+// does. Between the faces of a cell psi changes by weighted diamond differences with the weight theta = (3 + tau) / (6
+// + tau), tau the depth of the cell along the direction. That is second order in thin cells, as the diamond scheme
+// (theta = 1/2) is, but stays positive in thick ones, where that does not. It is linear, which GMRES needs. The sums of
+// four groups of octants are kept apart and added in a fixed order: the same bytes for every number of threads.
 void sweep(const SweepGrid& grid, const Ordinates& ordinates, std::span<const float> source,
            const Inflow& inflow, int threads, SweepSpace& space, std::span<float> moments,
            const InflowFromBelow& from_below = {});
