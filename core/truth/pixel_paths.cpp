@@ -54,11 +54,7 @@ bool add_mean(const Picture& picture, std::uint64_t key, std::uint32_t samples, 
     for (std::uint32_t half = 0; half < 2; ++half) {
         glm::dvec3 sum(0);
         for (std::uint32_t i = 0; i < each; ++i) {
-            if (i % kLook == 0 &&
-                (picture.stop.load(std::memory_order_relaxed) || picture.deadline.over())) {
-                picture.stop = true;
-                return false;
-            }
+            if (i % kLook == 0 && picture.over()) return false;
             PathRandom random(keyed(keyed(key, half), i));
             sum += path(random, (i + random.unit()) / each);
         }
@@ -127,6 +123,7 @@ double alpha_of(const Picture& picture, const Sight& sight) {
 }  // namespace
 
 std::optional<Pixel> trace_pixel(const Picture& picture, const ParticleSet& near, int x, int y) {
+    if (picture.over()) return std::nullopt;
     const Matter& matter = picture.matter;
     const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
                            static_cast<std::size_t>(x);
@@ -134,7 +131,9 @@ std::optional<Pixel> trace_pixel(const Picture& picture, const ParticleSet& near
     const PixelRay ray = pixel_ray(picture.view, picture.width, picture.height, x, y);
     const glm::dvec3 eye = (ray.origin - matter.origin) / matter.cell;
     const double ground = ground_ahead(picture.setting, eye, ray.direction);
-    const PrimaryRay primary(matter, eye, ray.direction, ground);
+    // Where no particle comes near the ray there is nothing to look for.
+    const double end = near.size() == 0 ? 0 : ground;
+    const PrimaryRay primary(matter, eye, ray.direction, end);
     // Gaussians alone have their depth in closed form, their detail has not.
     const double depth = matter.detail ? primary.depth()
                                        : line_optical_depth(near, ray.origin, ray.direction, 0,
