@@ -90,25 +90,6 @@ Status render_march(const Scene& scene, const Planned& planned, const Tools& too
     return march_light(scene, planned, **light, tools, deadline, rendered);
 }
 
-// Noise of a pixel of the mean of both halves, relative to the mean of those pixels that have any.
-double noise_of(const TruthImage& truth) {
-    double square = 0, sum = 0;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < truth.half_a.pixels.size(); i += 4) {
-        const float *const a = truth.half_a.pixels.data() + i, *const b =
-                                                                   truth.half_b.pixels.data() + i;
-        if (std::equal(a, a + 3, b)) continue;
-        ++count;
-        for (int c = 0; c < 3; ++c) {
-            const auto x = static_cast<double>(a[c]), y = static_cast<double>(b[c]);
-            square += 0.25 * (x - y) * (x - y);
-            sum += 0.5 * (x + y);
-        }
-    }
-    const double values = 3 * static_cast<double>(count);
-    return sum > 0 ? std::sqrt(square / values) / (sum / values) : 0;
-}
-
 // Every path of light.
 Status render_paths(const Scene& scene, const Planned& planned, const Tools& tools,
                     const Deadline& deadline, Rendered& rendered) {
@@ -123,7 +104,7 @@ Status render_paths(const Scene& scene, const Planned& planned, const Tools& too
     });
     if (!truth.ok()) return truth.error();
     rendered.image = mean_of(*truth);
-    rendered.stated_error = noise_of(*truth);
+    rendered.stated_error = truth->noise();
     return std::nullopt;
 }
 

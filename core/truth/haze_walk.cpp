@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/scene/outside.h"
+#include "core/truth/flight.h"
 
 namespace awan::truth {
 namespace {
@@ -14,6 +15,17 @@ using std::numbers::pi;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Scale heights: e^-600 of the extinction is none.
 constexpr double kThinnest = 600;
+
+// What comes through the clouds of the sunlight to p; with detail by a flight, 0 or 1, right on average.
+double sun_through_from(const Setting& setting, const glm::dvec3& p, PathRandom& random) {
+    const Matter& m = *setting.matter;
+    if (!m.detail) return std::exp(-depth_to_sun(m, p));
+    Meeting met;
+    double t;
+    return fly_from(m, m.axes * p + m.shift, m.axes * setting.to_sun, 0, kInfinity, random, met, t)
+               ? 0
+               : 1;
+}
 
 }  // namespace
 
@@ -100,8 +112,7 @@ glm::dvec3 haze_light(const HazeSetting& air, const Setting& setting, const Haze
         // A distance with the density of haze that is met before the end.
         const double t = std::min(path.where(-std::log1p(-random.unit() * scattered)), end);
         if (std::isfinite(t))
-            lit = std::exp(
-                -depth_to_sun(*setting.matter, o + (t / setting.matter->cell) * direction));
+            lit = sun_through_from(setting, o + (t / setting.matter->cell) * direction, random);
     }
     const double p = phase_value(air.phase, glm::dot(direction, setting.to_sun)) / (4 * pi);
     return scattered * air.haze.albedo * (lit * p * air.sun + air.ambient);

@@ -1,5 +1,6 @@
 #include "core/truth/lattice.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -11,8 +12,6 @@ namespace {
 
 // Planes that one thread sums at a time.
 constexpr int kSlab = 4;
-// Cells that s has at least on the lattice it is summed on.
-constexpr double kCoarsest = 3.0;
 
 std::size_t count(const glm::ivec3& n) {
     return static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) *
@@ -89,8 +88,7 @@ std::optional<Error> add_level(std::vector<float>& values, const glm::ivec3& nod
     return stop ? deadline.over() : std::nullopt;
 }
 
-// Adds a lattice of twice the cell to `fine`, by the four-point rule of Deslauriers & Dubuc (cubic
-// through the nodes), one axis after the other. Beyond its edge a lattice is 0.
+// Adds a lattice of twice the cell to `fine`, one axis after the other. Beyond its edge a lattice is 0.
 void refine_axis(const std::vector<float>& from, std::size_t stride, std::size_t length,
                  std::size_t fine_length, std::vector<float>& to) {
     const std::size_t outer = from.size() / (stride * length);
@@ -98,18 +96,14 @@ void refine_axis(const std::vector<float>& from, std::size_t stride, std::size_t
     for (std::size_t o = 0; o < outer; ++o)
         for (std::size_t i = 0; i < fine_length; ++i) {
             float* out = to.data() + (o * fine_length + i) * stride;
-            const auto add = [&](std::size_t node, float weight) {
-                if (node >= length) return;
-                add_scaled(out, from.data() + (o * length + node) * stride, weight, stride);
-            };
-            if (i % 2 == 0) {
-                add(i / 2, 1.0f);
-                continue;
+            const Refining rule = refining(static_cast<int>(i));
+            for (int n = 0; n < rule.count; ++n) {
+                const int node = rule.first + n;
+                if (node < 0 || node >= static_cast<int>(length)) continue;
+                add_scaled(out,
+                           from.data() + (o * length + static_cast<std::size_t>(node)) * stride,
+                           rule.weight[n], stride);
             }
-            add(i / 2, 0.5625f);
-            add(i / 2 + 1, 0.5625f);
-            if (i >= 3) add(i / 2 - 1, -0.0625f);
-            add(i / 2 + 2, -0.0625f);
         }
 }
 
@@ -117,16 +111,10 @@ void refine_axis(const std::vector<float>& from, std::size_t stride, std::size_t
 void refine_rows(const std::vector<float>& from, std::size_t length, std::size_t fine_length,
                  std::vector<float>& to) {
     const std::size_t outer = from.size() / length;
-    to.resize(outer * fine_length);
-    for (std::size_t o = 0; o < outer; ++o) {
-        const float* in = from.data() + o * length;
-        float* out = to.data() + o * fine_length;
-        const auto at = [&](std::size_t i) { return i < length ? in[i] : 0.0f; };
-        for (std::size_t i = 0; i < fine_length; ++i)
-            out[i] = i % 2 == 0 ? at(i / 2)
-                                : 0.5625f * (at(i / 2) + at(i / 2 + 1)) -
-                                      0.0625f * (at(i / 2 - 1) + at(i / 2 + 2));
-    }
+    to.assign(outer * fine_length, 0.0f);
+    for (std::size_t o = 0; o < outer; ++o)
+        add_refined_row(from.data() + o * length, static_cast<int>(length),
+                        to.data() + o * fine_length, static_cast<int>(fine_length));
 }
 
 void add_refined(const std::vector<float>& coarse, const glm::ivec3& n, std::vector<float>& fine,
@@ -143,19 +131,38 @@ void add_refined(const std::vector<float>& coarse, const glm::ivec3& n, std::vec
 
 }  // namespace
 
-Result<std::vector<float>> sum_on_lattice(const glm::ivec3& nodes,
-                                          std::span<const LatticeGaussian> gaussians, int threads,
-                                          const Deadline& deadline) {
+LatticeGaussian narrowed(const LatticeGaussian& gaussian) {
+    LatticeGaussian g = gaussian;
+    const double wide = std::max(g.s, kNarrowest);
+    const double narrow = std::sqrt(wide * wide - 1.0 / 6);
+    g.peak *= std::pow(g.s / narrow, 3);
+    g.cut *= wide / narrow;
+    g.s = narrow;
+    return g;
+}
+
+Refining refining(int i) {
+    if (i % 2 == 0) return {i / 2, 1, {1, 0, 0, 0}};
+    return {i / 2 - 1, 4, {-0.0625f, 0.5625f, 0.5625f, -0.0625f}};
+}
+
+void add_refined_row(const float* coarse, int length, float* fine, int count) {
+    const auto at = [&](int i) { return i >= 0 && i < length ? coarse[i] : 0.0f; };
+    for (int i = 0; i < count; ++i) {
+        const int c = i / 2;
+        fine[i] +=
+            i % 2 == 0 ? at(c) : 0.5625f * (at(c) + at(c + 1)) - 0.0625f * (at(c - 1) + at(c + 2));
+    }
+}
+
+Result<std::vector<float>> sum_at_nodes(const glm::ivec3& nodes,
+                                        std::span<const LatticeGaussian> gaussians, int threads,
+                                        const Deadline& deadline) {
     std::vector<std::vector<LatticeGaussian>> levels(1);
     for (LatticeGaussian g : gaussians) {
-        const double wide = std::max(g.s, kNarrowest);
-        const double narrowed = std::sqrt(wide * wide - 1.0 / 6);
-        g.peak *= std::pow(g.s / narrowed, 3);
-        g.cut *= wide / narrowed;
-        g.s = narrowed;
         std::size_t level = 0;
         double scale = 1;
-        while (g.s / scale >= 2 * kCoarsest && level < 12) {
+        while (g.s / scale >= kWide && level < 12) {
             scale *= 2;
             ++level;
         }
@@ -173,6 +180,7 @@ Result<std::vector<float>> sum_on_lattice(const glm::ivec3& nodes,
         std::vector<float> values(count(size[level]), 0.0f);
         if (auto error = add_level(values, size[level], levels[level], threads, deadline))
             return *error;
+        if (auto error = deadline.over()) return *error;
         if (!coarse.empty()) add_refined(coarse, size[level + 1], values, size[level]);
         coarse = std::move(values);
     }

@@ -1,8 +1,6 @@
-// Gaussians summed at the nodes of a lattice, for looking them up between the nodes by trilinear
-// interpolation.
+// Gaussians summed at the nodes of a dense lattice.
 #pragma once
 
-#include <algorithm>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -22,36 +20,31 @@ struct LatticeGaussian {
 
 // The smallest s that a lattice can hold; narrower Gaussians are widened to it, their mass kept.
 inline constexpr double kNarrowest = 0.9;
+// From this s on a Gaussian is summed on a lattice of twice the cell: there it has half of it at least.
+inline constexpr double kWide = 6;
 
-// Values at all nodes, x fastest, then y, then z. Interpolating between nodes widens what it is given by 1/6 cell^2
-// in each axis's variance; the Gaussians are narrowed by as much, so that the interpolated field has their mass and
-// their width. What is left is a ripple of the cells' period and mean 0, at most peak / (4 s^2). Wide Gaussians (s >=
-// 6 cells) are summed on lattices 2, 4, ... times coarser, and refined by cubic interpolation (error < 0.2% of their
-// peak). Bytes do not depend on threads. Errors: kOverDeadline, kCancelled.
-Result<std::vector<float>> sum_on_lattice(const glm::ivec3& nodes,
-                                          std::span<const LatticeGaussian> gaussians, int threads,
-                                          const Deadline& deadline);
+// What is to stand at the nodes, so that interpolating between them gives the Gaussian back. That widens what it is
+// given by 1/6 cell^2 in each axis's variance; the Gaussian is narrowed by as much, so that the interpolated field has
+// its mass and its width. What is left is a ripple of the cells' period and mean 0, at most peak / (4 s^2).
+LatticeGaussian narrowed(const LatticeGaussian& gaussian);
 
-// Trilinear; (x, y, z) in cells, clamped to the lattice. Every side has at least 2 nodes.
-inline float interpolated(const float* values, const glm::ivec3& nodes, double x, double y,
-                          double z) {
-    x = std::clamp(x, 0.0, static_cast<double>(nodes.x - 1));
-    y = std::clamp(y, 0.0, static_cast<double>(nodes.y - 1));
-    z = std::clamp(z, 0.0, static_cast<double>(nodes.z - 1));
-    const int i = std::min(static_cast<int>(x), nodes.x - 2);
-    const int j = std::min(static_cast<int>(y), nodes.y - 2);
-    const int k = std::min(static_cast<int>(z), nodes.z - 2);
-    const float fx = static_cast<float>(x - i), fy = static_cast<float>(y - j),
-                fz = static_cast<float>(z - k);
-    const auto row = static_cast<std::size_t>(nodes.x);
-    const std::size_t plane = row * static_cast<std::size_t>(nodes.y);
-    const float* v = values + static_cast<std::size_t>(i) + row * static_cast<std::size_t>(j) +
-                     plane * static_cast<std::size_t>(k);
-    const auto along = [&](const float* p) { return p[0] + fx * (p[1] - p[0]); };
-    const float a = along(v), b = along(v + row);
-    const float c = along(v + plane), d = along(v + plane + row);
-    const float near = a + fy * (b - a), far = c + fy * (d - c);
-    return near + fz * (far - near);
-}
+// The sums at all nodes, x fastest, then y, then z. Wide Gaussians are summed on lattices 2, 4, ... times coarser, and
+// refined by cubic interpolation (error < 0.2% of their peak). Bytes do not depend on threads. Errors: kOverDeadline,
+// kCancelled.
+Result<std::vector<float>> sum_at_nodes(const glm::ivec3& nodes,
+                                        std::span<const LatticeGaussian> gaussians, int threads,
+                                        const Deadline& deadline);
+
+// Values of `fine` nodes along a line out of those at every second of them: fine[i] of coarse nodes weight by weight.
+// The four-point rule of Deslauriers & Dubuc, cubic through the nodes.
+struct Refining {
+    int first = 0, count = 1;
+    float weight[4] = {1, 0, 0, 0};
+};
+// For fine node i: coarse nodes first..first + count - 1; those beyond the lattice's ends are 0.
+Refining refining(int i);
+
+// A whole row: fine[i], i in 0..count - 1, gets += what `coarse` (of `length` nodes) says.
+void add_refined_row(const float* coarse, int length, float* fine, int count);
 
 }  // namespace awan::truth

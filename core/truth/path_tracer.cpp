@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -21,8 +22,10 @@ using truth::Picture;
 using truth::Pixel;
 using truth::Setting;
 
-// Pixels; particles are looked up by tile.
+// Pixels; particles are looked up by tile, of those of a block of tiles.
 constexpr int kTile = 8;
+// Blocks of a picture, about: every one looks at all particles.
+constexpr double kBlocks = 512;
 
 TruthImage empty_image(const ImageSettings& settings) {
     TruthImage truth;
@@ -48,13 +51,13 @@ struct Tile {
     int left, top, right, bottom;
 };
 
-// Of a picture of width x height pixels, row by row.
-std::vector<Tile> tiles_of(int width, int height) {
+// Those of `side` pixels that the tile consists of, row by row.
+std::vector<Tile> tiles_of(const Tile& all, int side) {
     std::vector<Tile> tiles;
-    for (int top = 0; top < height; top += kTile)
-        for (int left = 0; left < width; left += kTile)
+    for (int top = all.top; top < all.bottom; top += side)
+        for (int left = all.left; left < all.right; left += side)
             tiles.push_back(
-                {left, top, std::min(left + kTile, width), std::min(top + kTile, height)});
+                {left, top, std::min(left + side, all.right), std::min(top + side, all.bottom)});
     return tiles;
 }
 
@@ -84,12 +87,12 @@ struct PathCount {
 // Writes a tile's pixels, as far as there is time.
 PathCount trace_tile(const Tile& tile, const ParticleSet& particles, const Picture& picture,
                      TruthImage& truth) {
+    if (picture.over()) return {};
     const ParticleSet near = particles_before(tile, particles, picture);
     PathCount count;
     for (int y = tile.top; y < tile.bottom; ++y)
         for (int x = tile.left; x < tile.right; ++x) {
-            const std::optional<Pixel> pixel =
-                picture.stop ? std::nullopt : trace_pixel(picture, near, x, y);
+            const std::optional<Pixel> pixel = trace_pixel(picture, near, x, y);
             if (!pixel) return count;
             store(truth.half_a, x, y, pixel->half[0], pixel->alpha[0]);
             store(truth.half_b, x, y, pixel->half[1], pixel->alpha[1]);
@@ -98,28 +101,45 @@ PathCount trace_tile(const Tile& tile, const ParticleSet& particles, const Pictu
     return count;
 }
 
-// Progress by tiles, from any thread; what is told only rises.
-class TileProgress {
+PathCount trace_block(const Tile& block, const ParticleSet& particles, const Picture& picture,
+                      TruthImage& truth) {
+    const ParticleSet near = particles_before(block, particles, picture);
+    PathCount count;
+    for (const Tile& tile : tiles_of(block, kTile)) {
+        const PathCount more = trace_tile(tile, near, picture, truth);
+        count.add(more.paths, more.scatterings);
+    }
+    return count;
+}
+
+// A tile's side, or a multiple of it in a large picture.
+int block_side(int width, int height) {
+    const double pixels = static_cast<double>(width) * height;
+    return kTile * std::max(static_cast<int>(std::sqrt(pixels / kBlocks) / kTile), 1);
+}
+
+// Progress by blocks, from any thread; what is told only rises.
+class BlockProgress {
   public:
-    TileProgress(const Progress& progress, std::size_t tiles)
-        : progress_(progress), tiles_(static_cast<double>(tiles)) {}
+    BlockProgress(const Progress& progress, std::size_t blocks)
+        : progress_(progress), blocks_(static_cast<double>(blocks)) {}
 
     void one_done(bool tell) {
         const std::size_t count = ++done_;
         if (!progress_ || !tell) return;
         // Read again under the lock: another thread may have told more meanwhile.
         const std::lock_guard lock(telling_);
-        progress_(static_cast<double>(std::max(count, done_.load())) / tiles_);
+        progress_(static_cast<double>(std::max(count, done_.load())) / blocks_);
     }
 
   private:
     const Progress& progress_;
-    double tiles_;
+    double blocks_;
     std::atomic<std::size_t> done_{0};
     std::mutex telling_;
 };
 
-// In the order of the tiles, so that the sum does not depend on the threads.
+// In the order of the blocks, so that the sum does not depend on the threads.
 double scatterings_a_path(const std::vector<PathCount>& counts) {
     PathCount all;
     for (const PathCount& count : counts) all.add(count.paths, count.scatterings);
@@ -155,12 +175,13 @@ Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles,
         .stop = stop,
     };
 
-    const std::vector<Tile> tiles = tiles_of(picture.width, picture.height);
-    std::vector<PathCount> counts(tiles.size());
-    TileProgress told(progress, tiles.size());
-    parallel_for(options.threads, tiles.size(), [&](std::size_t i) {
-        if (stop.load(std::memory_order_relaxed)) return;
-        counts[i] = trace_tile(tiles[i], particles, picture, truth);
+    const std::vector<Tile> blocks =
+        tiles_of({0, 0, picture.width, picture.height}, block_side(picture.width, picture.height));
+    std::vector<PathCount> counts(blocks.size());
+    BlockProgress told(progress, blocks.size());
+    parallel_for(options.threads, blocks.size(), [&](std::size_t i) {
+        if (picture.over()) return;
+        counts[i] = trace_block(blocks[i], particles, picture, truth);
         told.one_done(!stop);
     });
     if (stop) {
@@ -169,6 +190,26 @@ Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles,
     }
     truth.scatterings = scatterings_a_path(counts);
     return truth;
+}
+
+double TruthImage::noise() const {
+    const auto at = [](const Image& image, std::size_t i, std::size_t c) {
+        return static_cast<double>(image.pixels[4 * i + c]);
+    };
+    double most = 0;
+    for (std::size_t i = 0; i < half_a.pixel_count(); ++i) most = std::max(most, at(half_a, i, 3));
+    double square = 0, sum = 0, count = 0;
+    for (std::size_t i = 0; i < half_a.pixel_count(); ++i) {
+        if (at(half_a, i, 3) < 0.05 * most) continue;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double a = at(half_a, i, c), b = at(half_b, i, c);
+            // The mean's variance is half of that of each half, the difference's twice.
+            square += (a - b) * (a - b) / 4;
+            sum += (a + b) / 2;
+            count += 1;
+        }
+    }
+    return sum > 0 ? std::sqrt(square / count) / (sum / count) : 0;
 }
 
 Image mean_of(const TruthImage& truth) {

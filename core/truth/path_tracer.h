@@ -1,11 +1,11 @@
 // The truth to measure against: a path tracer, unbiased but for the errors stated here. Slow, and shares no lighting or
 // sampling code with core/light and core/draw.
 //
-// Free flights, phase functions, sky and ground are sampled exactly. Errors that more samples do not take away: the
-// extinction is that of truth/matter.h (within .35% of the cloud's largest unless tens of thousands of particles are
-// narrower than 1/176 of the cloud), the optical depth to the sun is tabulated (within .5% or .005), and paths end
-// after kMaxOrders scatterings, which matters for albedo > .9999 in optical depths (1 - g) tau > 300 only: they then
-// lose what so long a path would still have brought, below 2% of a pixel.
+// Free flights, phase functions, sky and ground are sampled exactly, and the optical depth to the sun is the integral
+// of the very extinction that flights meet. Errors that more samples do not take away: that extinction has the
+// particles' mass and widths, but ripples about their sum by 1 / (4 s^2) of a particle's own, s in cells
+// (truth/matter.h); and paths end after kMaxOrders scatterings, which matters for albedo > .9999 in optical depths (1 -
+// g) tau > 300 only: they then lose what so long a path would still have brought, below 2% of a pixel.
 //
 // The ground (Scene's `ground`) is an infinite Lambertian plane, seen and felt from above only: from below it is not
 // there. Its light from the sun comes from all of the sun's disc (angular radius .2665 degrees, even): shadows have a
@@ -54,6 +54,10 @@ struct TruthImage {
     Image half_a, half_b;
     // A path that met the cloud has so many, on average.
     double scatterings = 0;
+
+    // What is known of the noise of mean_of(this): its root mean square over the cloud's pixels (alpha at least 5% of
+    // the largest), relative to their mean radiance, from the halves' difference. Unbiased in its square.
+    double noise() const;
 };
 
 // Linear radiance as core/draw gives it: premultiplied, alpha = 1 - transmittance of clouds and haze (exact on

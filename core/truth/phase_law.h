@@ -28,6 +28,7 @@ inline PhaseLaw phase_law(const Medium& medium) {
 // 3 (1 + cos^2) / (2 (2 + g^2)).
 inline double phase_value(const PhaseLaw& law, double cosine) {
     const double size = std::abs(law.g);
+    if (size == 0 && !law.cornette_shanks) return 1;
     const double apart = std::max(1 - (law.g >= 0 ? cosine : -cosine), 0.0);
     const double base = (1 - size) * (1 - size) + 2 * size * apart;
     const double hg = (1 - size) * (1 + size) / (base * std::sqrt(base));
@@ -65,6 +66,11 @@ inline glm::dvec3 scattered(const PhaseLaw& law, const glm::dvec3& direction, Pa
         const PathRandom::Pair p = random.signed_pair();
         const double r2 = p.a * p.a + p.b * p.b;
         if (r2 >= 1) continue;
+        if (law.g == 0 && !law.cornette_shanks) {
+            // Even over the sphere, by the same point of the disc.
+            const double aside = 2 * std::sqrt(1 - r2);
+            return {aside * p.a, aside * p.b, 1 - 2 * r2};
+        }
         const double cosine = henyey_greenstein_cosine(law.g, r2);
         if (law.cornette_shanks && 2 * random.unit() > 1 + cosine * cosine) continue;
         const double per_r = 1 / std::sqrt(r2);

@@ -107,11 +107,7 @@ bool add_mean(const Picture& picture, std::uint64_t key, std::uint32_t samples, 
     for (std::uint32_t half = 0; half < 2; ++half) {
         glm::dvec3 sum(0);
         for (std::uint32_t i = 0; i < each; ++i) {
-            if (i % kLook == 0 &&
-                (picture.stop.load(std::memory_order_relaxed) || picture.deadline.over())) {
-                picture.stop = true;
-                return false;
-            }
+            if (i % kLook == 0 && picture.over()) return false;
             PathRandom random(keyed(keyed(key, half), i));
             sum += path(random, (i + random.unit()) / each, half);
         }
@@ -192,6 +188,8 @@ AreaRays rays_of(const Picture& picture, const ParticleSet& near, int x, int y,
         return ground_ahead(picture.setting, eye, d) * matter.cell;
     };
     AreaRays area;
+    // Where no particle comes near the pixel there is nothing to look for.
+    if (near.size() == 0) return area;
     if (picture.whole_pixels) {
         // Bumps rise and fall as a Gaussian of about a quarter of their width does.
         const double smallest = matter.detail ? 0.25 * matter.detail->bump : INFINITY;
@@ -211,6 +209,7 @@ AreaRays rays_of(const Picture& picture, const ParticleSet& near, int x, int y,
 }  // namespace
 
 std::optional<Pixel> trace_pixel(const Picture& picture, const ParticleSet& near, int x, int y) {
+    if (picture.over()) return std::nullopt;
     const Matter& matter = picture.matter;
     const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
                            static_cast<std::size_t>(x);

@@ -35,6 +35,12 @@ struct Picture {
     const Deadline& deadline;
     // Set by the first pixel that finds the time over; all others stop then.
     std::atomic<bool>& stop;
+
+    // Whether there is no time left; looks at the clock.
+    bool over() const {
+        if (!stop.load(std::memory_order_relaxed) && deadline.over()) stop = true;
+        return stop.load(std::memory_order_relaxed);
+    }
 };
 
 struct Pixel {

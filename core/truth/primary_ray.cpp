@@ -4,13 +4,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/truth/brick_sample.h"
 #include "core/truth/brick_walk.h"
 
 namespace awan::truth {
 namespace {
 
-constexpr double kStep = 0.7;       // cells
 constexpr double kStepDepth = 0.1;  // optical depth a step
+constexpr double kShortest = 1e-9;  // cells
 // Of the largest bumps; the smallest are four times that.
 constexpr double kDetailStep = 0.05;
 // Optical depth: e^-30 of the light comes from behind it.
@@ -46,46 +47,83 @@ std::vector<Met> listed_along(const Matter& m, const glm::dvec3& o, const glm::d
     return met;
 }
 
+// Where a ray leaves the cells of the lattice, one after the other.
+class CellBorders {
+  public:
+    CellBorders(const glm::dvec3& o, const glm::dvec3& d) : o_(o), d_(d) {}
+
+    // From t on.
+    void start(double t) {
+        for (int a = 0; a < 3; ++a) {
+            side_[a] = 1 / std::max(std::abs(d_[a]), 1e-12);
+            const double at = o_[a] + t * d_[a];
+            next_[a] =
+                t + (d_[a] > 0 ? std::floor(at) + 1 - at : at - std::ceil(at) + 1) * side_[a];
+        }
+    }
+    // The first after t; t rises from call to call.
+    double after(double t) {
+        for (int a = 0; a < 3; ++a)
+            while (next_[a] <= t) next_[a] += side_[a];
+        return std::min({next_[0], next_[1], next_[2]});
+    }
+
+  private:
+    const glm::dvec3 o_, d_;
+    double next_[3]{}, side_[3]{};
+};
+
 }  // namespace
 
-PrimaryRay::PrimaryRay(const Matter& m, const glm::dvec3& o, const glm::dvec3& d, double end) {
-    if (m.empty) return;
-    const BrickWalk inside(m, o, d, 0, end);
-    if (!inside.inside()) return;
-    double t = inside.enter();
-    end = inside.end();
-    const std::vector<Met> met = listed_along(m, o, d, t, end);
-    const auto on_lattice = [&](double at) {
-        if (m.extinction.empty()) return 0.0;
-        const glm::dvec3 p = o + at * d;
-        return with_detail(m, interpolated(m.extinction.data(), m.nodes, p.x, p.y, p.z), p);
+PrimaryRay::PrimaryRay(const Matter& m, const glm::dvec3& from, const glm::dvec3& along,
+                       double end) {
+    if (m.empty || !(end > 0)) return;
+    const glm::dvec3 o = m.axes * from + m.shift, d = m.axes * along;
+    BrickWalk walk(m, o, d, 0, end);
+    if (!walk.inside()) return;
+    const std::vector<Met> met = listed_along(m, o, d, walk.enter(), walk.end());
+    CellBorders borders(o, d);
+    const double longest = m.detail ? kDetailStep * m.detail->bump / m.cell : INFINITY;
+    double depth = 0;
+    const auto add = [&](double t, double extinction) {
+        t_.push_back(t);
+        depth_.push_back(depth);
+        extinction_.push_back(extinction);
     };
-    const double longest =
-        m.detail ? std::min(kStep, kDetailStep * m.detail->bump / m.cell) : kStep;
-    double depth = 0, here = on_lattice(t), step = longest;
-    t_.push_back(t);
-    depth_.push_back(0);
-    while (t < end && depth < kDark) {
-        double next, there, more;
-        for (;;) {
-            next = std::min(t + step, end);
-            there = on_lattice(next);
-            more = 0.5 * (here + there) * (next - t);
-            for (const Met& one : met)
-                if (one.from < next && one.to > t) more += listed_depth(*one.one, o, d, t, next);
-            // A step below rounding cannot be split any more.
-            if (more <= kStepDepth || !(t + 0.25 * (next - t) > t) || step < 1e-9) break;
-            step *= 0.5;
-        }
-        t = next;
-        here = there;
-        depth += more;
-        step = std::min(2 * step, longest);
-        if (more > 0 || t_.size() > 1) {
-            t_.push_back(t);
-            depth_.push_back(depth);
-        } else {
-            t_.back() = t;
+    for (; walk.inside() && depth < kDark; walk.advance()) {
+        const Brick& brick = m.brick[walk.brick()];
+        if (brick.nodes == kNoNodes && brick.listed == 0) continue;
+        const glm::dvec3 corner(walk.at() * kBrick);
+        const auto extinction_at = [&](double at) {
+            if (brick.nodes == kNoNodes) return 0.0;
+            const glm::dvec3 q = o + at * d, local = q - corner;
+            const InCell in = in_cell(brick.nodes, static_cast<float>(local.x),
+                                      static_cast<float>(local.y), static_cast<float>(local.z));
+            return with_detail(m, sampled(m, in).extinction, q);
+        };
+        double t = walk.enter(), here = extinction_at(t);
+        borders.start(t);
+        const double leave = walk.leave();
+        if (t_.empty() || t_.back() < t) add(t, here);
+        while (t < leave && depth < kDark) {
+            double next = std::min({borders.after(t), leave, t + longest});
+            if (!(next > t + kShortest)) next = std::min(leave, t + kShortest);
+            double there, more;
+            for (;;) {
+                // Simpson's rule: trilinear along a ray is a cubic within a cell.
+                there = extinction_at(next);
+                more = (here + 4 * extinction_at(0.5 * (t + next)) + there) * (next - t) / 6;
+                for (const Met& one : met)
+                    if (one.from < next && one.to > t)
+                        more += listed_depth(*one.one, o, d, t, next);
+                // A step below rounding cannot be split any more.
+                if (more <= kStepDepth || next - t < kShortest || !(0.5 * (t + next) > t)) break;
+                next = 0.5 * (t + next);
+            }
+            t = next;
+            here = there;
+            depth += more;
+            add(t, here);
         }
     }
 }
@@ -97,7 +135,11 @@ double PrimaryRay::first_meeting(double share) const {
     const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - depth_.begin(), 1));
     const double rise = depth_[i] - depth_[i - 1];
     const double part = rise > 0 ? std::clamp((depth - depth_[i - 1]) / rise, 0.0, 1.0) : 0.5;
-    return t_[i - 1] + part * (t_[i] - t_[i - 1]);
+    // Where extinction a + (b - a) x has gathered that part of what it has up to x = 1.
+    const double a = extinction_[i - 1], b = extinction_[i];
+    const double x =
+        a + b > 0 ? part * (a + b) / (a + std::sqrt(a * a + part * (b * b - a * a))) : part;
+    return t_[i - 1] + std::clamp(x, 0.0, 1.0) * (t_[i] - t_[i - 1]);
 }
 
 ParticleSet particles_near(const ParticleSet& particles, const glm::dvec3& eye,
@@ -109,15 +151,16 @@ ParticleSet particles_near(const ParticleSet& particles, const glm::dvec3& eye,
         half = std::max(half,
                         std::atan2(glm::length(glm::cross(axis, corner)), glm::dot(axis, corner)));
     half += 1e-6;
+    const double sine = std::sin(half), cosine = std::cos(half);
     ParticleSet near;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const glm::dvec3 v = particles.center[i] - eye;
-        const double distance = glm::length(v);
         const double reach = 9 * 0.5 * static_cast<double>(particles.radius[i]);
-        if (distance > reach) {
-            const double angle = std::atan2(glm::length(glm::cross(axis, v)), glm::dot(axis, v));
-            if (angle > half + std::asin(reach / distance)) continue;
-        }
+        const double along = glm::dot(v, axis), aside = glm::length(v - along * axis);
+        // From the cone's side, or, behind its tip, from that.
+        const double outside =
+            along * cosine + aside * sine > 0 ? aside * cosine - along * sine : glm::length(v);
+        if (outside > reach) continue;
         near.center.push_back(particles.center[i]);
         near.radius.push_back(particles.radius[i]);
         near.density.push_back(particles.density[i]);

@@ -10,8 +10,9 @@
 
 namespace awan::truth {
 
-// Optical depth along o + t d (cells), t from 0 to `end` (may be infinite), tabulated at steps of at most .7 cell and
-// .1 of depth as far as a depth of 30.
+// Optical depth along o + t d (p in matter.h), t from 0 to `end` (may be infinite), tabulated at every cell's border
+// and at steps of .1 of depth as far as a depth of 30: exact for what stands on the lattice, in closed form for the
+// listed. With detail in steps of a twentieth of the largest bumps.
 class PrimaryRay {
   public:
     PrimaryRay(const Matter& matter, const glm::dvec3& o, const glm::dvec3& d, double end);
@@ -23,11 +24,12 @@ class PrimaryRay {
     double first_meeting(double share) const;
 
   private:
-    std::vector<double> t_, depth_;  // as long as each other, rising
+    // As long as each other; t and depth rise. Extinction of the lattice at t.
+    std::vector<double> t_, depth_, extinction_;
 };
 
-// Those particles that a ray from the eye may meet whose direction is between four corners' (unit); farther than 9 s
-// they do not count. No colours.
+// Those particles, in order, that a ray from the eye may meet whose direction is between four corners' (unit); farther
+// than 9 s they do not count. No colours.
 ParticleSet particles_near(const ParticleSet& particles, const glm::dvec3& eye,
                            const std::array<glm::dvec3, 4>& corners);
 

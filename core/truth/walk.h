@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/scene/outside.h"
+#include "core/truth/flight.h"
 #include "core/truth/matter.h"
 #include "core/truth/path_random.h"
 #include "core/truth/path_tracer.h"
@@ -12,11 +13,7 @@
 
 namespace awan::truth {
 
-// Free flights of one path that meet more than this many points to look at end as if nothing stood there; only a
-// walk along a steep edge of optical depth > 1e6 comes near it.
-inline constexpr std::uint32_t kMaxTentative = 1u << 20;
-
-// Everything that a walk needs to know of a scene. Positions in cells (matter.h), scene axes.
+// Everything that a walk needs to know of a scene. Positions in cells, scene axes (p in matter.h).
 struct Setting {
     const Matter* matter = nullptr;
     PhaseLaw phase;
