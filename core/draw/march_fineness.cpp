@@ -30,6 +30,7 @@ double longest_step(const TransportLight& light, double mean_s, double least_s) 
 
 double most_apart(const TransportLight& light) {
     double most = light.cell > 0 ? kLightApart * light.cell : 1e300;
+    if (!light.fine.bands.empty()) most = kLightApart * light.fine.cell;
     if (light.sun.cell > 0) most = std::min(most, kSunApart * light.sun.cell);
     return most;
 }

@@ -1,5 +1,7 @@
 #include "core/light/band_solve.h"
 
+#include <cmath>
+
 #include "core/light/diffusion.h"
 #include "core/light/gmres.h"
 
@@ -41,6 +43,20 @@ LightBand band_of(const BandProblem& problem, const std::vector<float>& moments)
     return band;
 }
 
+// The moments of the radiance of which `guess` is the source function; what does not scatter leaves no trace in it.
+std::vector<float> radiance_of_guess(const BandProblem& problem) {
+    const Matter& matter = problem.matter;
+    const auto count = static_cast<std::size_t>(matter.grid.harmonics);
+    std::vector<float> moments(matter.grid.size() * count);
+    for (std::size_t i = 0; i < problem.guess.size(); ++i)
+        for (std::size_t m = 0; m < count; ++m) {
+            const float scatters =
+                matter.albedo[i] * static_cast<float>(problem.split.outside_peak(kOrderOf[m]));
+            if (std::abs(scatters) > 1e-6F) moments[i * count + m] = problem.guess[i][m] / scatters;
+        }
+    return moments;
+}
+
 }  // namespace
 
 // Written for the moments phi alone, the equation is (1 - K) phi = right: K scatters the light of phi and sweeps it
@@ -70,15 +86,20 @@ Result<SolvedBand> solve_band(const BandProblem& problem, const Ordinates& ordin
         return std::nullopt;
     };
     // What a vector of moments scatters evenly, spread by diffusion.
-    const Diffusion diffusion = make_diffusion(matter.grid.cells, matter.grid.depth,
-                                               matter.scattered, problem.split.moment[1]);
+    Diffusion diffusion;
+    if (!problem.spread)
+        diffusion = make_diffusion(matter.grid.cells, matter.grid.depth, matter.scattered,
+                                   problem.split.moment[1]);
     std::vector<float> unsettled(cells);
     const auto diffuse = [&](std::span<const float> vector, std::span<float> addition) {
         for (std::size_t i = 0; i < cells; ++i)
             unsettled[i] = matter.scattered[i] * vector[i * count];
-        solve_diffusion(diffusion, unsettled, kDiffusionTolerance, addition);
+        if (problem.spread)
+            problem.spread(unsettled, addition);
+        else
+            solve_diffusion(diffusion, unsettled, kDiffusionTolerance, addition);
     };
-    std::vector<float> moments(source.size());
+    std::vector<float> moments = radiance_of_guess(problem);
     const auto outcome = gmres(one_minus_k, {count, diffuse}, right,
                                {problem.tolerance, problem.max_sweeps, kBasis}, threads, moments);
     if (!outcome.ok()) return outcome.error();

@@ -2,6 +2,9 @@
 // GMRES (gmres.h) that is helped along by diffusion (diffusion.h).
 #pragma once
 
+#include <functional>
+#include <span>
+
 #include "core/base/deadline.h"
 #include "core/light/delta_m.h"
 #include "core/light/part_matter.h"
@@ -18,7 +21,12 @@ struct BandProblem {
     glm::dvec3 beam_direction{0, -1, 0};  // the way the light goes, unit
     Inflow inflow{};                      // what comes in through the grid's faces; empty: nothing
     InflowFromBelow from_below{};         // and beside that; empty: nothing
-    double tolerance = 1e-3;              // of the residual, relative to the source
+    // The source function that the solve begins from, as SolvedBand::band has it; EMPTY: dark.
+    std::vector<std::array<float, kHarmonics>> guess{};
+    // Adds to `addition`, a number a cell, about what evenly scattered light of the strength `unsettled` becomes over
+    // many mean free paths; EMPTY: by diffusion on the grid itself.
+    std::function<void(std::span<const float> unsettled, std::span<float> addition)> spread{};
+    double tolerance = 1e-3;  // of the residual, relative to the source
     int max_sweeps = 40;
 };
 

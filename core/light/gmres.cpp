@@ -145,17 +145,43 @@ void take_best(const KrylovSpace& space, std::size_t every, int threads, std::sp
             x[i * every] += static_cast<float>(y[v]) * space.additions[v][i];
 }
 
+struct Begun {
+    double left;   // |b - A x|
+    int products;  // of A, to know it
+};
+
+// residual = b - A x, or b and x = 0 where x is no better than that. `whole`: |b|. A guess that is not finite counts as
+// no better.
+Result<Begun> residual_of_guess(const Product& product, std::span<const float> b, double whole,
+                                int threads, std::span<float> x, Vector& residual) {
+    if (std::all_of(x.begin(), x.end(), [](float value) { return value == 0; }))
+        return Begun{whole, 0};
+    Vector product_of_x(b.size());
+    if (auto error = product(x, product_of_x)) return *error;
+    for (std::size_t i = 0; i < b.size(); ++i) residual[i] = b[i] - product_of_x[i];
+    const double left = norm(residual, threads);
+    if (left < whole) return Begun{left, 1};
+    std::fill(x.begin(), x.end(), 0.F);
+    std::copy(b.begin(), b.end(), residual.begin());
+    return Begun{whole, 1};
+}
+
 }  // namespace
 
 Result<GmresOutcome> gmres(const Product& product, const Preconditioner& preconditioner,
                            std::span<const float> b, const GmresSettings& settings, int threads,
                            std::span<float> x) {
     GmresOutcome outcome;
-    std::fill(x.begin(), x.end(), 0.F);
     Vector residual(b.begin(), b.end());
     const double whole = norm(residual, threads);
-    double left = whole;
-    if (!(whole > 0) || !std::isfinite(whole)) return outcome;
+    if (!(whole > 0) || !std::isfinite(whole)) {
+        std::fill(x.begin(), x.end(), 0.F);
+        return outcome;
+    }
+    auto begun = residual_of_guess(product, b, whole, threads, x, residual);
+    if (!begun.ok()) return begun.error();
+    double left = begun->left;
+    outcome.products = begun->products;
     const auto most = static_cast<std::size_t>(std::max(settings.restart, 1));
     const auto goes_on = [&] {
         return left > settings.tolerance * whole && outcome.products < settings.max_products;

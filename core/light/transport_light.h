@@ -26,6 +26,19 @@ struct LightBand {
     float most = std::numeric_limits<float>::infinity();
 };
 
+// Bands on finer cells than those of the grid, where lumps of detail are too small for these.
+struct FineLight {
+    // As in TransportLight.
+    glm::dvec3 origin{0};
+    double cell = 0;
+    glm::ivec3 cells{0};
+    struct Band {
+        std::size_t index;  // of the band in TransportLight::bands whose place it takes
+        LightBand band;
+    };
+    std::vector<Band> bands;  // by index; EMPTY: there is no such light
+};
+
 struct LightIsland;
 
 // The light of a scene. It does not depend on the view: it is kept while the camera moves.
@@ -38,6 +51,7 @@ struct TransportLight {
     double cell = 0;
     glm::ivec3 cells{0};
     std::vector<LightBand> bands;
+    FineLight fine;
     // Of each cell, for the sun's beam; EMPTY: medium.albedo everywhere.
     std::vector<glm::vec3> albedo;
     SunDepth sun;
