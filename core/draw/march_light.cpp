@@ -9,9 +9,6 @@
 #include "core/light/harmonics.h"
 
 namespace awan {
-std::function<double(const glm::dvec3&)> lab_depth;
-}  // namespace awan
-namespace awan {
 namespace {
 
 // An eye this near to the grid, in cells, is close to it.
@@ -92,13 +89,13 @@ std::array<float, kHarmonics> harmonics_f(const glm::dvec3& d) {
     return y;
 }
 
-// The source function from the moments, for the ray's own direction.
+// A band's source function from its moments, for the ray's own direction.
 Rgb4 of_band(const LightBand& band, const Corners& c, const LightRay& ray) {
     const float s = between(c, [&](std::size_t i) { return dot(band.moments[i], ray.harmonics); });
     return std::clamp(s, 0.0f, band.most) * rgb4(band.color);
 }
 
-// The same; `fine`: the neighbours in FineLight, where there is one.
+// That of all bands; `fine`: the neighbours in FineLight, where there is one.
 Rgb4 along_ray(const TransportLight& light, const Corners& c, const Corners& fine,
                const LightRay& ray) {
     Rgb4 sum{};
@@ -136,7 +133,7 @@ std::vector<Rgb4> on_fine_cells(const TransportLight& light, const std::vector<R
                ny = static_cast<std::size_t>(fine.cells.y);
     std::vector<Rgb4> to(nx * ny * static_cast<std::size_t>(fine.cells.z));
     const Neighbours cells(light.cells);
-    const double ratio = fine.cell / light.cell;
+    const auto ratio = fine.cell / light.cell;
     const glm::dvec3 corner = (fine.origin - light.origin) / light.cell - 0.5;
     parallel_for(threads, ny * static_cast<std::size_t>(fine.cells.z), [&](std::size_t row) {
         for (std::size_t i = 0; i < nx; ++i) {
@@ -246,19 +243,6 @@ void along_one(const EyeLight& eye_light, const LightRay& ray, float first, floa
 
 void light_along(const EyeLight& eye_light, const LightRay& ray, float first, float step, int count,
                  LightAt* out) {
-    if (lab_depth)
-    struct Lab {
-        const LightRay& ray;
-        float first, step;
-        int count;
-        LightAt* out;
-        ~Lab() {
-            if (lab_depth)
-                for (int k = 0; k < count; ++k)
-                    out[k].depth = static_cast<float>(lab_depth(
-                        ray.start +
-                        static_cast<double>(first + static_cast<float>(k) * step) * ray.direction));
-        }
     if (eye_light.islands.empty()) {
         along_one(eye_light, ray, first, step, count, out);
         return;

@@ -1,6 +1,7 @@
 #include "core/light/fine_band.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 
@@ -38,7 +39,7 @@ std::vector<Between> between_cells(int cells, int sub) {
 // Trilinear from the grid's cells to the fine ones.
 class Finer {
   public:
-    Finer(const glm::ivec3& cells, int sub) : cells_(cells), sub_(sub) {
+    Finer(const glm::ivec3& cells, int sub) : cells_(cells) {
         for (int axis = 0; axis < 3; ++axis)
             along_[static_cast<std::size_t>(axis)] = between_cells(cells[axis], sub);
     }
@@ -72,16 +73,51 @@ class Finer {
 
   private:
     glm::ivec3 cells_;
-    int sub_;
     std::array<std::vector<Between>, 3> along_;
 };
 
-using Harmonics16 = float __attribute__((vector_size(64)));
-static_assert(sizeof(Harmonics16) == kHarmonics * sizeof(float));
+using Moments = std::array<float, kHarmonics>;
 
-std::vector<std::array<float, kHarmonics>> finer_moments(const Finer& finer, const LightBand& band,
-                                                         std::size_t count, int threads) {
-    std::vector<std::array<float, kHarmonics>> fine(count);
+// Empty cells get the mean of the cells around them that are not, since the eye interpolates between all: at the edges
+// of lumps it sees the lumps' light. Those far from all others get `otherwise`.
+void fill_empty(const SweepGrid& grid, const std::vector<Moments>& otherwise, int threads,
+                std::vector<Moments>& moments) {
+    const glm::ivec3 n = grid.cells;
+    const auto index = [&](int i, int j, int k) {
+        return (static_cast<std::size_t>(k) * static_cast<std::size_t>(n.y) +
+                static_cast<std::size_t>(j)) *
+                   static_cast<std::size_t>(n.x) +
+               static_cast<std::size_t>(i);
+    };
+    parallel_for(threads, static_cast<std::size_t>(n.z), [&](std::size_t layer) {
+        const int k = static_cast<int>(layer);
+        for (int j = 0; j < n.y; ++j)
+            for (int i = 0; i < n.x; ++i) {
+                const std::size_t to = index(i, j, k);
+                if (grid.depth[to] > 0) continue;
+                Moments sum{};
+                int count = 0;
+                for (int z = std::max(k - 1, 0); z <= std::min(k + 1, n.z - 1); ++z)
+                    for (int y = std::max(j - 1, 0); y <= std::min(j + 1, n.y - 1); ++y)
+                        for (int x = std::max(i - 1, 0); x <= std::min(i + 1, n.x - 1); ++x) {
+                            const std::size_t from = index(x, y, z);
+                            if (!(grid.depth[from] > 0)) continue;
+                            ++count;
+                            for (std::size_t m = 0; m < kHarmonics; ++m) sum[m] += moments[from][m];
+                        }
+                if (count == 0) {
+                    moments[to] = otherwise[to];
+                    continue;
+                }
+                for (std::size_t m = 0; m < kHarmonics; ++m)
+                    moments[to][m] = sum[m] / static_cast<float>(count);
+            }
+    });
+}
+
+std::vector<Moments> finer_moments(const Finer& finer, const LightBand& band, std::size_t count,
+                                   int threads) {
+    std::vector<Moments> fine(count);
     for (std::size_t m = 0; m < kHarmonics; ++m)
         finer.each(
             threads, [&](std::size_t i) { return band.moments[i][m]; },
@@ -140,7 +176,8 @@ Result<SolvedBand> fine_band(const BandProblem& problem, const LightBand& coarse
     if (!albedo.empty())
         each_fine_cell(cells, sub,
                        [&](std::size_t i, std::size_t in) { fine_albedo[i] = albedo[in]; });
-    const Matter matter = matter_of(fine, problem.split, fine_albedo, channel);
+    Matter matter = matter_of(fine, problem.split, fine_albedo, channel);
+    matter.grid.skip_empty = true;
     const std::vector<float> beam =
         beam_source(fine, sun, problem.split.scaled(), threads, deadline);
     if (Status failed = deadline.over()) return *failed;
@@ -150,7 +187,10 @@ Result<SolvedBand> fine_band(const BandProblem& problem, const LightBand& coarse
     inner.beam = &beam;
     inner.beam_direction = problem.beam_direction;
     inner.inflow = problem.inflow;
-    inner.guess = finer_moments(finer, coarse, matter.grid.size(), threads);
+    const std::vector<Moments> guess = finer_moments(finer, coarse, matter.grid.size(), threads);
+    inner.guess = guess;
+    for (std::size_t i = 0; i < guess.size(); ++i)
+        if (matter.grid.depth[i] == 0) inner.guess[i] = {};
     inner.tolerance = kTolerance;
     inner.max_sweeps = kMaxSweeps;
     // Light that fine cells of side h scatter, q = (emission a volume) h, is `sub` times the mean q to a cell of side
@@ -169,7 +209,9 @@ Result<SolvedBand> fine_band(const BandProblem& problem, const LightBand& coarse
             threads, [&](std::size_t i) { return spread[i]; },
             [&](std::size_t i, float value) { addition[i] = value; });
     };
-    return solve_band(inner, ordinates, threads, deadline);
+    auto solved = solve_band(inner, ordinates, threads, deadline);
+    if (solved.ok()) fill_empty(matter.grid, guess, threads, solved->band.moments);
+    return solved;
 }
 
 int sun_cells_for(const DetailField* detail, int cells) {

@@ -15,6 +15,8 @@ struct SweepGrid {
     int harmonics = 16;  // 1 (l = 0) or 16 (l <= 3): floats a cell in moments and sources
     // Of each cell: scaled extinction (core/light/delta_m.h) x side, 0..kMaxCellDepth; x fastest.
     std::vector<float> depth;
+    // Whether cells without depth get no moments (0), which saves most of the time there. They must have no source.
+    bool skip_empty = false;
 
     std::size_t size() const { return depth.size(); }
 };
