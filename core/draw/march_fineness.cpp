@@ -17,6 +17,8 @@ constexpr double kLeastStepCells = 0.7;
 // interpolated linearly. With 1.5 cells of the sun's depth the error was four times as large, 0.5% of a backlit
 // picture, and edges were seen where the gap changes.
 constexpr double kLightApart = 0.75, kSunApart = 0.75;
+// Where there is light on fine cells, the sun's lattice is as much finer, for the sake of the light that enters there.
+constexpr double kSunApartInDetail = 1.5;
 
 }  // namespace
 
@@ -31,7 +33,8 @@ double longest_step(const TransportLight& light, double mean_s, double least_s) 
 double most_apart(const TransportLight& light) {
     double most = light.cell > 0 ? kLightApart * light.cell : 1e300;
     if (!light.fine.bands.empty()) most = kLightApart * light.fine.cell;
-    if (light.sun.cell > 0) most = std::min(most, kSunApart * light.sun.cell);
+    const double sun_apart = light.fine.bands.empty() ? kSunApart : kSunApartInDetail;
+    if (light.sun.cell > 0) most = std::min(most, sun_apart * light.sun.cell);
     return most;
 }
 
