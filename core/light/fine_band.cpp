@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/generate/detail.h"
 #include "core/light/diffusion.h"
+#include "core/plan/transport_settings.h"
 
 namespace awan {
 namespace {
@@ -152,7 +153,8 @@ void each_fine_cell(const glm::ivec3& cells, int sub, const Put& put) {
 }  // namespace
 
 bool needs_fine_light(const DetailField* detail, const PartGrid& grid, double scaled) {
-    return detail != nullptr && grid.sub > 1 && grid.fine.cell <= detail->bump &&
+    return detail != nullptr && grid.sub > 1 && grid.fine.size() <= kMostFineCells &&
+           grid.fine.cell <= detail->bump &&
            static_cast<double>(detail->edge) * grid.lattice.cell * scaled > kShallow;
 }
 
@@ -189,6 +191,7 @@ Result<SolvedBand> fine_band(const BandProblem& problem, const LightBand& coarse
     inner.inflow = problem.inflow;
     const std::vector<Moments> guess = finer_moments(finer, coarse, matter.grid.size(), threads);
     inner.guess = guess;
+    // They have no radiance of their own in this solve.
     for (std::size_t i = 0; i < guess.size(); ++i)
         if (matter.grid.depth[i] == 0) inner.guess[i] = {};
     inner.tolerance = kTolerance;

@@ -2,9 +2,10 @@
 //
 // Lumps are many mean free paths deep and have hard edges. On the grid's cells their lit sides and the gaps between
 // them are one: tops come out too dark and hollows too bright, by as much as a half. The sun's depth at the eye's
-// samples has little to do with it, and neither has diffusion, which is smooth: it is light of few scatterings. So the
-// band is solved once more on the fine cells from which the grid's means are taken. The grid's own band is where that
-// begins, and what is left over for many mean free paths is spread on the grid's cells; a few sweeps are enough.
+// samples has little to do with it where g is large, and neither has diffusion, which is smooth: it is light of few
+// scatterings (tests/calibration/README.md has the figures). So the band is solved once more on the fine cells from
+// which the grid's means are taken. The grid's own band is where that begins, and what is left over for many mean free
+// paths is spread on the grid's cells; a few sweeps are enough.
 #pragma once
 
 #include "core/light/band_solve.h"
@@ -28,8 +29,9 @@ Result<SolvedBand> fine_band(const BandProblem& problem, const LightBand& coarse
                              const std::vector<glm::vec3>& albedo, int channel,
                              const Ordinates& ordinates, int threads, const Deadline& deadline);
 
-// Cells along the longest side of SunDepth, for matter with or without detail: light enters lumps by a fraction of one
-// cell only, and what it leaves there is no better than the depth at their edges.
+// Cells along the longest side of SunDepth; `cells`: of matter without detail. Between the nodes the depth is linear,
+// and within a cell that lies across the edge of a lump that is too deep, or too shallow, by much of the cell's depth:
+// with half the cell the error of light that was scattered once is halved.
 int sun_cells_for(const DetailField* detail, int cells);
 
 }  // namespace awan

@@ -100,9 +100,8 @@ Result<LightIsland> light_of_island(const IslandScene& all, std::size_t self,
     island.high = box.high;
     if (cells.sun_cells == 0 || !(mass_of(own) > 0)) return island;
     island.mean_s = box.s_sums[1] / box.s_sums[0];
-    const Lattice prism =
-        sun_lattice(own, sun_direction(all.scene->sun),
-                    sun_cells_for(own.detail.get(), cells.sun_cells), 1);
+    const Lattice prism = sun_lattice(own, sun_direction(all.scene->sun),
+                                      sun_cells_for(own.detail.get(), cells.sun_cells), 1);
     const ParticleSet with = with_others(all.sets, all.islands.list, self, prism);
     TransportSettings settings = all.settings;
     settings.cells = cells.cells;
