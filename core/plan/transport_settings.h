@@ -34,8 +34,8 @@ struct TransportSettings {
     std::vector<IslandCells> islands;
 };
 
-// The most fine cells on which the sun's light is solved once more where there is detail (core/light/fine_band.h): about
-// 1 GB while it is solved, and 60 MB to keep.
+// The most fine cells on which the sun's light is solved once more where there is detail (core/light/fine_band.h):
+// about 1 GB while it is solved, and 60 MB to keep.
 inline constexpr int kMostFineCells = 900'000;
 
 // Fine cells along the side of one of a grid's, where nothing asks for fewer.
