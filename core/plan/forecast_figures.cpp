@@ -125,9 +125,11 @@ IslandWork island_work(const TransportSettings& settings, const Scene& scene,
     IslandWork work;
     work.cells = cells_in(survey.bounds.max - survey.bounds.min, whole.cells);
     work.largest = work.cells;
-    work.updates = updates(survey, whole.sun_cells) + updates(survey, 3 * whole.cells);
+    // Where there is detail the sun's lattice is finer (sun_cells_for, core/light/fine_band.h).
+    const int finer = scene->detail && scene->detail->amount > 0 ? 2 : 1;
+    work.updates = updates(survey, finer * whole.sun_cells) + updates(survey, 3 * whole.cells);
     const SunAxes axes = sun_axes(scene);
-    work.nodes = nodes_in(turned_size_of_all(survey.islands, axes), whole.sun_cells);
+    work.nodes = nodes_in(turned_size_of_all(survey.islands, axes), finer * whole.sun_cells);
     double area = 0, sum = 0;
     const std::vector<IslandCells> cells = island_cells(settings, survey);
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -138,9 +140,9 @@ IslandWork island_work(const TransportSettings& settings, const Scene& scene,
         const double own = cells_in(size, cells[i].cells);
         work.cells += own;
         work.largest = std::max(work.largest, own);
-        work.updates += updates(longest, island.s_sums, cells[i].sun_cells) +
+        work.updates += updates(longest, island.s_sums, finer * cells[i].sun_cells) +
                         updates(longest, island.s_sums, 3 * cells[i].cells);
-        work.nodes += nodes_in(turned_size(size, axes), cells[i].sun_cells);
+        work.nodes += nodes_in(turned_size(size, axes), finer * cells[i].sun_cells);
         const double distance =
             glm::length(0.5 * (island.low + island.high) - survey.view.eye) + longest;
         const double seen = longest / distance * (longest / distance);
