@@ -20,6 +20,8 @@ constexpr double kLeastStepCells = 0.7;
 // interpolated linearly. With 1.5 cells of the sun's depth the error was four times as large, 0.5% of a backlit
 // picture, and edges were seen where the gap changes.
 constexpr double kLightApart = 0.75, kSunApart = 0.75;
+// Where there is light on fine cells, the sun's lattice is as much finer, for the sake of the light that enters there.
+constexpr double kSunApartInDetail = 1.5;
 
 // The side of a cube as large as a cell.
 double typical(const glm::dvec3& cell) {
@@ -45,7 +47,9 @@ double longest_step(const TransportLight& light, double mean_s, double least_s) 
 
 double most_apart(const TransportLight& light) {
     double most = light.has_grid() ? kLightApart * typical(light.cell) : 1e300;
-    if (light.sun.cell.x > 0) most = std::min(most, kSunApart * shortest(layers_apart(light.sun)));
+    if (!light.fine.bands.empty()) most = kLightApart * typical(light.fine.cell);
+    const double sun_apart = light.fine.bands.empty() ? kSunApart : kSunApartInDetail;
+    if (light.sun.cell.x > 0) most = std::min(most, sun_apart * shortest(layers_apart(light.sun)));
     return most;
 }
 

@@ -77,6 +77,12 @@ float dot(const std::array<float, kHarmonics>& a, const std::array<float, kHarmo
     return sum;
 }
 
+// Whether a band is on finer cells.
+bool is_fine(const FineLight& fine, std::size_t index) {
+    return std::any_of(fine.bands.begin(), fine.bands.end(),
+                       [&](const FineLight::Band& one) { return one.index == index; });
+}
+
 std::array<float, kHarmonics> harmonics_f(const glm::dvec3& d) {
     const auto exact = harmonics(d);
     std::array<float, kHarmonics> y{};
@@ -84,15 +90,64 @@ std::array<float, kHarmonics> harmonics_f(const glm::dvec3& d) {
     return y;
 }
 
-// The source function from the moments, for the ray's own direction.
-Rgb4 along_ray(const TransportLight& light, const Corners& c, const LightRay& ray) {
+// A band's source function from its moments, for the ray's own direction.
+Rgb4 of_band(const LightBand& band, const Corners& c, const LightRay& ray) {
+    const float s = between(c, [&](std::size_t i) { return dot(band.moments[i], ray.harmonics); });
+    return std::clamp(s, 0.0f, band.most) * rgb4(band.color);
+}
+
+// That of all bands; `fine`: the neighbours in FineLight, where there is one.
+Rgb4 along_ray(const TransportLight& light, const Corners& c, const Corners& fine,
+               const LightRay& ray) {
     Rgb4 sum{};
-    for (const LightBand& band : light.bands) {
-        const float s =
-            between(c, [&](std::size_t i) { return dot(band.moments[i], ray.harmonics); });
-        sum += std::clamp(s, 0.0f, band.most) * rgb4(band.color);
-    }
+    for (std::size_t b = 0; b < light.bands.size(); ++b)
+        if (!is_fine(light.fine, b)) sum += of_band(light.bands[b], c, ray);
+    for (const FineLight::Band& one : light.fine.bands) sum += of_band(one.band, fine, ray);
     return sum;
+}
+
+// Adds bands to the source functions of a lattice's cells, towards an eye at `place` (cells from the lattice's corner). cell: sides, scene units.
+void add_source(const std::vector<const LightBand*>& bands, const glm::ivec3& cells,
+                const glm::dvec3& place, const glm::dvec3& cell, int threads,
+                std::vector<Rgb4>& source) {
+    const auto nx = static_cast<std::size_t>(cells.x), ny = static_cast<std::size_t>(cells.y);
+    parallel_for(threads, ny * static_cast<std::size_t>(cells.z), [&](std::size_t row) {
+        for (std::size_t i = 0; i < nx; ++i) {
+            const glm::dvec3 center =
+                glm::dvec3(static_cast<double>(i), static_cast<double>(row % ny),
+                           static_cast<double>(row / ny)) +
+                0.5;
+            const auto y = harmonics_f(glm::normalize((place - center) * cell));
+            glm::vec3 sum(0);
+            for (const LightBand* const band : bands)
+                sum +=
+                    band->color * std::clamp(dot(band->moments[row * nx + i], y), 0.0f, band->most);
+            source[row * nx + i] += rgb4(sum);
+        }
+    });
+}
+
+// From the grid's cells to those of FineLight.
+std::vector<Rgb4> on_fine_cells(const TransportLight& light, const std::vector<Rgb4>& source,
+                                int threads) {
+    const FineLight& fine = light.fine;
+    const auto nx = static_cast<std::size_t>(fine.cells.x),
+               ny = static_cast<std::size_t>(fine.cells.y);
+    std::vector<Rgb4> to(nx * ny * static_cast<std::size_t>(fine.cells.z));
+    const Neighbours cells(light.cells);
+    const glm::dvec3 ratio = fine.cell / light.cell;
+    const glm::dvec3 corner = (fine.origin - light.origin) / light.cell - 0.5;
+    parallel_for(threads, ny * static_cast<std::size_t>(fine.cells.z), [&](std::size_t row) {
+        for (std::size_t i = 0; i < nx; ++i) {
+            const glm::dvec3 middle =
+                glm::dvec3(static_cast<double>(i), static_cast<double>(row % ny),
+                           static_cast<double>(row / ny)) +
+                0.5;
+            const Corners c = cells.of(rgb4(glm::vec3(corner + ratio * middle)));
+            to[row * nx + i] = between(c, [&](std::size_t at) { return source[at]; });
+        }
+    });
+    return to;
 }
 
 }  // namespace
@@ -110,22 +165,18 @@ EyeLight source_towards(const TransportLight& light, const glm::dvec3& eye, int 
         glm::max(glm::max(-place, place - glm::dvec3(light.cells)), glm::dvec3(0));
     result.close = glm::length(beyond * light.cell) < kCloseCells * longest(light.cell);
     if (result.close) return result;
-    const auto nx = static_cast<std::size_t>(light.cells.x),
-               ny = static_cast<std::size_t>(light.cells.y);
-    result.source.resize(nx * ny * static_cast<std::size_t>(light.cells.z));
-    parallel_for(threads, ny * static_cast<std::size_t>(light.cells.z), [&](std::size_t row) {
-        for (std::size_t i = 0; i < nx; ++i) {
-            const glm::dvec3 center =
-                glm::dvec3(static_cast<double>(i), static_cast<double>(row % ny),
-                           static_cast<double>(row / ny)) +
-                0.5;
-            const auto y = harmonics_f(glm::normalize((place - center) * light.cell));
-            glm::vec3 sum(0);
-            for (const LightBand& band : light.bands)
-                sum += band.color * std::clamp(dot(band.moments[row * nx + i], y), 0.0f, band.most);
-            result.source[row * nx + i] = rgb4(sum);
-        }
-    });
+    std::vector<const LightBand*> bands, fine;
+    for (std::size_t b = 0; b < light.bands.size(); ++b)
+        if (!is_fine(light.fine, b)) bands.push_back(&light.bands[b]);
+    for (const FineLight::Band& one : light.fine.bands) fine.push_back(&one.band);
+    result.source.resize(static_cast<std::size_t>(light.cells.x) *
+                         static_cast<std::size_t>(light.cells.y) *
+                         static_cast<std::size_t>(light.cells.z));
+    add_source(bands, light.cells, place, light.cell, threads, result.source);
+    if (fine.empty()) return result;
+    result.source = on_fine_cells(light, result.source, threads);
+    add_source(fine, light.fine.cells, (eye - light.fine.origin) / light.fine.cell, light.fine.cell,
+               threads, result.source);
     return result;
 }
 
@@ -139,6 +190,10 @@ LightRay light_ray(const EyeLight& eye_light, const glm::dvec3& start,
         ray.grid = glm::vec3((start - light.origin) / light.cell - 0.5);
         ray.grid_step = glm::vec3(direction / light.cell);
         if (eye_light.close) ray.harmonics = harmonics_f(-direction);
+        if (!light.fine.bands.empty()) {
+            ray.fine = glm::vec3((start - light.fine.origin) / light.fine.cell - 0.5);
+            ray.fine_step = glm::vec3(direction / light.fine.cell);
+        }
     }
     const SunDepth& sun = light.sun;
     if (!sun.depth.empty()) {
@@ -156,18 +211,21 @@ void along_one(const EyeLight& eye_light, const LightRay& ray, float first, floa
     const TransportLight& light = *eye_light.light;
     const bool grid = light.has_grid();
     const bool sun = !light.sun.depth.empty();
-    const Neighbours cells(light.cells), nodes(light.sun.nodes);
+    const bool fine = !light.fine.bands.empty();
+    const Neighbours cells(light.cells), nodes(light.sun.nodes), fine_cells(light.fine.cells);
     const Rgb4 grid_from = rgb4(ray.grid), grid_step = rgb4(ray.grid_step),
+               fine_from = rgb4(ray.fine), fine_step = rgb4(ray.fine_step),
                sun_from = rgb4(ray.sun), sun_step = rgb4(ray.sun_step);
     for (int k = 0; k < count; ++k) {
         const float t = first + static_cast<float>(k) * step;
         LightAt at{};
         if (grid) {
             const Corners c = cells.of(grid_from + t * grid_step);
+            const Corners f = fine ? fine_cells.of(fine_from + t * fine_step) : c;
             if (!eye_light.source.empty())
-                at.source = between(c, [&](std::size_t i) { return eye_light.source[i]; });
+                at.source = between(f, [&](std::size_t i) { return eye_light.source[i]; });
             else if (eye_light.close)
-                at.source = along_ray(light, c, ray);
+                at.source = along_ray(light, c, f, ray);
             if (!light.albedo.empty())
                 at.albedo = between(c, [&](std::size_t i) { return rgb4(light.albedo[i]); });
         }

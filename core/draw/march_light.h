@@ -15,6 +15,7 @@ using Rgb4 = float __attribute__((vector_size(16)));  // r g b and nothing
 struct EyeLight {
     const TransportLight* light = nullptr;
     // Of each cell, towards the eye, radiance per optical depth. EMPTY where there is no grid, or the eye is `close`.
+    // Where there is FineLight, of each of its cells.
     std::vector<Rgb4> source;
     // The eye is in the grid or near it: there is no one direction from a cell to it, so the moments are evaluated
     // along each ray.
@@ -28,6 +29,7 @@ EyeLight source_towards(const TransportLight& light, const glm::dvec3& eye, int 
 // sun + t sun_step in the lattice of the sun's depth.
 struct LightRay {
     glm::vec3 grid{0}, grid_step{0};            // cells, 0 = centre of the first
+    glm::vec3 fine{0}, fine_step{0};            // the same in FineLight, where there is one
     glm::vec3 sun{0}, sun_step{0};              // nodes of SunDepth
     std::array<float, kHarmonics> harmonics{};  // towards the eye; only where EyeLight is close
     glm::dvec3 start{0}, direction{0};          // scene units; islands have lattices of their own

@@ -91,14 +91,18 @@ Result<SolvedBand> solve_band(const BandProblem& problem, const Ordinates& ordin
         return std::nullopt;
     };
     // What a vector of moments scatters evenly, spread by diffusion.
-    const Diffusion diffusion =
-        make_diffusion(matter.grid.cells, matter.grid.sides, matter.grid.depth, matter.scattered,
-                       problem.split.moment[1]);
+    Diffusion diffusion;
+    if (!problem.spread)
+        diffusion = make_diffusion(matter.grid.cells, matter.grid.sides, matter.grid.depth,
+                                   matter.scattered, problem.split.moment[1]);
     std::vector<float> unsettled(cells);
     const auto diffuse = [&](std::span<const float> vector, std::span<float> addition) {
         for (std::size_t i = 0; i < cells; ++i)
             unsettled[i] = matter.scattered[i] * vector[i * count];
-        solve_diffusion(diffusion, unsettled, kDiffusionTolerance, addition);
+        if (problem.spread)
+            problem.spread(unsettled, addition);
+        else
+            solve_diffusion(diffusion, unsettled, kDiffusionTolerance, addition);
     };
     std::vector<float> moments = radiance_of_guess(problem);
     const auto outcome = gmres(one_minus_k, {count, diffuse}, right,

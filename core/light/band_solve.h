@@ -2,6 +2,9 @@
 // GMRES (gmres.h) that is helped along by diffusion (diffusion.h).
 #pragma once
 
+#include <functional>
+#include <span>
+
 #include "core/base/deadline.h"
 #include "core/light/delta_m.h"
 #include "core/light/part_matter.h"
@@ -20,6 +23,9 @@ struct BandProblem {
     InflowFromBelow from_below{};         // and beside that; empty: nothing
     // The source function that the solve begins from, as SolvedBand::band has it; EMPTY: dark.
     std::vector<std::array<float, kHarmonics>> guess{};
+    // Adds to `addition`, a number a cell, about what evenly scattered light of the strength `unsettled` becomes over
+    // many mean free paths; EMPTY: by diffusion on the grid itself.
+    std::function<void(std::span<const float> unsettled, std::span<float> addition)> spread{};
     double tolerance = 1e-3;  // of the residual, relative to the source
     int max_sweeps = 40;
 };

@@ -33,9 +33,9 @@ struct Preconditioner {
     std::function<void(std::span<const float> vector, std::span<float> addition)> add;
 };
 
-// Solves A x = b from the x that is given, or from 0 where that is nearer. The residual never grows from product to product: when a limit ends the solve, x is the
-// best so far. Sums are made in blocks of fixed size: the same bytes for every number of threads. Memory: (restart + 4)
-// vectors and as many additions. Errors: those of A.
+// Solves A x = b from the x that is given, or from 0 where that is nearer. The residual never grows from product to
+// product: when a limit ends the solve, x is the best so far. Sums are made in blocks of fixed size: the same bytes for
+// every number of threads. Memory: (restart + 4) vectors and as many additions. Errors: those of A.
 Result<GmresOutcome> gmres(const Product& product, const Preconditioner& preconditioner,
                            std::span<const float> b, const GmresSettings& settings, int threads,
                            std::span<float> x);

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 
 #include "core/base/parallel.h"
+#include "core/plan/transport_settings.h"
 #include "core/survey/lattice_detail.h"
 
 namespace awan {
@@ -58,7 +59,11 @@ PartGrid grid_of_part(const LightPart& part, int cells, double floor, int thread
         box_around_matter(part.own, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, rest, threads);
     grid.lattice = above(floor, within_work(part.own, box, cells, kMaxCoarseWork, fitted_cells));
     const Lattice& lattice = grid.lattice;
-    grid.sub = cells <= 32 ? 3 : 2;
+    grid.sub = fine_cells_a_side(cells);
+    const auto fine_cells = [&] {
+        return static_cast<double>(lattice.size()) * grid.sub * grid.sub * grid.sub;
+    };
+    if (part.all.detail && grid.sub > 2 && fine_cells() > kMostFineCells) --grid.sub;
     while (grid.sub > 1 && lattice_work(part.all, lattice.cell / static_cast<double>(grid.sub),
                                         lattice.cells * grid.sub) > kMaxFineWork)
         --grid.sub;

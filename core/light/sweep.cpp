@@ -138,6 +138,12 @@ AWAN_INLINE void walk_octant(const Task& task) {
                 Lanes psi_y, psi_z, psi;
                 load(psi_y, row);
                 load(psi_z, layer);
+                if (task.grid.skip_empty && task.grid.depth[cell] == 0) {
+                    pass_cell(cosines, 0, Lanes{}, psi_x, psi_y, psi_z, psi);
+                    store(row, psi_y);
+                    store(layer, psi_z);
+                    continue;
+                }
                 const float* from = task.source + cell * kHarmonics;
                 Lanes q = from[0] * value[0];
                 for (std::size_t m = 1; m < kHarmonics; ++m) q += from[m] * value[m];

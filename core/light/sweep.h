@@ -17,6 +17,8 @@ struct SweepGrid {
     glm::vec3 sides{1};
     // Of each cell: scaled extinction (core/light/delta_m.h) x shortest side, 0..kMaxCellDepth; x fastest.
     std::vector<float> depth;
+    // Whether cells without depth get no moments (0), which saves most of the time there. They must have no source.
+    bool skip_empty = false;
 
     std::size_t size() const { return depth.size(); }
 };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/light/band_solve.h"
+#include "core/light/fine_band.h"
 #include "core/light/ground_band.h"
 #include "core/light/islands.h"
 #include "core/light/nested_grids.h"
@@ -245,6 +246,37 @@ Status add_bands_from_outside(PartSolve& solve, TransportLight& light) {
     return std::nullopt;
 }
 
+// The sun's bands once more, on the grid's fine cells, where it has lumps of detail that its cells do not see.
+Status refine_sunlight(const PartSolve& solve, TransportLight& light) {
+    const DetailField* const detail = solve.part.all.detail.get();
+    if (!needs_fine_light(detail, solve.grid, solve.split.scaled())) return std::nullopt;
+    const SkyDome& sky = solve.outside.sky;
+    SkyInflow physical;
+    if (solve.settings.sky && sky.physical) physical = sky_inflow(sky);
+    const std::vector<Shine> shines =
+        shines_of(solve.outside, physical, solve.colored, solve.settings.sky);
+    FineLight fine = fine_light_on(solve.grid);
+    for (std::size_t index = 0; index < shines.size(); ++index) {
+        const Shine& shine = shines[index];
+        if (!shine.beam) continue;
+        const int channel = channel_of(shine);
+        const Matter matter = matter_of(solve.grid, solve.split, solve.albedo, channel);
+        BandProblem problem{matter, solve.split};
+        problem.beam_direction = -sun_direction(solve.scene->sun);
+        problem.inflow = inflow_of(solve, shine, index);
+        auto solved = timed_for(light.took, Effect::kDetail, [&] {
+            return fine_band(problem, light.bands[index], solve.grid, solve.part.sun, solve.albedo,
+                             channel, solve.ordinates, solve.threads, solve.deadline);
+        });
+        if (!solved.ok()) return solved.error();
+        light.sweeps += solved->sweeps;
+        solved->band.color = shine.color;
+        fine.bands.push_back({index, std::move(solved->band)});
+    }
+    if (!fine.bands.empty()) light.fine = std::move(fine);
+    return std::nullopt;
+}
+
 // The light of the grid that `solve` names, as it is solved; without the sun's depth.
 Result<TransportLight> solve_grid(PartSolve solve) {
     TransportLight light;
@@ -259,6 +291,7 @@ Result<TransportLight> solve_grid(PartSolve solve) {
         if (Status failed = add_bands_of_whole_ground(solve, light)) return *failed;
     if (solve.own_ground() && (solve.settings.ground || solve.settings.ground_shadow))
         if (Status failed = add_own_ground(solve, light)) return *failed;
+    if (Status failed = refine_sunlight(solve, light)) return *failed;
     light.albedo = std::move(solve.albedo);
     return light;
 }
@@ -279,6 +312,8 @@ Result<TransportLight> light_of_part(const Scene& scene, LightPart part,
     light->sun = std::move(part.sun);
     if (nested) {
         extrapolate(*coarser, *light, threads);
+        // Where its own cells would be too many.
+        if (light->fine.bands.empty()) light->fine = coarser->fine;
         light->coarser = coarser;
         if (settings.last) light->solved = {};
     }
@@ -293,7 +328,8 @@ Result<TransportLight> light_of_whole(const Scene& scene, const ParticleSet& par
     const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
     EffectTimes took;
     SunDepth sun = timed_for(took, Effect::kSelfShadow, [&] {
-        return sun_depth(particles, sun_direction(scene->sun), settings.sun_cells, threads);
+        return sun_depth(particles, sun_direction(scene->sun),
+                         sun_cells_in(particles.detail.get(), settings.sun_cells), threads);
     });
     auto light = light_of_part(scene, {particles, particles, std::move(sun), deepest, {}, nullptr},
                                settings, coarser, threads, deadline);

@@ -7,6 +7,9 @@ std::size_t TransportLight::bytes() const {
                         albedo.capacity() * sizeof(glm::vec3) + ground.bytes();
     bytes += bands.capacity() * sizeof(LightBand);
     for (const LightBand& band : bands) bytes += band.moments.capacity() * sizeof(band.moments[0]);
+    bytes += fine.bands.capacity() * sizeof(FineLight::Band);
+    for (const FineLight::Band& one : fine.bands)
+        bytes += one.band.moments.capacity() * sizeof(one.band.moments[0]);
     bytes +=
         regions.nodes.capacity() * sizeof(IslandNode) + regions.list.capacity() * sizeof(Island);
     // Room for islands that is not in use yet, and those in use, whose `light` counts its own size.

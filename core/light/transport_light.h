@@ -27,6 +27,19 @@ struct LightBand {
     float most = std::numeric_limits<float>::infinity();
 };
 
+// Bands on finer cells than those of the grid, where lumps of detail are too small for these.
+struct FineLight {
+    // As in TransportLight.
+    glm::dvec3 origin{0};
+    glm::dvec3 cell{0};
+    glm::ivec3 cells{0};
+    struct Band {
+        std::size_t index;  // of the band in TransportLight::bands whose place it takes
+        LightBand band;
+    };
+    std::vector<Band> bands;  // by index; EMPTY: there is no such light
+};
+
 struct LightIsland;
 struct TransportLight;
 using SharedLight = std::shared_ptr<const TransportLight>;
@@ -42,6 +55,7 @@ struct TransportLight {
     glm::ivec3 cells{0};
     bool has_grid() const { return cell.x > 0; }
     std::vector<LightBand> bands;
+    FineLight fine;
     // Of each cell, for the sun's beam; EMPTY: medium.albedo everywhere.
     std::vector<glm::vec3> albedo;
     SunDepth sun;

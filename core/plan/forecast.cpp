@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/plan/forecast_tables.h"
+#include "core/plan/transport_settings.h"
 
 namespace awan {
 namespace {
@@ -30,21 +31,35 @@ double island_bytes(const IslandWork& work, double bands, double particles, doub
            6 * work.nodes + 8e6 + 64 * particles * (2 + std::max(threads, 1));
 }
 
+// Cells of the solve for the sun where there is detail; 0: there is none. `cells`: of the grid.
+double fine_cells(const Rung& rung, const Scene& scene, double cells) {
+    if (!scene->detail || !(scene->detail->amount > 0)) return 0;
+    double fine = cells * std::pow(fine_cells_a_side(rung.cells), 3);
+    if (fine > kMostFineCells && rung.cells <= 32) fine = 8 * cells;
+    return fine <= kMostFineCells ? fine : 0;
+}
+
 // At its peak, beside particles and picture: the transport solve's vectors, or the light grid and lists of the splats.
 double predicted_bytes(const Rung& rung, const Scene& scene, const Survey& survey,
                        const TimeFigures& figures, int threads) {
     // Of GMRES (core/light/transport.cpp) and the sweeps, 16 floats a cell.
     constexpr double kVectors = 2 * 12 + 8;
+    // Of the sun's solve on fine cells, which takes few sweeps.
+    constexpr double kFineVectors = 18;
     const double pairs = figures[3], particles = figures[2];
     switch (rung.method) {
         case Method::kSplats:
             return 1e6 + 160 * particles + 8 * pairs / 128;
         case Method::kMarch:
-            if (!survey.islands.list.empty())
-                return island_bytes(island_work(transport_settings(rung), scene, survey),
-                                    scene->sky.none ? 1 : 4, particles, kVectors, threads);
-            return std::pow(rung.cells, 3) * 64 * kVectors *
-                       std::min(1.0, figures[5] / std::max(std::pow(rung.cells, 3), 1.0)) +
+            if (!survey.islands.list.empty()) {
+                const IslandWork work = island_work(transport_settings(rung), scene, survey);
+                return island_bytes(work, scene->sky.none ? 1 : 4, particles, kVectors, threads) +
+                       64 * kFineVectors * fine_cells(rung, scene, work.largest) *
+                           std::max(threads, 1);
+            }
+            return std::min(std::pow(rung.cells, 3), figures[5]) * 64 * kVectors +
+                   64 * kFineVectors *
+                       fine_cells(rung, scene, std::min(std::pow(rung.cells, 3), figures[5])) +
                    8e6 + 64 * particles;
         case Method::kPaths:
         case Method::kLook:  // never asked for (plan.cpp)

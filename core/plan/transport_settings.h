@@ -43,6 +43,15 @@ std::vector<int> nested_cells(int cells);
 // Nodes along the longest side of the sun's depth, for a grid with so many cells.
 int sun_cells_for(int cells);
 
+// The most fine cells on which the sun's light is solved once more where there is detail (core/light/fine_band.h):
+// about 1 GB while it is solved, and 60 MB to keep.
+inline constexpr int kMostFineCells = 900'000;
+
+// Fine cells along the side of one of a grid's, where nothing asks for fewer.
+inline int fine_cells_a_side(int cells) {
+    return cells <= 32 ? 3 : 2;
+}
+
 // Of a rung of Method::kMarch.
 TransportSettings transport_settings(const Rung& rung);
 
