@@ -63,6 +63,7 @@ inline AccuracyReport fake_report(const std::vector<FakeRung>& rungs, int width 
         cost.error.pixels = 5000;
         cost.flip = 0.3 * std::min(1.0, rung.error);
         cost.predicted_error = 1.6 * rung.error;
+        cost.stated_error = 1.2 * rung.error;
         cost.predicted_time_ms = 0.8 * rung.time_ms;
         cost.memory_bytes = 1e6 * rung.time_ms;
         cost.picture = disc_picture(width, height, 1 - 0.5 * std::min(1.5, rung.error));

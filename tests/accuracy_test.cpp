@@ -341,7 +341,7 @@ TEST(AccuracyToJson, HasTheContractsShape) {
               json({{"error", 3.2}, {"time_ms", 2.4000000000000004}}));
     EXPECT_EQ(answer["rungs"][1]["predicted"]["error"], nullptr);
     for (const char* const field : {"time_ms", "light_ms", "draw_ms", "error", "error_noise",
-                                    "bias", "bias_noise", "flip", "memory_bytes", "runs"})
+                                    "bias", "bias_noise", "flip", "stated", "memory_bytes", "runs"})
         EXPECT_TRUE(answer["rungs"][8][field].is_number()) << field;
     EXPECT_EQ(answer["rungs"][8]["pareto"], true);
     EXPECT_EQ(answer["left_out"], json::array({{{"rung", "truth"}, {"reason", "no \"time\""}}}));
@@ -359,8 +359,8 @@ TEST(AccuracyToCsv, HasALineARung) {
     const std::string one = accuracy_to_csv(std::vector<NamedAccuracy>{{"", report}});
     EXPECT_EQ(one,
               "rung,time_ms,light_ms,draw_ms,error,error_noise,bias,bias_noise,flip,"
-              "predicted_error,predicted_time_ms,memory_bytes,runs,pareto\n"
-              "harris,40,24,12,0.5,0.002,-0.35,0.001,0.15,0.8,,4e+07,3,true\n");
+              "stated,predicted_error,predicted_time_ms,memory_bytes,runs,pareto\n"
+              "harris,40,24,12,0.5,0.002,-0.35,0.001,0.15,0.6,0.8,,4e+07,3,true\n");
     const std::string two =
         accuracy_to_csv(std::vector<NamedAccuracy>{{"a \"b\", c", report}, {"d", report}});
     EXPECT_TRUE(two.starts_with("scene,rung,"));

@@ -265,8 +265,8 @@ TEST(Detail, FineLightIsTheSameNearAndFar) {
                                        cloud.planned.plan.transport, 2, {});
     ASSERT_TRUE(light.ok());
     const glm::dvec3 middle = light->origin + 0.5 * light->cell * glm::dvec3(light->cells);
-    const double reach = 0.5 * light->cell * light->cells.z;
-    const glm::dvec3 eye = middle + glm::dvec3(0, 0, reach + 2.2 * light->cell);
+    const double reach = 0.5 * light->cell.z * light->cells.z;
+    const glm::dvec3 eye = middle + glm::dvec3(0, 0, reach + 2.2 * longest(light->cell));
     const EyeLight far = source_towards(*light, eye, 2);
     EyeLight near = far;
     ASSERT_FALSE(far.close);

@@ -78,7 +78,8 @@ export async function render(text, { accept = "image/png", signal } = {}) {
       roundTripMs: performance.now() - sent,
       particles: header("Awan-Particles"),
       rung: header("Awan-Rung"),
-      error: header("Awan-Error"), // both as predicted
+      error: header("Awan-Error"), // as measured
+      errorForecast: header("Awan-Error-Forecast"), // both as predicted
       timeMs: header("Awan-Time"),
       effects: list === null ? null : list.split(",").map((name) => name.trim()).filter(Boolean),
       timing: serverTiming(header("Server-Timing") ?? ""),

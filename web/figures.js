@@ -20,7 +20,7 @@ export function createFigures(store) {
   let choices = []; // [{ name, input }]
 
   // After every picture, small ones too.
-  function picture({ particles, rung, error, timeMs, effects, timing, roundTripMs }, width, height) {
+  function picture({ particles, rung, error, errorForecast, timeMs, effects, timing, roundTripMs }, width, height) {
     if (particles !== null) byId("particles").textContent = Number(particles).toLocaleString("en");
     if (rung !== null) byId("rung").textContent = rung;
     // Effects are parts of the stages.
@@ -30,8 +30,9 @@ export function createFigures(store) {
     if (effects !== null) byId("effects").textContent = effects.map(effect).join(", ") || "none";
     byId("pixels").textContent = `${width} × ${height}`;
     byId("total").textContent = milliseconds(roundTripMs);
-    byId("error").textContent = error === null ? "–" : percent(Number(error));
-    const took = timing.filter(({ name }) => ["generate", "survey", "light", "draw"].includes(name)).reduce((sum, { ms }) => sum + ms, 0);
+    const expected = errorForecast === null ? "" : ` (${percent(Number(errorForecast))} expected)`;
+    byId("error").textContent = error === null ? "–" : percent(Number(error)) + expected;
+    const took = timing.filter(({ name }) => ["generate", "survey", "light", "draw", "measure"].includes(name)).reduce((sum, { ms }) => sum + ms, 0);
     byId("time").textContent = timeMs === null ? milliseconds(took) : `${milliseconds(took)} of ${milliseconds(Number(timeMs))}`;
 
     const inside = ofStages.reduce((sum, { ms }) => sum + ms, 0);

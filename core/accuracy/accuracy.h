@@ -21,6 +21,8 @@ struct RungCost {
     PictureError error;
     // Of the PNGs, sky behind, at the reference's size; 0..1.
     double flip = 0;
+    // What is stated of the picture at the reference's size without looking at the reference; NaN: nothing.
+    double stated_error = 0;
     double predicted_error = 0, predicted_time_ms = 0;  // what the plan says
     // At its peak, beside the scene's particles: what the plan says.
     double memory_bytes = 0;

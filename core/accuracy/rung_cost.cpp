@@ -107,6 +107,7 @@ Status compare_with_reference(const RungMeasurement& with, const Rung& rung,
         picture.height != reference.truth.half_a.height)
         return Error{ErrorCode::kInternal, "", "a render has not the size that was asked for"};
     cost.error = picture_error(picture, reference.truth);
+    cost.stated_error = rendered->stated_error;
     const Image seen = over_sky(picture, with.scene, reference.view, reference.ground);
     cost.flip =
         flip(reference.shown, display_bytes(seen, with.exposure), picture.width, picture.height)
