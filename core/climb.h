@@ -26,9 +26,10 @@ struct Climbed {
     EffectTimes took;
 };
 
-// The light of the rung that the scene names, a rung of Method::kMarch, or of rung `single` where it is planned (its error is not measured here); where it asks for an error, of the first transport rung
-// whose stated error is at most that, or of the finest; where it asks for a time, of the finest that there is time for
-// after what planning took. Errors: kOverDeadline, kCancelled.
+// The light of the rung that the scene names, a rung of Method::kMarch, or of rung `single` where it is planned (its
+// error is not measured here); where it asks for an error, of the first transport rung whose stated error is at most
+// that, or of the finest; where it asks for a time, of the finest that there is time for after what planning took.
+// Errors: kOverDeadline, kCancelled.
 Result<Climbed> climb(const Scene& scene, const Planned& planned, const ClimbTools& tools,
                       const Deadline& deadline);
 

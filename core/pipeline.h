@@ -23,7 +23,8 @@ struct Rendered {
     bool light_was_kept = false;  // it came from the cache
     // The rung that the picture is of: the plan's, or where that did not keep to the scene's wish, another.
     const Rung* rung = nullptr;
-    // Its error, measured while it was made (core/climb.h), as PictureError::nrmse. NaN: nothing is known of it (a look).
+    // Its error, measured while it was made (core/climb.h), as PictureError::nrmse. NaN: nothing is known of it (a
+    // look).
     double stated_error = 0;
 };
 

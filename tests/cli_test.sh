@@ -178,12 +178,17 @@ same "no temporary files" "" "$(ls -A | grep tmp)"
 
 # --- images
 run 0 render scene.json -o a.png
-same "silence" "" "$(cat out err)"
+same "one line" 1 "$(cat out err | wc -l)"
+contains "rung and errors" "a.png: harris, error " "$(cat out)"
+contains "what was expected" "% (expected " "$(cat out)"
 same "PNG" "$(printf '\211PNG')" "$(head -c 4 a.png)"
 run 0 render scene.json -o b.PNG --threads 1 --software
 cmp -s a.png b.PNG || fail "a picture depends on the number of threads"
 run 0 render scene.json -o a.exr --width 20 --height 10
 contains "size" "20 x   10" "$(oiiotool --info a.exr)"
+for note in 'awan:rung: "harris"' "awan:error: 0." "awan:error_forecast: 0."; do
+    contains "note in the EXR" "$note" "$(oiiotool --info -v a.exr)"
+done
 AWAN_WIDTH=30 AWAN_HEIGHT=12 run 0 render scene.json -o b.exr
 contains "size of the environment" "30 x   12" "$(oiiotool --info b.exr)"
 run 0 render scene.json -o - --format exr

@@ -62,6 +62,7 @@ class FakeRenderer {
             state.changed.wait_for(lock, std::chrono::milliseconds(5));
         }
         Rendered rendered{std::move(planned.survey), std::move(planned.plan), {}, planned.times};
+        rendered.stated_error = 0.5 * rendered.plan.predicted.error;
         Image& image = rendered.image;
         image.width = scene->image.width;
         image.height = scene->image.height;

@@ -100,7 +100,8 @@ assert answer["count"] == 60 == len(answer["particles"])' || fail "particles as 
 same "lines of CSV" 61 "$(curl -s -H "$json" -H 'Accept: text/csv' -d "$scene" "$url/v1/particles" | wc -l)"
 curl -s -H "$json" -H 'Accept: text/x-awn' -d "$scene" "$url/v1/particles" >"$work/a.awn"
 same "a layout" 200 "$(code -H 'Content-Type: text/x-awn' --data-binary @"$work/a.awn" "$url/v1/plan")"
-contains "what is predicted" 'Awan-Error: ' "$(cat "$work/head")"
+contains "what is stated" 'Awan-Error: ' "$(cat "$work/head")"
+contains "what was expected" 'Awan-Error-Forecast: ' "$(cat "$work/head")"
 curl -s -D "$work/head" -H "$json" -d "$scene" "$url/v1/accuracy?samples=16&size=16&runs=2" | python3 -c '
 import json, sys
 answer = json.load(sys.stdin)

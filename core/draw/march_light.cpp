@@ -106,7 +106,8 @@ Rgb4 along_ray(const TransportLight& light, const Corners& c, const Corners& fin
     return sum;
 }
 
-// Adds bands to the source functions of a lattice's cells, towards an eye at `place` (cells from the lattice's corner). cell: sides, scene units.
+// Adds bands to the source functions of a lattice's cells, towards an eye at `place` (cells from the lattice's corner).
+// cell: sides, scene units.
 void add_source(const std::vector<const LightBand*>& bands, const glm::ivec3& cells,
                 const glm::dvec3& place, const glm::dvec3& cell, int threads,
                 std::vector<Rgb4>& source) {

@@ -21,9 +21,10 @@ std::vector<std::uint8_t> display_pixels(const Image& image, double exposure_sto
 // How a picture came about, kept in its file as the attributes awan:rung, awan:error and awan:error_forecast. Of
 // numbers that are not finite nothing is kept.
 struct PictureNotes {
-    std::string rung;           // EMPTY: nothing is kept
-    double error = 0;           // as stated
-    double error_forecast = 0;  // what the plan expected
+    // EMPTY: nothing is kept.
+    std::string rung;
+    // As stated, and what the plan expected.
+    double error = 0, error_forecast = 0;
 };
 
 // Linear radiance, premultiplied alpha, channels R G B A, no tone curve, ZIP compression.

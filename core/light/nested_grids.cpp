@@ -15,8 +15,8 @@ using Moments = std::vector<std::array<float, kHarmonics>>;
 constexpr double kOrder = 2;
 // Below this growth two grids differ by rounding more than by their error.
 constexpr double kLeastRatio = 1.1;
-// The largest change of a cell's light, relative to its mean radiance: where cells are so coarse that grids differ by more, their difference does not
-// say where they go.
+// The largest change of a cell's light, relative to its mean radiance: where cells are so coarse that grids differ by
+// more, their difference does not say where they go.
 constexpr float kMostChange = 0.5F;
 
 // Where a coordinate lies between the centres of two cells.

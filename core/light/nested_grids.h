@@ -1,8 +1,8 @@
 // Light of several grids of one cloud, from coarse to fine.
 //
-// On smooth matter the error of a grid is smooth, and falls with the size of its cells to a power between 1 and 2 (core/README.md, "How far
-// grids are off"). So the solution of a coarser grid is a good first guess for a finer one, what two grids differ by shows where both go, and
-// the difference of two such forecasts says how far off they are.
+// On smooth matter the error of a grid is smooth, and falls with the size of its cells to a power between 1 and 2
+// (core/README.md, "How far grids are off"). So the solution of a coarser grid is a good first guess for a finer one,
+// what two grids differ by shows where both go, and the difference of two such forecasts says how far off they are.
 #pragma once
 
 #include <vector>

@@ -15,9 +15,9 @@
 namespace awan {
 
 // coarser: the same light on a coarser grid, as this function gave it with the settings of fewer cells. Then the solve
-// begins from it, and what both differ by is used (nested_grids.h): without it, the light is that of the one grid. Null: there is none.
-// Errors: kOverDeadline, kCancelled. The same bytes for every number of threads. Time: cells^3 and particles; memory:
-// see transport_bytes (core/plan/forecast.h).
+// begins from it, and what both differ by is used (nested_grids.h): without it, the light is that of the one grid.
+// Null: there is none. Errors: kOverDeadline, kCancelled. The same bytes for every number of threads. Time: cells^3 and
+// particles; memory: see transport_bytes (core/plan/forecast.h).
 Result<TransportLight> transport_light(const Scene& scene, const ParticleSet& particles,
                                        const Survey& survey, const TransportSettings& settings,
                                        int threads, const Deadline& deadline,

@@ -21,10 +21,10 @@ struct RungForecast {
     double error = 0;
     // Of all stages but queue and encode, on this machine.
     double time_ms = 0;
-    // Of that, the part that follows the light.
-    double draw_ms = 0;
     // Memory at its peak, beside the scene's particles and the picture.
     double bytes = 0;
+    // Of time_ms, the part that follows the light; transport rungs.
+    double draw_ms = 0;
 };
 
 // Of one rung; `samples`: paths a pixel, for rung truth only. threads: of the march and the paths.

@@ -16,6 +16,8 @@ namespace {
 constexpr double kKnee = 2.5;
 // Relative error above which a picture is far from the truth for anyone to see.
 constexpr double kFarOff = 0.3;
+// Factor of the error of paths, where they are compared with the even one of other rungs.
+constexpr double kNoiseHandicap = 2;
 // Of a pixel, when rung truth is asked for by name.
 constexpr double kTruthNoise = 0.05;
 
@@ -115,7 +117,9 @@ Choice best_in_time(double time_ms, const std::vector<RungForecast>& candidates)
     const RungForecast* fastest = nullptr;
     for (const RungForecast& candidate : candidates) {
         if (!fastest || candidate.time_ms < fastest->time_ms) fastest = &candidate;
-        if (candidate.time_ms <= time_ms && (!best || candidate.error < best->error))
+        // Noise is worse to look at than an even error: paths have to win by far. They are the last of the ladder.
+        const double handicap = candidate.rung->method == Method::kPaths ? kNoiseHandicap : 1;
+        if (candidate.time_ms <= time_ms && (!best || handicap * candidate.error < best->error))
             best = &candidate;
     }
     if (best)

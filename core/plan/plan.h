@@ -45,13 +45,14 @@ struct Plan {
     }
 };
 
-// threads: that the march and the paths will have. speed: of this machine.
 // Longer paths than these are not chosen, only taken by name.
 inline constexpr double kPatience_ms = 20e3;
 
-// Whether the scene switches an effect off that only the splats can leave out: the other rungs follow all light there is.
+// Whether the scene switches an effect off that only the splats can leave out: the other rungs follow all light there
+// is.
 bool wants_splats(const Scene& scene);
 
+// threads: that the march and the paths will have. speed: of this machine.
 Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSpeed& speed);
 
 }  // namespace awan

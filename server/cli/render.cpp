@@ -58,7 +58,8 @@ std::string percent(double share) {
     return text.data();
 }
 
-// Which rung it was, how far off it is, and what was expected; nothing where the picture itself goes to standard output.
+// Which rung it was, how far off it is, and what was expected; nothing where the picture itself goes to standard
+// output.
 void say_error(const Rendered& rendered, const std::string& output) {
     if (output == "-" || !std::isfinite(rendered.stated_error)) return;
     std::printf("%s: %s, error %s (expected %s)\n", output.c_str(), rendered.plan.rung.c_str(),

@@ -56,6 +56,7 @@ Reference reference_of(const Scene& scene, const Planned& planned, const Options
     Reference reference;
     TruthOptions truth;
     truth.eye_effects = planned.plan.eye_effects();
+    truth.whole_pixels = true;
     truth.threads = options.threads;
     truth.samples = options.noise < 1 ? 16 : 2;
     for (int round = 0; round < (options.noise < 1 ? 3 : 1); ++round) {

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Writes the page of the forecasts' check: page.py CHECK.csv > RESULTS.md
+"""Writes the page that holds stated errors and forecasts to measured ones: page.py CHECK.csv > RESULTS.md
 
-Under: the measured error is at most the predicted one, or its distance is within the reference's noise (one standard error).
-Loose: predicted over measured, where the measured error is more than its own noise.
+Under: the measured error is at most the other, or its distance is within the reference's noise (one standard error).
+Loose: the other over measured, where the measured error is more than its own noise.
 """
 import csv
 import sys
@@ -33,31 +33,32 @@ def quantile(values, share):
     return ordered[min(int(share * len(ordered)), len(ordered) - 1)] if ordered else float("nan")
 
 
-def under(row):
-    return number(row, "error") - number(row, "error_noise") <= number(row, "predicted_error")
+def under(row, column="stated"):
+    return number(row, "error") - number(row, "error_noise") <= number(row, column)
 
 
-def strictly_under(row):
-    return number(row, "error") <= number(row, "predicted_error")
+def strictly_under(row, column="stated"):
+    return number(row, "error") <= number(row, column)
 
 
 def seen(row):
     return number(row, "error") > number(row, "error_noise")
 
 
-def looseness(row):
-    return number(row, "predicted_error") / number(row, "error")
+def looseness(row, column="stated"):
+    return number(row, column) / number(row, "error")
 
 
-def summary(rows):
-    print("| rung | scenes | under | under, noise aside | measured above noise | predicted / measured: median | 10% to 90% | measured: median | largest |")
+def summary(rows, column):
+    word = "stated" if column == "stated" else "forecast"
+    print(f"| rung | scenes | under | under, noise aside | measured above noise | {word} / measured: median | 10% to 90% | measured: median | largest |")
     print("|---|---|---|---|---|---|---|---|---|")
     for rung in RUNGS + ["all"]:
         mine = [r for r in rows if rung in ("all", r["rung"])]
-        loose = [looseness(r) for r in mine if seen(r)]
+        loose = [looseness(r, column) for r in mine if seen(r)]
         errors = [number(r, "error") for r in mine]
-        print(f"| {rung} | {len(mine)} | {percent(sum(map(strictly_under, mine)) / len(mine))} "
-              f"| {percent(sum(map(under, mine)) / len(mine))} | {len(loose)} | {median(loose):.2f} "
+        print(f"| {rung} | {len(mine)} | {percent(sum(strictly_under(r, column) for r in mine) / len(mine))} "
+              f"| {percent(sum(under(r, column) for r in mine) / len(mine))} | {len(loose)} | {median(loose):.2f} "
               f"| {quantile(loose, .1):.2f} to {quantile(loose, .9):.2f} | {percent(median(errors))} | {percent(max(errors))} |")
     print()
 
@@ -79,21 +80,27 @@ def scenes(rows):
                 continue
             shown = percent(number(row, "error")) if seen(row) else f"< {percent(number(row, 'error_noise'))}"
             mark = "" if under(row) else " **over**"
-            cells.append(f"{shown} / {percent(number(row, 'predicted_error'))}{mark}")
+            cells.append(f"{shown} / {percent(number(row, 'stated'))}{mark}")
         print(f"| {index} {any_row['kind']} | {any_row['particles']} | {number(any_row, 'depth_eye'):.3g} | {any_row['g']} "
               f"| {any_row['albedo']} | {number(any_row, 'sun_cosine'):.2f} | " + " | ".join(cells) + " |")
     print()
 
 
 check = read(sys.argv[1])
-print("""# How far the forecasts can be trusted
+print("""# How far the errors that are stated can be trusted
 
 Made by the commands of [README.md](README.md); not written by hand. Errors are nRMSE against the path tracer, noise
-corrected (`core/truth/error_measures.h`), of pictures of 80 x 60 pixels, on scenes that the forecasts were not fitted to.
+corrected (`core/accuracy/error_measures.h`), of pictures of 80 x 60 pixels, on scenes that nothing was fitted to. What is
+stated of a picture was measured while it was made (`core/climb.h`), without the path tracer.
 
-Under: the measured error is at most the predicted one. "Noise aside": or above it by no more than one standard error of the
-reference. Predicted / measured is over scenes where the error stands out of the reference's noise.
+Under: the measured error is at most the stated one. "Noise aside": or above it by no more than one standard error of the
+reference. Stated / measured is over scenes where the error stands out of the reference's noise.
 """)
-summary(check)
-print("## Every scene: measured / predicted\n")
+summary(check, "stated")
+print("""## Forecasts
+
+What plans expect before anything is measured, from the survey's figures alone.
+""")
+summary(check, "predicted_error")
+print("## Every scene: measured / stated\n")
 scenes(check)

@@ -1,0 +1,183 @@
+// Grids that go on from coarser ones, and the error that is stated of their pictures.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/accuracy/error_measures.h"
+#include "core/draw/picture_difference.h"
+#include "core/light/nested_grids.h"
+#include "core/pipeline.h"
+#include "core/truth/path_tracer.h"
+#include "tests/scenes.h"
+
+namespace awan {
+namespace {
+
+SceneDraft cumulus(double g, double density) {
+    SceneDraft draft = test::table_4_4();
+    draft.medium.g = g;
+    draft.medium.albedo = 1;
+    draft.density = density;
+    draft.sky.none = true;
+    draft.image.width = 64;
+    draft.image.height = 48;
+    draft.image.background = Background::kTransparent;
+    draft.accuracy = {};
+    return draft;
+}
+
+Rendered rendered(const SceneDraft& draft, int threads = 2, LightCache* lights = nullptr) {
+    auto made = render_scene(test::valid(draft), {nullptr, threads, lights, {}, {}}, {});
+    EXPECT_TRUE(made.ok()) << made.error().message;
+    return *std::move(made);
+}
+
+// A light with one band, whose first moment is `value` of the places of its cells' middles.
+template <typename Value>
+TransportLight light_of(int cells, const Value& value) {
+    TransportLight light;
+    light.cells = glm::ivec3(cells, cells / 2, cells);
+    light.cell = 8.0 / glm::dvec3(light.cells);
+    light.bands.resize(1);
+    for (int k = 0; k < light.cells.z; ++k)
+        for (int j = 0; j < light.cells.y; ++j)
+            for (int i = 0; i < light.cells.x; ++i) {
+                light.bands[0].moments.emplace_back();
+                light.bands[0].moments.back()[0] =
+                    static_cast<float>(value((glm::dvec3(i, j, k) + 0.5) * light.cell));
+            }
+    return light;
+}
+
+TEST(NestedGrids, GrowFromTheCoarsest) {
+    EXPECT_EQ(nested_cells(64), (std::vector<int>{8, 12, 16, 24, 32, 48, 64}));
+    EXPECT_EQ(nested_cells(16), (std::vector<int>{8, 12, 16}));
+    EXPECT_EQ(nested_cells(20), (std::vector<int>{8, 12, 16, 20}));
+    EXPECT_EQ(nested_cells(5), std::vector<int>{5});
+    EXPECT_EQ(nested_cells(0), std::vector<int>{0});
+}
+
+TEST(NestedGrids, MomentsBetweenCellsAreLinear) {
+    const auto plane = [](const glm::dvec3& p) { return 1 + p.x - 2 * p.y + 0.5 * p.z; };
+    const TransportLight coarse = light_of(8, plane), fine = light_of(12, plane);
+    const auto between = moments_between(coarse, 0, fine, 2);
+    std::size_t at = 0;
+    for (int k = 0; k < fine.cells.z; ++k)
+        for (int j = 0; j < fine.cells.y; ++j)
+            for (int i = 0; i < fine.cells.x; ++i, ++at)
+                if (i > 0 && j > 0 && k > 0 && i < 11 && j < 5 && k < 11) {
+                    EXPECT_NEAR(between[at][0], fine.bands[0].moments[at][0], 1e-5);
+                }
+}
+
+// What falls with the square of a cell's side is gone; what would change a cell by too much is held back.
+TEST(NestedGrids, ExtrapolationTakesAnErrorOfSecondOrderAway) {
+    const auto with_error = [](int cells, double error) {
+        return light_of(cells, [=](const glm::dvec3&) { return 3 + error / (cells * cells); });
+    };
+    TransportLight fine = with_error(24, 100);
+    extrapolate(with_error(16, 100), fine, 2);
+    for (const auto& moments : fine.bands[0].moments) EXPECT_NEAR(moments[0], 3, 1e-4);
+    EXPECT_NEAR(fine.solved.at(0)[0][0], 3 + 100.0 / 576, 1e-5);
+
+    TransportLight wild = with_error(24, 1e5);
+    const float before = wild.bands[0].moments[0][0];
+    extrapolate(with_error(16, 1e5), wild, 2);
+    EXPECT_NEAR(wild.bands[0].moments[0][0], 0.5F * before, 1e-3F * before);
+}
+
+TEST(PictureDifference, IsRelativeToTheCloudsMean) {
+    Image truth{4, 1, false, {2, 2, 2, 1, 4, 4, 4, 1, 0, 0, 0, 0, 9, 9, 9, 0.01F}};
+    Image x = truth;
+    for (std::size_t i = 0; i < 8; ++i) x.pixels[i] *= 1.1F;
+    x.pixels[12] = 0;  // thinner than what counts
+    EXPECT_NEAR(picture_difference(x, truth), 0.1 * std::sqrt(10.0) / 3, 1e-6);
+    EXPECT_EQ(picture_difference(truth, truth), 0);
+}
+
+TEST(Climb, StricterAsksNeverGiveWorsePictures) {
+    for (const double density : {0.4, 4.0, 40.0}) {
+        int cells = 0;
+        double stated = 1;
+        for (const double error : {0.5, 0.1, 0.05, 0.02, 0.008}) {
+            SceneDraft draft = cumulus(0.6, density);
+            draft.accuracy.error = error;
+            const Rendered one = rendered(draft);
+            if (one.rung->cells == 0) continue;  // no grid was needed, or none does
+            EXPECT_GE(one.rung->cells, cells) << density << ' ' << error;
+            EXPECT_LE(one.stated_error, stated) << density << ' ' << error;
+            EXPECT_TRUE(one.stated_error <= error || one.rung->cells == 64) << one.rung->name;
+            EXPECT_EQ(one.plan.rung, one.rung->name);
+            cells = one.rung->cells;
+            stated = one.stated_error;
+        }
+        EXPECT_GE(cells, 24) << density;
+    }
+}
+
+// A rung by name is the picture of the climb that ends there.
+TEST(Climb, EndsAtThePictureOfTheRung) {
+    SceneDraft draft = cumulus(0.6, 4);
+    draft.accuracy.error = 0.05;
+    const Rendered climbed = rendered(draft);
+    ASSERT_GT(climbed.rung->cells, 0);
+    draft.accuracy = {{}, {}, climbed.rung->name};
+    const Rendered named = rendered(draft, 3);
+    EXPECT_EQ(climbed.image.pixels, named.image.pixels);
+    EXPECT_EQ(climbed.stated_error, named.stated_error);
+}
+
+TEST(Climb, ANewCameraKeepsTheLight) {
+    LightCache lights(256 << 20);
+    SceneDraft draft = cumulus(0.6, 4);
+    draft.accuracy.error = 0.05;
+    draft.camera.automatic = false;
+    draft.camera.eye = {0, 0, 30};
+    draft.camera.target = {0, -2, 0};
+    EXPECT_FALSE(rendered(draft, 2, &lights).light_was_kept);
+    draft.camera.eye = {4, 0, 30};
+    const Rendered again = rendered(draft, 2, &lights);
+    EXPECT_TRUE(again.light_was_kept);
+    EXPECT_EQ(again.image.pixels, rendered(draft).image.pixels);
+}
+
+// Against the path tracer: what is stated is near to what is measured, and not below it by more than the noise.
+TEST(Climb, WhatIsStatedHolds) {
+    struct Case {
+        double g, density;
+        const char* rung;
+    };
+    for (const Case& one : {Case{0, 10, "transport-16"}, Case{0.5, 30, "transport-16"},
+                            Case{0.5, 30, "transport-24"}, Case{0.85, 10, "transport-16"}}) {
+        SceneDraft draft = cumulus(one.g, one.density);
+        draft.accuracy.rung = one.rung;
+        const Scene scene = test::valid(draft);
+        const auto planned = plan_scene(scene, 2, {});
+        ASSERT_TRUE(planned.ok());
+        TruthOptions options;
+        options.samples = 64;
+        options.threads = 2;
+        options.whole_pixels = true;
+        const auto truth =
+            trace_truth(scene, planned->particles, planned->survey.view, options, {}, {});
+        ASSERT_TRUE(truth.ok());
+        const Rendered picture = rendered(draft);
+        const PictureError error = picture_error(picture.image, *truth);
+        std::printf("g %.2f, density %g, %s: stated %.3f, measured %.3f +- %.3f\n", one.g,
+                    one.density, one.rung, picture.stated_error, error.nrmse, error.nrmse_noise);
+        EXPECT_GT(picture.stated_error, error.nrmse - 2 * error.nrmse_noise);
+        EXPECT_LT(picture.stated_error, 4 * error.nrmse + 3 * error.nrmse_noise + 0.02);
+    }
+}
+
+// A rung without a grid says how far off it is: in thick matter, far.
+TEST(Climb, RungsWithoutAGridAreMeasuredToo) {
+    SceneDraft draft = cumulus(0.6, 10);
+    draft.accuracy.rung = "single";
+    EXPECT_GT(rendered(draft).stated_error, 0.5);
+    draft.density = 0.002;
+    EXPECT_LT(rendered(draft).stated_error, 0.05);
+}
+
+}  // namespace
+}  // namespace awan
