@@ -11,10 +11,18 @@
 namespace awan {
 namespace {
 
-// Error over the difference to the next coarser grid: what covers nine of ten scenes (tests/calibration/RESULTS.md).
+// Error over the difference to the next coarser grid (tests/calibration/RESULTS.md).
 constexpr double kErrorOfDifference = 1.3;
-// What 128 directions leave of the angles of forward scattered light, times g squared.
-constexpr double kAngularError = 0.02;
+// What differences of grids do not show, of thick matter. The march's steps, its light between looked up rays and the
+// sun's lattice:
+constexpr double kEyeError = 0.008;
+// what 128 directions leave of the angles of forward scattered light, times g squared;
+constexpr double kAngularError = 0.035;
+// what lumps of detail that are smaller than steps and cells leave, times the detail's amount, and more of it where the
+// sun shines through their edges, times the cosine squared between it and the view.
+constexpr double kDetailError = 0.06, kBacklitDetailError = 0.15;
+// Of what is far below a pixel, times its share of the matter (Survey::sub_pixel).
+constexpr double kSubPixelError = 0.01;
 // With which power of its cells along a side a grid's time grows: the third, and deep light takes more sweeps.
 constexpr double kTimePower = 3.3;
 
@@ -112,8 +120,15 @@ Result<Image> picture_of(const Climb& climb, const Scene& scene, const Transport
 double stated_error(double difference, const Climb& climb) {
     const Survey& survey = climb.planned.survey;
     const double g = climb.scene->medium.g, depth = survey.optical_depth_eye;
-    const double angular = kAngularError * g * g * depth / (1 + depth);
-    return std::hypot(kErrorOfDifference * difference, angular, survey.model_error);
+    double floor = std::hypot(kEyeError, kAngularError * g * g);
+    if (climb.planned.particles.detail != nullptr) {
+        const double into_sun = std::max(survey.sun_cosine, 0.0);
+        floor = std::hypot(floor, climb.scene->detail->amount *
+                                      (kDetailError + kBacklitDetailError * into_sun * into_sun));
+    }
+    return std::hypot(kErrorOfDifference * difference,
+                      std::hypot(floor * depth / (1 + depth), kSubPixelError * survey.sub_pixel),
+                      survey.model_error);
 }
 
 // States the error of the light that was reached. picture: the small one of the next coarser light, or empty; becomes

@@ -15,6 +15,7 @@
 #include "core/plan/forecast_figures.h"
 #include "core/scene/validate.h"
 #include "core/truth/path_tracer.h"
+#include "server/document/json.h"
 #include "tests/calibration/scenes.h"
 
 namespace {
@@ -27,7 +28,7 @@ struct Options {
     double noise = 0.1;   // of a pixel of the truth that is wanted
     double seconds = 20;  // of a truth, at most
     int runs = 3;         // timed renders; the least counts
-    bool only_grids = false;
+    bool only_grids = false, write = false;
     std::string keep;  // folder of references from an earlier run; EMPTY: none are kept
 };
 
@@ -119,6 +120,11 @@ void measure(const Options& options, int index, Device& device, std::FILE* out) 
     const auto numbered =
         calibration::numbered_scene(options.set, index, options.width, options.height);
     const Scene scene = must(validate(numbered.draft));
+    if (options.write) {
+        std::ofstream(options.keep + "/" + options.set + "-" + std::to_string(index) + ".json")
+            << scene_to_json(*scene);
+        return;
+    }
     // As the truth sees it: with its detail.
     SceneDraft named = numbered.draft;
     named.accuracy.rung = "truth";
@@ -195,6 +201,9 @@ int main(int argc, char** argv) {
     app.add_option(
         "--keep", options.keep,
         "a folder that keeps references for the next run: only while the truth stays the same");
+    app.add_flag("--write", options.write,
+                 "write the scenes as documents, as SET-NUMBER.json in --keep's folder, and "
+                 "measure nothing");
     app.add_flag("--only-grids", options.only_grids, "leave out all but the transport rungs");
     app.add_option("-o,--output", options.output);
     CLI11_PARSE(app, argc, argv);

@@ -35,15 +35,15 @@ struct Part {
 //   ratios .26...76, extinctions .2 and 2: cut at 1.5 pixels .0017, 3: .010, 6: .023, 12: .071, 24: .18;
 //   ratios .2...7: cut at 1.5 pixels .0014, 3: .006, 6: .04;
 //   ratios .1...6: cut at 1.5 pixels .009, 3: .036, 6: .17, 12: .34, 24: .48.
-// Since pixels are means over their area, leaves far below one leave open what the blob in their place hides. With
-// ratios .2...7 and leaves 2 deep, cut at 1.5 pixels: .006 where a third of the mass is cut, .097 where nearly all is.
+// Not covered: flat clouds of deep leaves far below a pixel, which leave open what the blob in their place hides. With
+// ratios .2...7, where nearly all is cut at 1.5 pixels, that is .097 where .019 is stated.
 // spheres_cut_test does it smaller. Where little is cut it is up to ten times too high.
 double error_of_cut(const Span& ratios, double pixels, double mass_share) {
     const double met =
         5 * (ratios.low * ratios.low + ratios.low * ratios.high + ratios.high * ratios.high) / 3;
     const double porous = std::clamp((1.1 - met) / (1.1 - 0.72), 0.0, 1.0);
     return std::cbrt(mass_share) *
-           std::min(0.013 * (1 + 10 * porous) * pixels * std::sqrt(pixels), 0.7);
+           std::min(0.013 * (1 + porous) * pixels * std::sqrt(pixels), 0.7);
 }
 // The angle of a pixel where a request names none, radians: of a picture 1080 pixels high and 40 degrees.
 constexpr double kUsualPixel = 0.00067;
