@@ -15,7 +15,7 @@ namespace {
 constexpr double kErrorOfDifference = 1.3;
 // What differences of grids do not show, of thick matter. The march's steps, its light between looked up rays and the
 // sun's lattice:
-constexpr double kEyeError = 0.008;
+constexpr double kEyeError = 0.012;
 // what 128 directions leave of the angles of forward scattered light, times g squared;
 constexpr double kAngularError = 0.035;
 // what lumps of detail that are smaller than steps and cells leave, times the detail's amount, and more of it where the
@@ -120,15 +120,14 @@ Result<Image> picture_of(const Climb& climb, const Scene& scene, const Transport
 double stated_error(double difference, const Climb& climb) {
     const Survey& survey = climb.planned.survey;
     const double g = climb.scene->medium.g, depth = survey.optical_depth_eye;
-    double floor = std::hypot(kEyeError, kAngularError * g * g);
+    double floor = std::hypot(kEyeError, kAngularError * g * g) * depth / (1 + depth);
     if (climb.planned.particles.detail != nullptr) {
         const double into_sun = std::max(survey.sun_cosine, 0.0);
         floor = std::hypot(floor, climb.scene->detail->amount *
                                       (kDetailError + kBacklitDetailError * into_sun * into_sun));
     }
     return std::hypot(kErrorOfDifference * difference,
-                      std::hypot(floor * depth / (1 + depth), kSubPixelError * survey.sub_pixel),
-                      survey.model_error);
+                      std::hypot(floor, kSubPixelError * survey.sub_pixel), survey.model_error);
 }
 
 // States the error of the light that was reached. picture: the small one of the next coarser light, or empty; becomes
