@@ -209,6 +209,9 @@ Result<double> error_of_picture(const Scene& scene, const Planned& planned, cons
     const int cells = grids_of_ladder().coarsest;
     auto begun = climb_to(cells, scene, planned, tools, deadline);
     if (!begun.ok()) return begun.error();
+    auto aligned = in_small_aligned(scene);
+    if (!aligned.ok()) return aligned.error();
+    begun->small = *std::move(aligned);
     Climbed reached;
     for (const int step_cells : nested_cells(cells)) {
         const auto took_ms = step(*begun, step_cells, reached);

@@ -172,7 +172,7 @@ TEST(Climb, RungsWithoutAGridAreMeasuredToo) {
     SceneDraft draft = cumulus(0.6, 10);
     draft.accuracy.rung = "single";
     EXPECT_GT(rendered(draft).stated_error, 0.5);
-    draft.density = 0.002;
+    draft.density = 5e-5;
     EXPECT_LT(rendered(draft).stated_error, 0.05);
 }
 

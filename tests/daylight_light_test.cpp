@@ -137,7 +137,7 @@ TEST(Daylight, TheTruthFindsTheSameSkyByEscapeAndByNextEvent) {
     const Scene scene = test::valid(draft);
     const auto planned = plan_scene(scene, 2, {});
     TruthOptions options;
-    options.samples = 128;
+    options.samples = 2048;
     options.threads = 2;
     options.sky = SkySampling::kEscape;
     const auto escape =
