@@ -147,7 +147,7 @@ inline void random_camera(Dice& dice, const Whereabouts& where, const SceneDraft
                           Camera& camera) {
     camera.automatic = dice.chance(0.15);
     camera.target = where.middle;
-    const double distance = where.size * (dice.chance(0.1)   ? dice.log_between(1e-6, 1e3)
+    const double distance = where.size * (dice.chance(0.1)   ? dice.log_between(1e-6, 1e4)
                                           : dice.chance(0.3) ? dice.log_between(0.01, 1)
                                                              : dice.log_between(1, 10));
     glm::dvec3 towards = dice.on_sphere();
