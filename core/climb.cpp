@@ -12,10 +12,12 @@ namespace awan {
 namespace {
 
 // Error over the difference to the next coarser grid (tests/calibration/RESULTS.md).
-constexpr double kErrorOfDifference = 1.3;
+constexpr double kErrorOfDifference = 1.6;
+// The same, of pictures without a grid to one with it.
+constexpr double kErrorOfPicture = 1.1;
 // What differences of grids do not show, of thick matter. The march's steps, its light between looked up rays and the
 // sun's lattice:
-constexpr double kEyeError = 0.012;
+constexpr double kEyeError = 0.016;
 // what 128 directions leave of the angles of forward scattered light, times g squared;
 constexpr double kAngularError = 0.035;
 // what lumps of detail that are smaller than steps and cells leave, times the detail's amount, and more of it where the
@@ -231,7 +233,7 @@ Result<double> error_of_picture(const Scene& scene, const Planned& planned, cons
         with_behind = *std::move(drawn);
     }
     const Image other = moved_by(small, with_behind, picture);
-    return std::hypot(picture_difference(other, small), reached.stated);
+    return kErrorOfPicture * std::hypot(picture_difference(other, small), reached.stated);
 }
 
 }  // namespace awan
