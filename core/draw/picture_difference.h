@@ -8,7 +8,7 @@ namespace awan {
 
 // The scene with a picture of a few thousand pixels at most, over nothing.
 Result<Scene> in_small(const Scene& scene);
-// The same, such that a small pixel's middle is that of a pixel of the scene's picture: every third, fifth, ... of them,
+// The same, such that a small pixel's middle is that of a pixel of the scene's picture: every third, fifth, ...,
 // from the second, third, ... on.
 Result<Scene> in_small_aligned(const Scene& scene);
 
