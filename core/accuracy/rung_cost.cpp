@@ -22,7 +22,7 @@ Result<Scene> with_rung(const Scene& scene, const Rung& rung) {
 }
 
 double whole_ms(const StageTimes& times) {
-    return times.generate_ms + times.survey_ms + times.light_ms + times.draw_ms;
+    return times.generate_ms + times.survey_ms + times.light_ms + times.draw_ms + times.measure_ms;
 }
 
 struct Timed {
