@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/climb.h"
@@ -145,14 +146,18 @@ bool paths_may_hold(const Scene& scene, const Plan& plan) {
 // The coarsest grid that keeps to the error that the scene asks for; paths where none does; else the finest grid.
 Status render_grid_or_paths(const Scene& scene, Planned& planned, const Tools& tools,
                             const Deadline& deadline, Rendered& rendered) {
-    Planned grids = for_grids(scene, planned, tools);
+    // A plan for a grid is that already: its particles need not be copied, nor its detail be made again.
+    const bool is_for_grids = planned.plan.predicted.rung->cells > 0;
+    std::optional<Planned> made;
+    if (!is_for_grids) made = for_grids(scene, planned, tools);
+    const Planned& grids = made ? *made : planned;
     const auto light = climbed_light(scene, grids, tools, deadline, rendered);
     if (!light.ok()) return light.error();
     if (!holds(rendered.stated_error, scene) && paths_may_hold(scene, planned.plan)) {
         rendered.rung = &rung_of(RungId::kTruth);
         return render_paths(scene, planned, tools, deadline, rendered);
     }
-    planned = std::move(grids);
+    if (made) planned = *std::move(made);
     return march_light(scene, planned, **light, tools, deadline, rendered);
 }
 
