@@ -9,10 +9,6 @@
 namespace awan {
 namespace {
 
-Error at_line(std::size_t line, std::string message) {
-    return {ErrorCode::kMalformed, "line " + std::to_string(line), std::move(message)};
-}
-
 // Splits a line into its numbers. A comma with no number on either side is a number that got lost,
 // not a separator.
 class Tokens {

@@ -7,6 +7,9 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
+
+#include "core/base/result.h"
 
 namespace awan {
 
@@ -23,6 +26,11 @@ std::optional<T> read_number(std::string_view text) {
         value += T(0);
     }
     return value;
+}
+
+// What is wrong with a line of a text file, counted from 1.
+inline Error at_line(std::size_t line, std::string message) {
+    return {ErrorCode::kMalformed, "line " + std::to_string(line), std::move(message)};
 }
 
 inline bool is_blank(char c) {

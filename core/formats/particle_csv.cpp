@@ -9,10 +9,6 @@
 namespace awan {
 namespace {
 
-Error at_line(std::size_t line, std::string message) {
-    return {ErrorCode::kMalformed, "line " + std::to_string(line), std::move(message)};
-}
-
 // Takes the text up to the next comma off `line`. `more` says whether there was a comma.
 std::string_view take_cell(std::string_view& line, bool& more) {
     const std::size_t comma = line.find(',');

@@ -16,10 +16,6 @@ Error malformed(std::string message, std::string pointer = "") {
     return {ErrorCode::kMalformed, std::move(pointer), std::move(message)};
 }
 
-Error at_line(std::size_t line, std::string message) {
-    return malformed(std::move(message), "line " + std::to_string(line));
-}
-
 template <typename T>
 double from_bytes(const char* bytes) {
     T value;

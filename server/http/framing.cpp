@@ -28,12 +28,6 @@ bool same(std::string_view a, std::string_view b) {
     return a.size() == b.size() && strncasecmp(a.data(), b.data(), a.size()) == 0;
 }
 
-std::string_view trim(std::string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-    return text;
-}
-
 std::optional<FramingError> fail(int status, std::string detail) {
     return FramingError{status, std::move(detail)};
 }
@@ -87,7 +81,7 @@ std::optional<FramingError> parse_field(std::string_view line, RequestHead& head
     if (colon == std::string_view::npos) return fail(400, "a header line has no colon");
     const std::string_view name = line.substr(0, colon);
     if (!is_token(name)) return fail(400, "a header name is not a token");
-    const std::string_view value = trim(line.substr(colon + 1));
+    const std::string_view value = without_blanks(line.substr(colon + 1));
     const auto bad = [](char c) {
         const auto u = static_cast<unsigned char>(c);
         return (u < 0x20 && c != '\t') || u == 0x7f;
@@ -109,7 +103,7 @@ std::size_t count(const RequestHead& head, std::string_view name) {
 bool lists(std::string_view value, std::string_view member) {
     while (!value.empty()) {
         const std::size_t comma = std::min(value.find(','), value.size());
-        if (same(trim(value.substr(0, comma)), member)) return true;
+        if (same(without_blanks(value.substr(0, comma)), member)) return true;
         value.remove_prefix(std::min(comma + 1, value.size()));
     }
     return false;
@@ -176,6 +170,12 @@ std::optional<FramingError> check_rest(RequestHead& head) {
 }
 
 }  // namespace
+
+std::string_view without_blanks(std::string_view text) {
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+    return text;
+}
 
 std::string_view RequestHead::header(std::string_view name) const {
     for (const auto& [key, value] : headers)

@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "server/http/framing.h"
+
 namespace awan {
 namespace {
-
-std::string_view trim(std::string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-    return text;
-}
 
 std::string lower(std::string_view text) {
     std::string out(text);
@@ -35,7 +31,7 @@ std::string_view next_part(std::string_view& rest, char separator) {
     i = std::min(i, rest.size());
     const std::string_view part = rest.substr(0, i);
     rest.remove_prefix(std::min(i + 1, rest.size()));
-    return trim(part);
+    return without_blanks(part);
 }
 
 // "0.75" -> 750; anything that is no quality counts as 0, so that a broken range selects nothing.
@@ -100,7 +96,8 @@ std::string media_type(std::string_view content_type) {
 
 std::optional<std::string_view> best_offer(std::string_view accept,
                                            std::span<const std::string_view> offers) {
-    if (trim(accept).empty()) return offers.empty() ? std::nullopt : std::optional(offers.front());
+    if (without_blanks(accept).empty())
+        return offers.empty() ? std::nullopt : std::optional(offers.front());
     std::optional<std::string_view> best;
     int best_quality = 0;
     for (const std::string_view offer : offers) {
