@@ -29,7 +29,7 @@ ORDER = [
     ["core/pipeline"],
     ["core/accuracy"],
     ["server/document"],
-    ["server/limits"],
+    ["server/blanks", "server/limits"],
     ["server/service"],
     ["server/http"],
     ["server/cli"],

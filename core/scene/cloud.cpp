@@ -12,7 +12,7 @@ constexpr int of(CloudModel model) {
     return static_cast<int>(model);
 }
 
-constexpr Field kFields[] = {
+constexpr Field kCloudFields[] = {
     field<&Cloud::model>(
         {.name = "model", .words = kCloudModelWords, .says = "What it is made of."}),
     field<&Cloud::cubes>({.name = "cubes",
@@ -114,20 +114,20 @@ constexpr Field kFields[] = {
                          .says = "Instead of the scene's, for this cloud.",
                          .otherwise = "the scene's"}),
 };
-static_assert(covers<Cloud>(kFields));
-static_assert(covers_part<ReadyParticles>(kFields, "ready"));
+static_assert(covers<Cloud>(kCloudFields));
+static_assert(covers_part<ReadyParticles>(kCloudFields, "ready"));
 
-constexpr Table kTable{
+constexpr Table kCloudTable{
     .name = "Cloud",
     .says = "One cloud. A point p of the model stands at translate + rotate_y(scale * p).",
-    .fields = kFields,
+    .fields = kCloudFields,
     .standard = standard_of<Cloud>};
 
 }  // namespace
 
 template <>
 const Table& table_of<Cloud>() {
-    return kTable;
+    return kCloudTable;
 }
 
 bool is_procedural(const Cloud& cloud) {

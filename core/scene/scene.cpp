@@ -67,7 +67,7 @@ constexpr Field clouds_field() {
     return made;
 }
 
-constexpr Field kFields[] = {
+constexpr Field kSceneFields[] = {
     // Covers top_level_cubes: how the clouds were written.
     top_cubes_field(),
     clouds_field(),
@@ -139,26 +139,27 @@ constexpr Field kFields[] = {
                  "of them, and rung, "
                  "effects and detail are settled for all; a render is still of one time, `time`."}),
 };
-static_assert(covers<SceneDraft>(kFields));
+static_assert(covers<SceneDraft>(kSceneFields));
 
-constexpr Table kTable{.name = "Scene",
-                       .says =
-                           "The smallest scene is a layout; everything else has a default. "
-                           "Right-handed axes, y up; the unit of length is "
-                           "the scene's own; angles in degrees; colours linear, Rec. 709 "
-                           "primaries. At most 4194304 particles in all "
-                           "clouds together. Unknown fields, wrong types, values out of range and "
-                           "duplicate keys are errors that name "
-                           "the place.",
-                       .fields = kFields,
-                       .standard = standard_of<SceneDraft>};
+constexpr Table kSceneTable{
+    .name = "Scene",
+    .says =
+        "The smallest scene is a layout; everything else has a default. "
+        "Right-handed axes, y up; the unit of length is "
+        "the scene's own; angles in degrees; colours linear, Rec. 709 "
+        "primaries. At most 4194304 particles in all "
+        "clouds together. Unknown fields, wrong types, values out of range and "
+        "duplicate keys are errors that name "
+        "the place.",
+    .fields = kSceneFields,
+    .standard = standard_of<SceneDraft>};
 static_assert(limits::kMaxParticles == 4194304, "the prose above says it");
 
 }  // namespace
 
 template <>
 const Table& table_of<SceneDraft>() {
-    return kTable;
+    return kSceneTable;
 }
 
 std::optional<Effect> effect_from_name(std::string_view name) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "server/blanks.h"
 #include "server/limits.h"
 
 namespace awan {
@@ -170,12 +171,6 @@ std::optional<FramingError> check_rest(RequestHead& head) {
 }
 
 }  // namespace
-
-std::string_view without_blanks(std::string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-    return text;
-}
 
 std::string_view RequestHead::header(std::string_view name) const {
     for (const auto& [key, value] : headers)

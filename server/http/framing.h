@@ -13,9 +13,6 @@
 
 namespace awan {
 
-// `text` without the optional white space (blanks and tabs: RFC 9110, section 5.6.3) at its ends.
-std::string_view without_blanks(std::string_view text);
-
 // Why something is no request that is answered: status, and one sentence.
 struct FramingError {
     int status = 400;

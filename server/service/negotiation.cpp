@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "server/http/framing.h"
+#include "server/blanks.h"
 
 namespace awan {
 namespace {
