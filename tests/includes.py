@@ -29,7 +29,7 @@ ORDER = [
     ["core/pipeline"],
     ["core/accuracy"],
     ["server/document"],
-    ["server/blanks", "server/limits"],
+    ["server/header_text", "server/limits"],
     ["server/service"],
     ["server/http"],
     ["server/cli"],

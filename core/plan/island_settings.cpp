@@ -9,11 +9,11 @@ namespace awan {
 namespace {
 
 // Beside the picture, for what is drawn at its edge.
-constexpr double kMargin = 1.1;
+constexpr double kViewMargin = 1.1;
 
 bool in_picture(const View& view, const glm::dvec3& low, const glm::dvec3& high) {
-    const double across = kMargin * view.tan_half_fov * view.aspect,
-                 up = kMargin * view.tan_half_fov;
+    const double across = kViewMargin * view.tan_half_fov * view.aspect,
+                 up = kViewMargin * view.tan_half_fov;
     bool left = true, right = true, over = true, under = true, behind = true;  // all corners are
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 p =

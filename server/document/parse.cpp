@@ -158,7 +158,7 @@ bool take_word(const Field& field, void* object, std::string& word) {
 bool is_of_rows(const Field& list) {
     return list.access.holds == Holds::kPoints || list.access.holds == Holds::kColors;
 }
-void append_number(void* list, double value) {
+void append_to_list(void* list, double value) {
     static_cast<std::vector<float>*>(list)->push_back(to_float(value));
 }
 void append_row(const Field& field, void* list, const glm::dvec3& v) {
@@ -427,7 +427,7 @@ class SceneReader {
         }
         if (frame.list_field->access.holds != Holds::kFloats) return wrong_type("a number");
         if (!has_room()) return false;
-        append_number(frame.list, value);
+        append_to_list(frame.list, value);
         ++frame.index;
         return true;
     }
@@ -439,7 +439,7 @@ class SceneReader {
         const std::uint64_t most = field.counts.highest;
         if (field.access.holds == Holds::kFloats)
             frame.index = take_run<1>(text, most, [&](const std::array<double, 1>& v) {
-                append_number(frame.list, v[0]);
+                append_to_list(frame.list, v[0]);
             });
         if (is_of_rows(field))
             frame.index = take_run<3>(text, most, [&](const std::array<double, 3>& v) {

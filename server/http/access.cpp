@@ -1,15 +1,11 @@
 #include "server/http/access.h"
 
-#include <strings.h>
-
 #include <algorithm>
+
+#include "server/header_text.h"
 
 namespace awan {
 namespace {
-
-bool same(std::string_view a, std::string_view b) {
-    return a.size() == b.size() && strncasecmp(a.data(), b.data(), a.size()) == 0;
-}
 
 bool contains(const std::vector<std::string>& list, std::string_view value) {
     return std::any_of(list.begin(), list.end(),

@@ -1,11 +1,9 @@
 #include "server/http/framing.h"
 
-#include <strings.h>
-
 #include <algorithm>
 #include <array>
 
-#include "server/blanks.h"
+#include "server/header_text.h"
 #include "server/limits.h"
 
 namespace awan {
@@ -23,10 +21,6 @@ bool is_token_char(char c) {
 
 bool is_token(std::string_view text) {
     return !text.empty() && std::all_of(text.begin(), text.end(), is_token_char);
-}
-
-bool same(std::string_view a, std::string_view b) {
-    return a.size() == b.size() && strncasecmp(a.data(), b.data(), a.size()) == 0;
 }
 
 std::optional<FramingError> fail(int status, std::string detail) {

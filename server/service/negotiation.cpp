@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "server/blanks.h"
+#include "server/header_text.h"
 
 namespace awan {
 namespace {

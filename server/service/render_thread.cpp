@@ -17,7 +17,7 @@ namespace {
 using Clock = Deadline::Clock;
 
 // How often a waiting request looks whether its client has gone.
-constexpr std::chrono::milliseconds kLook{20};
+constexpr std::chrono::milliseconds kLookForClient{20};
 
 struct Job {
     const Scene* scene = nullptr;
@@ -186,7 +186,7 @@ Status RenderThread::wait_until_started(const Deadline& deadline) const {
     std::unique_lock lock(state_->mutex);
     while (state_->info.state == Info::State::kStarting) {
         if (auto over = deadline.over()) return over;
-        state_->changed.wait_for(lock, kLook);
+        state_->changed.wait_for(lock, kLookForClient);
     }
     return std::nullopt;
 }
@@ -219,7 +219,7 @@ RenderJobResult RenderThread::render(const Place& place, const Scene& scene, Pla
     state_->queue.push_back(&job);
     state_->changed.notify_all();
     while (!job.result) {
-        state_->changed.wait_for(lock, kLook);
+        state_->changed.wait_for(lock, kLookForClient);
         const auto waiting = std::find(state_->queue.begin(), state_->queue.end(), &job);
         // The job is done, or running.
         if (job.result || waiting == state_->queue.end()) continue;

@@ -1,11 +1,10 @@
 #include "server/service/service.h"
 
-#include <strings.h>
-
 #include <algorithm>
 #include <array>
 
 #include "server/document/json.h"
+#include "server/header_text.h"
 #include "server/service/negotiation.h"
 #include "server/service/problem.h"
 #include "server/service/state.h"
@@ -17,10 +16,6 @@ using Clock = Deadline::Clock;
 
 // Seconds for Retry-After. By then another instance, or this one started anew, is up.
 constexpr int kDrainRetrySeconds = 5;
-
-bool same(std::string_view a, std::string_view b) {
-    return a.size() == b.size() && strncasecmp(a.data(), b.data(), a.size()) == 0;
-}
 
 std::string_view find_header(const std::vector<std::pair<std::string, std::string>>& headers,
                              std::string_view name) {
