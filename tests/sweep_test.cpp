@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/common.hpp>
 
 namespace awan {
 namespace {
@@ -23,7 +24,7 @@ TEST(Sweep, LightFromBelowGoesStraightThroughEmptySpace) {
     };
     std::vector<float> source(16 * grid.size()), moments(16 * grid.size());
     SweepSpace space;
-    sweep(grid, ordinates, source, {}, 2, space, moments, radiance);
+    sweep(grid, ordinates, {source}, {}, 2, space, {moments}, radiance);
     std::size_t cell = 0;
     for (int k = 0; k < grid.cells.z; ++k)
         for (int j = 0; j < grid.cells.y; ++j)
@@ -50,7 +51,7 @@ TEST(Sweep, LightOfEveryDirectionReachesEveryCell) {
     };
     std::vector<float> source(16 * grid.size()), moments(16 * grid.size());
     SweepSpace space;
-    sweep(grid, ordinates, source, radiance, 1, space, moments);
+    sweep(grid, ordinates, {source}, radiance, 1, space, {moments});
     const double y0 = std::sqrt(4 * 3.14159265358979), y1 = std::sqrt(4 * 3.14159265358979 / 3);
     for (std::size_t cell = 0; cell < grid.size(); ++cell) {
         EXPECT_NEAR(moments[16 * cell], y0, 1e-5);
@@ -88,8 +89,8 @@ TEST(Sweep, MirroredScenesHaveMirroredLight) {
                 }
         std::vector<float> moments(grid.size());
         SweepSpace space;
-        sweep(
-            grid, ordinates, source, [](const glm::dvec3&) { return 0.5; }, 1, space, moments);
+        sweep(grid, ordinates, {source}, [](const glm::dvec3&) { return 0.5; }, 1, space,
+              {moments});
         return Seen{size, moments};
     };
     const Seen plain = seen(cells, [](const glm::ivec3& c) { return c; });
@@ -122,9 +123,8 @@ TEST(Sweep, ThinMatterTakesItsShareOfTheLight) {
     const glm::dvec3 only = ordinates.octants[0].direction[5];
     std::vector<float> source(grid.size()), moments(grid.size());
     SweepSpace space;
-    sweep(
-        grid, ordinates, source, [&](const glm::dvec3& d) { return d == only ? 1.0 : 0.0; }, 1,
-        space, moments);
+    sweep(grid, ordinates, {source}, [&](const glm::dvec3& d) { return d == only ? 1.0 : 0.0; }, 1,
+          space, {moments});
     const auto weight = static_cast<double>(ordinates.octants[0].weighted[5][0]);
     std::size_t cell = 0;
     for (int k = 0; k < 12; ++k)
@@ -137,6 +137,137 @@ TEST(Sweep, ThinMatterTakesItsShareOfTheLight) {
                         way, (only[axis] > 0 ? p[axis] : 12 - p[axis]) / std::abs(only[axis]));
                 EXPECT_NEAR(moments[cell] / weight, std::exp(-0.05 * way), 0.025);
             }
+}
+
+// A grid with flat cells, thin, thick and empty ones, that emit unevenly.
+struct Uneven {
+    SweepGrid grid;
+    std::vector<float> source, scale, even;
+};
+Uneven uneven(const glm::ivec3& cells, int harmonics) {
+    Uneven made;
+    made.grid.cells = cells;
+    made.grid.harmonics = harmonics;
+    made.grid.sides = {1.5F, 1, 2.25F};
+    const auto size = static_cast<std::size_t>(cells.x * cells.y * cells.z);
+    for (std::size_t i = 0; i < size; ++i) {
+        const std::size_t kind = i * 2654435761u >> 7;
+        made.grid.depth.push_back(kind % 4 == 0 ? 0.F : 0.01F * static_cast<float>(kind % 900));
+        const bool emits = made.grid.depth.back() > 0;
+        made.scale.push_back(emits ? 0.5F + 0.1F * static_cast<float>(kind % 7) : 0.F);
+        made.even.push_back(emits ? 0.2F * static_cast<float>(kind % 5) : 0.F);
+        for (int m = 0; m < harmonics; ++m)
+            made.source.push_back((m == 0 ? 2.F : 0.3F) * std::sin(static_cast<float>(kind % 1000) +
+                                                                   static_cast<float>(m)));
+    }
+    return made;
+}
+
+// One direction after the other, cell by cell, in double: what sweep.h says, written down as it stands.
+std::vector<double> plain_sweep(const Uneven& scene, const SweepSource& source,
+                                const Ordinates& ordinates, const Inflow& inflow) {
+    const SweepGrid& grid = scene.grid;
+    const glm::ivec3 n = grid.cells;
+    const auto count = static_cast<std::size_t>(grid.harmonics);
+    std::vector<double> moments(grid.size() * count);
+    for (const Ordinates::Octant& octant : ordinates.octants)
+        for (std::size_t d = 0; d < kDirections; ++d) {
+            const double in = inflow(octant.direction[d]);
+            const glm::dvec3 c = glm::abs(octant.direction[d]) / glm::dvec3(grid.sides);
+            std::vector<double> along_y(static_cast<std::size_t>(n.x), in),
+                along_z(static_cast<std::size_t>(n.x * n.y), in);
+            for (int kk = 0; kk < n.z; ++kk) {
+                const int k = octant.sign.z > 0 ? kk : n.z - 1 - kk;
+                std::fill(along_y.begin(), along_y.end(), in);
+                for (int jj = 0; jj < n.y; ++jj) {
+                    const int j = octant.sign.y > 0 ? jj : n.y - 1 - jj;
+                    double along_x = in;
+                    for (int ii = 0; ii < n.x; ++ii) {
+                        const int i = octant.sign.x > 0 ? ii : n.x - 1 - ii;
+                        const auto cell = static_cast<std::size_t>((k * n.y + j) * n.x + i);
+                        const double s = static_cast<double>(grid.depth[cell]);
+                        double q =
+                            static_cast<double>(source.even.empty() ? 0 : source.even[cell]) *
+                            static_cast<double>(octant.value[0][d]);
+                        const double scale =
+                            source.scale.empty() ? 1 : static_cast<double>(source.scale[cell]);
+                        for (std::size_t m = 0; m < count; ++m)
+                            q += scale * static_cast<double>(source.weight[m]) *
+                                 static_cast<double>(source.moments[cell * count + m]) *
+                                 static_cast<double>(octant.value[m][d]);
+                        double* const into[3] = {&along_x, &along_y[static_cast<std::size_t>(i)],
+                                                 &along_z[static_cast<std::size_t>(j * n.x + i)]};
+                        double above = q, below = s, per_theta[3];
+                        for (int axis = 0; axis < 3; ++axis) {
+                            per_theta[axis] = (6 * c[axis] + s) / (3 * c[axis] + s);
+                            above += c[axis] * per_theta[axis] * *into[axis];
+                            below += c[axis] * per_theta[axis];
+                        }
+                        const double psi = above / below;
+                        for (int axis = 0; axis < 3; ++axis)
+                            *into[axis] += (psi - *into[axis]) * per_theta[axis];
+                        if (grid.skip_empty && grid.depth[cell] == 0) continue;
+                        for (std::size_t m = 0; m < count; ++m)
+                            moments[cell * count + m] +=
+                                psi * static_cast<double>(octant.weighted[d][m]);
+                    }
+                }
+            }
+        }
+    return moments;
+}
+
+TEST(Sweep, IsThePlainSweep) {
+    const Ordinates ordinates = make_ordinates();
+    const auto radiance = [](const glm::dvec3& d) {
+        return 1 + 0.5 * d.x + 0.25 * d.y - 0.3 * d.z;
+    };
+    for (const int harmonics : {1, 16})
+        for (const bool skip_empty : {false, true})
+            for (const glm::ivec3& cells :
+                 {glm::ivec3(5, 4, 3), glm::ivec3(7, 2, 6), glm::ivec3(1, 1, 1)}) {
+                Uneven scene = uneven(cells, harmonics);
+                scene.grid.skip_empty = skip_empty;
+                SweepSource source{scene.source, scene.scale, scene.even};
+                for (std::size_t m = 0; m < 16; ++m)
+                    source.weight[m] = 1 - 0.05F * static_cast<float>(m);
+                const std::vector<double> plain = plain_sweep(scene, source, ordinates, radiance);
+                std::vector<float> moments(plain.size()), from(plain.size()),
+                    addition(scene.grid.size());
+                SweepSpace space;
+                sweep(scene.grid, ordinates, source, radiance, 1, space, {moments});
+                for (std::size_t i = 0; i < plain.size(); ++i)
+                    ASSERT_NEAR(moments[i], plain[i], 2e-5)
+                        << harmonics << ' ' << skip_empty << ' ' << i;
+                // The same, taken away from something.
+                for (std::size_t i = 0; i < from.size(); ++i) from[i] = static_cast<float>(i % 13);
+                for (std::size_t i = 0; i < addition.size(); ++i)
+                    addition[i] = static_cast<float>(i % 3);
+                std::vector<float> rest(plain.size());
+                sweep(scene.grid, ordinates, source, radiance, 1, space, {rest, from, addition});
+                const auto count = static_cast<std::size_t>(harmonics);
+                for (std::size_t i = 0; i < plain.size(); ++i)
+                    ASSERT_EQ(rest[i],
+                              from[i] + (i % count == 0 ? addition[i / count] : 0.F) - moments[i]);
+            }
+}
+
+// Threads go through a layer's cells and octants together; none of it shows.
+TEST(Sweep, TheSameBytesForEveryNumberOfThreads) {
+    const Ordinates ordinates = make_ordinates();
+    for (const glm::ivec3& cells : {glm::ivec3(33, 31, 5), glm::ivec3(9, 8, 4)})
+        for (const int harmonics : {1, 16}) {
+            const Uneven scene = uneven(cells, harmonics);
+            const SweepSource source{scene.source, scene.scale, scene.even};
+            std::vector<float> one(scene.source.size()), many(one.size());
+            SweepSpace space;
+            sweep(scene.grid, ordinates, source, {}, 1, space, {one, scene.source});
+            for (const int threads : {2, 3, 5, 7, 16}) {
+                std::fill(many.begin(), many.end(), -1.F);
+                sweep(scene.grid, ordinates, source, {}, threads, space, {many, scene.source});
+                EXPECT_EQ(one, many) << threads;
+            }
+        }
 }
 
 }  // namespace

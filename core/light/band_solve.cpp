@@ -71,7 +71,7 @@ Result<SolvedBand> solve_band(const BandProblem& problem, const Ordinates& ordin
     std::vector<float> source = problem.beam != nullptr ? scattered_beam(problem, count)
                                                         : std::vector<float>(cells * count);
     std::vector<float> right(source.size());
-    sweep(matter.grid, ordinates, source, problem.inflow, threads, space, right,
+    sweep(matter.grid, ordinates, {source}, problem.inflow, threads, space, {right},
           problem.from_below);
 
     std::array<float, kHarmonics> moment{};
@@ -86,8 +86,7 @@ Result<SolvedBand> solve_band(const BandProblem& problem, const Ordinates& ordin
                 source[i * count + m] = matter.scattered[i] * moment[m] * from[i * count + m];
         for (std::size_t i = 0; i < cells; ++i) even[i] = from[i * count];
         add_sharpening(sharpening, even, count, source);
-        sweep(matter.grid, ordinates, source, {}, threads, space, to);
-        for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i] - to[i];
+        sweep(matter.grid, ordinates, {source}, {}, threads, space, {to, from});
         return std::nullopt;
     };
     // What a vector of moments scatters evenly, spread by diffusion.

@@ -279,7 +279,7 @@ MUTANTS = [
     M("light gathered without its cosine", "light", "core/light/ground_gather.cpp",
       "(length * length * length) * d.y;", "(length * length * length);", "a cosine",
       ["ground_test:Ground.CloudAnd*:Ground.InAWhite*:Ground.Under*"]),
-    M("theta of the other axis", "light", "core/light/sweep.cpp",
+    M("theta of the other axis", "light", "core/light/sweep_layer.cpp",
       "psi_z += (psi - psi_z) * tz;", "psi_z += (psi - psi_z) * ty;", "copied from the line above",
       ["sweep_test", "transport_test:Transport.WhiteFurnace"]),
     M("depth before the prism of itself", "light", "core/light/island_sun.cpp",
