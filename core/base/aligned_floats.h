@@ -1,8 +1,9 @@
-// Floats that begin at a cache line, so that no vector of sixteen lies across two.
+// Floats that begin at a cache line, so that no vector of sixteen lies across two. resize() leaves new ones unset.
 #pragma once
 
 #include <cstddef>
 #include <new>
+#include <utility>
 #include <vector>
 
 namespace awan {
@@ -18,6 +19,15 @@ struct CacheLineAllocator {
 
     Value* allocate(std::size_t count) {
         return static_cast<Value*>(::operator new(count * sizeof(Value), kLine));
+    }
+    // A float that nothing is put into stays as it is: memory that is filled anyway is not zeroed before.
+    template <typename Made>
+    void construct(Made* at) {
+        ::new (static_cast<void*>(at)) Made;
+    }
+    template <typename Made, typename From>
+    void construct(Made* at, From&& from) {
+        ::new (static_cast<void*>(at)) Made(std::forward<From>(from));
     }
     void deallocate(Value* at, std::size_t /*count*/) { ::operator delete(at, kLine); }
     friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }

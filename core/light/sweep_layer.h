@@ -3,9 +3,9 @@
 // A layer is taken in three steps. `expand_cells` turns each cell's moments into the source of every direction. What a
 // harmonic is towards an octant is what it is towards the first, but for its sign; so sixteen products give the sources
 // of four octants: the sums of harmonics that are even or odd in x, and in y, are added with the four combinations of
-// signs (a Walsh-Hadamard transform). `walk_layer` takes the light through the cells; four octants go side by side, since
-// each waits for the cell before it. `gather_cells` turns radiance into moments, by the same sums backwards. None of it
-// depends on how cells and octants are split over threads.
+// signs (a Walsh-Hadamard transform). `walk_layer` takes the light through the cells; four octants go side by side,
+// since each waits for the cell before it. `gather_cells` turns radiance into moments, by the same sums backwards. None
+// of it depends on how cells and octants are split over threads.
 #pragma once
 
 #include <array>
