@@ -79,7 +79,8 @@ Result<SolvedBand> solve_band(const BandProblem& problem, const Ordinates& ordin
     SweepSource scattered{.moments = {}, .scale = matter.scattered, .even = even};
     for (std::size_t m = 0; m < count; ++m)
         scattered.weight[m] = static_cast<float>(problem.split.moment[kOrderOf[m]]);
-    // `first`: the first moments of `from` and `addition`; `even`: what is sent out evenly beside what scatters of `from`.
+    // `first`: the first moments of `from` and `addition`. `even`: what is sent out evenly, beside what scatters of
+    // `from`.
     const Product one_minus_k = [&](std::span<const float> from, std::span<const float> addition,
                                     std::span<float> to) -> Status {
         if (auto error = deadline.over()) return error;
@@ -110,7 +111,7 @@ Result<SolvedBand> solve_band(const BandProblem& problem, const Ordinates& ordin
         if (problem.spread)
             problem.spread(unsettled, addition);
         else
-            solve_diffusion(diffusion, unsettled, kDiffusionTolerance, addition);
+            solve_diffusion(diffusion, unsettled, kDiffusionTolerance, addition, threads);
     };
     std::vector<float> moments = radiance_of_guess(problem);
     const auto outcome = gmres(one_minus_k, {count, diffuse}, right,

@@ -1,11 +1,10 @@
 #include "core/light/sweep.h"
 
 #include <algorithm>
-#include <barrier>
 #include <cassert>
 #include <optional>
 
-#include "core/base/parallel.h"
+#include "core/base/team.h"
 #include "core/light/sweep_layer.h"
 
 namespace awan {
@@ -70,30 +69,20 @@ SideSweep side_of(const SweepGrid& grid, const Ordinates& ordinates, const Sweep
     return side;
 }
 
-// The threads that take a side's layers together: each has its share of the cells, and its share of the octants.
-struct Team {
-    std::size_t size = 1;
-    std::barrier<> wait{1};
-    explicit Team(std::size_t members)
-        : size(members), wait(static_cast<std::ptrdiff_t>(members)) {}
-};
-
-// Layers begin..end-1 in the order in which the side's light meets them, as one member of its team.
+// Layers begin..end-1 in the order in which the side's light meets them, as one member of the team that takes them:
+// each has its share of the cells, and its share of the octants.
 void take_layers(const SideSweep& side, int begin, int end, std::size_t member, Team& team,
                  bool second, const SweepResult& result) {
     const std::size_t cells = side.grid.layer_size();
-    const std::size_t from = cells * member / team.size, to = cells * (member + 1) / team.size;
-    const std::size_t walkers = team.size >= kSide ? kSide : team.size >= 2 ? 2 : 1;
+    const auto [from, to] = team.share_of(member, cells);
+    const std::size_t walkers = team.size() >= kSide ? kSide : team.size() >= 2 ? 2 : 1;
     const std::size_t octants = kSide / walkers;
-    const auto together = [&] {
-        if (team.size > 1) team.wait.arrive_and_wait();
-    };
     for (int n = begin; n < end; ++n) {
         const auto k = static_cast<std::size_t>(side.down_z ? side.grid.cells.z - 1 - n : n);
         expand_cells(side, k, from, to);
-        together();
+        team.wait();
         if (member < walkers) walk_layer(side, k, member * octants, octants);
-        together();
+        team.wait();
         gather_cells(side, k, from, to, second, result);
     }
 }
@@ -130,15 +119,14 @@ void sweep(const SweepGrid& grid, const Ordinates& ordinates, const SweepSource&
             }
         return;
     }
-    const std::size_t all = teams[0].size + teams[1].size;
-    std::barrier<> wait(static_cast<std::ptrdiff_t>(all));
-    parallel_for(static_cast<int>(all), all, [&](std::size_t i) {
-        const std::size_t index = i < teams[0].size ? 0 : 1;
-        const std::size_t member = index == 0 ? i : i - teams[0].size;
+    Team all(teams[0].size() + teams[1].size());
+    run_team(all, [&](std::size_t i) {
+        const std::size_t index = i < teams[0].size() ? 0 : 1;
+        const std::size_t member = index == 0 ? i : i - teams[0].size();
         if (member == 0) begin(index);
-        wait.arrive_and_wait();
+        all.wait();
         take(index, member, false);
-        wait.arrive_and_wait();
+        all.wait();
         take(index, member, true);
     });
 }

@@ -261,9 +261,8 @@ MUTANTS = [
     # --- light
     M("moment of the wrong order", "light", "core/light/legendre.cpp",
       "if (l >= 2) sum +=", "if (l > 2) sum +=", "> for >=", ["transport_test:Legendre.*"]),
-    M("beam enters a cell at its middle", "light", "core/light/part_matter.cpp",
-      "scaled * depth_at(sun, nodes, middle) - 0.5 * across",
-      "scaled * depth_at(sun, nodes, middle)", "half a cell",
+    M("beam enters a cell at its middle", "light", "core/light/beam_source.cpp",
+      "row.scaled * depth - 0.5F * across", "row.scaled * depth", "half a cell",
       ["transport_test", "daylight_light_test"]),
     M("no colours in the particles' light", "light", "core/light/part_matter.cpp",
       "albedo[i][c] = all * std::clamp(tinted[i] / extinction[i], 0.F, 1.F)", "albedo[i][c] = all",
