@@ -5,8 +5,14 @@
 
 #include <cmath>
 
+#include "tests/plain_sweep.h"
+
 namespace awan {
 namespace {
+
+using test::plain_sweep;
+using test::uneven;
+using test::Uneven;
 
 // Through empty space light goes straight on: radiance that is linear across the rays stays so, and linear weighted
 // diamond differences without matter have it exactly. Sides all differ, so that no two axes may be taken for one
@@ -23,7 +29,7 @@ TEST(Sweep, LightFromBelowGoesStraightThroughEmptySpace) {
     };
     std::vector<float> source(16 * grid.size()), moments(16 * grid.size());
     SweepSpace space;
-    sweep(grid, ordinates, source, {}, 2, space, moments, radiance);
+    sweep(grid, ordinates, {source}, {}, 2, space, {moments}, radiance);
     std::size_t cell = 0;
     for (int k = 0; k < grid.cells.z; ++k)
         for (int j = 0; j < grid.cells.y; ++j)
@@ -50,7 +56,7 @@ TEST(Sweep, LightOfEveryDirectionReachesEveryCell) {
     };
     std::vector<float> source(16 * grid.size()), moments(16 * grid.size());
     SweepSpace space;
-    sweep(grid, ordinates, source, radiance, 1, space, moments);
+    sweep(grid, ordinates, {source}, radiance, 1, space, {moments});
     const double y0 = std::sqrt(4 * 3.14159265358979), y1 = std::sqrt(4 * 3.14159265358979 / 3);
     for (std::size_t cell = 0; cell < grid.size(); ++cell) {
         EXPECT_NEAR(moments[16 * cell], y0, 1e-5);
@@ -88,8 +94,8 @@ TEST(Sweep, MirroredScenesHaveMirroredLight) {
                 }
         std::vector<float> moments(grid.size());
         SweepSpace space;
-        sweep(
-            grid, ordinates, source, [](const glm::dvec3&) { return 0.5; }, 1, space, moments);
+        sweep(grid, ordinates, {source}, [](const glm::dvec3&) { return 0.5; }, 1, space,
+              {moments});
         return Seen{size, moments};
     };
     const Seen plain = seen(cells, [](const glm::ivec3& c) { return c; });
@@ -122,9 +128,8 @@ TEST(Sweep, ThinMatterTakesItsShareOfTheLight) {
     const glm::dvec3 only = ordinates.octants[0].direction[5];
     std::vector<float> source(grid.size()), moments(grid.size());
     SweepSpace space;
-    sweep(
-        grid, ordinates, source, [&](const glm::dvec3& d) { return d == only ? 1.0 : 0.0; }, 1,
-        space, moments);
+    sweep(grid, ordinates, {source}, [&](const glm::dvec3& d) { return d == only ? 1.0 : 0.0; }, 1,
+          space, {moments});
     const auto weight = static_cast<double>(ordinates.octants[0].weighted[5][0]);
     std::size_t cell = 0;
     for (int k = 0; k < 12; ++k)
@@ -137,6 +142,59 @@ TEST(Sweep, ThinMatterTakesItsShareOfTheLight) {
                         way, (only[axis] > 0 ? p[axis] : 12 - p[axis]) / std::abs(only[axis]));
                 EXPECT_NEAR(moments[cell] / weight, std::exp(-0.05 * way), 0.025);
             }
+}
+
+TEST(Sweep, IsThePlainSweep) {
+    const Ordinates ordinates = make_ordinates();
+    const auto radiance = [](const glm::dvec3& d) {
+        return 1 + 0.5 * d.x + 0.25 * d.y - 0.3 * d.z;
+    };
+    for (const int harmonics : {1, 16})
+        for (const bool skip_empty : {false, true})
+            for (const glm::ivec3& cells :
+                 {glm::ivec3(5, 4, 3), glm::ivec3(7, 2, 6), glm::ivec3(1, 1, 1)}) {
+                Uneven scene = uneven(cells, harmonics);
+                scene.grid.skip_empty = skip_empty;
+                SweepSource source{scene.source, scene.scale, scene.even};
+                for (std::size_t m = 0; m < 16; ++m)
+                    source.weight[m] = 1 - 0.05F * static_cast<float>(m);
+                const std::vector<double> plain = plain_sweep(scene, source, ordinates, radiance);
+                std::vector<float> moments(plain.size()), from(plain.size()),
+                    addition(scene.grid.size());
+                SweepSpace space;
+                sweep(scene.grid, ordinates, source, radiance, 1, space, {moments});
+                for (std::size_t i = 0; i < plain.size(); ++i)
+                    ASSERT_NEAR(moments[i], plain[i], 2e-5)
+                        << harmonics << ' ' << skip_empty << ' ' << i;
+                // The same, taken away from something.
+                for (std::size_t i = 0; i < from.size(); ++i) from[i] = static_cast<float>(i % 13);
+                for (std::size_t i = 0; i < addition.size(); ++i)
+                    addition[i] = static_cast<float>(i % 3);
+                std::vector<float> rest(plain.size());
+                sweep(scene.grid, ordinates, source, radiance, 1, space, {rest, from, addition});
+                const auto count = static_cast<std::size_t>(harmonics);
+                for (std::size_t i = 0; i < plain.size(); ++i)
+                    ASSERT_EQ(rest[i],
+                              from[i] + (i % count == 0 ? addition[i / count] : 0.F) - moments[i]);
+            }
+}
+
+// Threads go through a layer's cells and octants together; none of it shows.
+TEST(Sweep, TheSameBytesForEveryNumberOfThreads) {
+    const Ordinates ordinates = make_ordinates();
+    for (const glm::ivec3& cells : {glm::ivec3(33, 31, 5), glm::ivec3(9, 8, 4)})
+        for (const int harmonics : {1, 16}) {
+            const Uneven scene = uneven(cells, harmonics);
+            const SweepSource source{scene.source, scene.scale, scene.even};
+            std::vector<float> one(scene.source.size()), many(one.size());
+            SweepSpace space;
+            sweep(scene.grid, ordinates, source, {}, 1, space, {one, scene.source});
+            for (const int threads : {2, 3, 5, 7, 16}) {
+                std::fill(many.begin(), many.end(), -1.F);
+                sweep(scene.grid, ordinates, source, {}, threads, space, {many, scene.source});
+                EXPECT_EQ(one, many) << threads;
+            }
+        }
 }
 
 }  // namespace

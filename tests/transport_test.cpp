@@ -191,13 +191,16 @@ TEST(Gmres, SolvesWithAndWithoutAPreconditioner) {
     std::vector<float> wanted(kSize), right(kSize), x(kSize);
     for (std::size_t i = 0; i < kSize; ++i)
         wanted[i] = static_cast<float>(std::sin(.1 * double(i)));
-    const Product product = [](std::span<const float> from, std::span<float> to) -> Status {
+    const Product product = [](std::span<const float> from, std::span<const float> addition,
+                               std::span<float> to) -> Status {
+        const auto at = [&](std::size_t i) {
+            return i < from.size() ? from[i] + (addition.empty() ? 0.F : addition[i]) : 0.F;
+        };
         for (std::size_t i = 0; i < from.size(); ++i)
-            to[i] = 2.2F * from[i] - (i > 0 ? from[i - 1] : 0.F) -
-                    (i + 1 < from.size() ? .9F * from[i + 1] : 0.F);
+            to[i] = 2.2F * at(i) - (i > 0 ? at(i - 1) : 0.F) - .9F * at(i + 1);
         return std::nullopt;
     };
-    ASSERT_FALSE(product(wanted, right));
+    ASSERT_FALSE(product(wanted, {}, right));
     const Preconditioner some{1, [](std::span<const float> v, std::span<float> a) {
                                   for (std::size_t i = 0; i < v.size(); ++i) a[i] = -.5F * v[i];
                               }};

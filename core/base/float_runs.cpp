@@ -36,11 +36,34 @@ AWAN_INLINE void add_scaled_body(float* __restrict to, const float* __restrict f
     for (std::size_t i = 0; i < count; ++i) to[i] += scale * from[i];
 }
 
+// Four vectors at a time: `to` is read and written once for them.
+AWAN_INLINE void add_four_body(float* __restrict to, const float* __restrict a,
+                               const float* __restrict b, const float* __restrict c,
+                               const float* __restrict d, const float* scale, std::size_t count) {
+    const float s = scale[0], t = scale[1], u = scale[2], v = scale[3];
+    for (std::size_t i = 0; i < count; ++i)
+        to[i] = (((to[i] + s * a[i]) + t * b[i]) + u * c[i]) + v * d[i];
+}
+AWAN_KERNEL(void, add_four,
+            (float* __restrict to, const float* __restrict a, const float* __restrict b,
+             const float* __restrict c, const float* __restrict d, const float* scale,
+             std::size_t count),
+            (to, a, b, c, d, scale, count))
+
 }  // namespace
 
 AWAN_KERNEL(double, dot_product, (const float* a, const float* b, std::size_t count), (a, b, count))
 AWAN_KERNEL(void, add_scaled,
             (float* __restrict to, const float* __restrict from, float scale, std::size_t count),
             (to, from, scale, count))
+
+void add_scaled(float* to, const float* const* from, std::size_t at, const float* scale,
+                std::size_t vectors, std::size_t count) {
+    std::size_t v = 0;
+    for (; v + 4 <= vectors; v += 4)
+        add_four(to, from[v] + at, from[v + 1] + at, from[v + 2] + at, from[v + 3] + at, scale + v,
+                 count);
+    for (; v < vectors; ++v) add_scaled(to, from[v] + at, scale[v], count);
+}
 
 }  // namespace awan

@@ -28,31 +28,39 @@ InstructionSet instruction_set_for(std::string_view wish, InstructionSet widest)
 // set:
 //   AWAN_INLINE void scale_body(float by, float* x, int count) { ... }
 //   AWAN_KERNEL(void, scale, (float by, float* x, int count), (by, x, count))
+// AWAN_KERNEL_BY_WIDTH: the same of a NAME_body<floats>, a template of how many floats a register of the set holds, for
+// what is worth writing in two ways. Both must give the same figures.
+#define AWAN_KERNEL(returned, name, parameters, arguments) \
+    AWAN_KERNEL_OF(returned, name, parameters, arguments, name##_body, name##_body, name##_body)
+#define AWAN_KERNEL_BY_WIDTH(returned, name, parameters, arguments)                       \
+    AWAN_KERNEL_OF(returned, name, parameters, arguments, name##_body<4>, name##_body<8>, \
+                   name##_body<16>)
+
 #if defined(__x86_64__)
-#define AWAN_KERNEL(returned, name, parameters, arguments)                \
-    static returned name##_plain parameters {                             \
-        return name##_body arguments;                                     \
-    }                                                                     \
-    [[gnu::target("avx2")]] static returned name##_avx2 parameters {      \
-        return name##_body arguments;                                     \
-    }                                                                     \
-    [[gnu::target("avx512f")]] static returned name##_avx512 parameters { \
-        return name##_body arguments;                                     \
-    }                                                                     \
-    returned name parameters {                                            \
-        switch (instruction_set()) {                                      \
-            case InstructionSet::kAvx512:                                 \
-                return name##_avx512 arguments;                           \
-            case InstructionSet::kAvx2:                                   \
-                return name##_avx2 arguments;                             \
-            case InstructionSet::kPlain:                                  \
-                break;                                                    \
-        }                                                                 \
-        return name##_plain arguments;                                    \
+#define AWAN_KERNEL_OF(returned, name, parameters, arguments, plain_body, avx2_body, avx512_body) \
+    static returned name##_plain parameters {                                                     \
+        return plain_body arguments;                                                              \
+    }                                                                                             \
+    [[gnu::target("avx2")]] static returned name##_avx2 parameters {                              \
+        return avx2_body arguments;                                                               \
+    }                                                                                             \
+    [[gnu::target("avx512f")]] static returned name##_avx512 parameters {                         \
+        return avx512_body arguments;                                                             \
+    }                                                                                             \
+    returned name parameters {                                                                    \
+        switch (instruction_set()) {                                                              \
+            case InstructionSet::kAvx512:                                                         \
+                return name##_avx512 arguments;                                                   \
+            case InstructionSet::kAvx2:                                                           \
+                return name##_avx2 arguments;                                                     \
+            case InstructionSet::kPlain:                                                          \
+                break;                                                                            \
+        }                                                                                         \
+        return name##_plain arguments;                                                            \
     }
 #else
-#define AWAN_KERNEL(returned, name, parameters, arguments) \
-    returned name parameters {                             \
-        return name##_body arguments;                      \
+#define AWAN_KERNEL_OF(returned, name, parameters, arguments, plain_body, avx2_body, avx512_body) \
+    returned name parameters {                                                                    \
+        return plain_body arguments;                                                              \
     }
 #endif

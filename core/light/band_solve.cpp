@@ -71,23 +71,32 @@ Result<SolvedBand> solve_band(const BandProblem& problem, const Ordinates& ordin
     std::vector<float> source = problem.beam != nullptr ? scattered_beam(problem, count)
                                                         : std::vector<float>(cells * count);
     std::vector<float> right(source.size());
-    sweep(matter.grid, ordinates, source, problem.inflow, threads, space, right,
+    sweep(matter.grid, ordinates, {source}, problem.inflow, threads, space, {right},
           problem.from_below);
 
-    std::array<float, kHarmonics> moment{};
-    for (std::size_t m = 0; m < count; ++m)
-        moment[m] = static_cast<float>(problem.split.moment[kOrderOf[m]]);
     const Sharpening sharpening = make_sharpening(matter.grid, ordinates);
-    std::vector<float> even(cells);
-    const Product one_minus_k = [&](std::span<const float> from, std::span<float> to) -> Status {
+    std::vector<float> first(cells), even(cells);
+    SweepSource scattered{.moments = {}, .scale = matter.scattered, .even = even};
+    for (std::size_t m = 0; m < count; ++m)
+        scattered.weight[m] = static_cast<float>(problem.split.moment[kOrderOf[m]]);
+    // `first`: the first moments of `from` and `addition`. `even`: what is sent out evenly, beside what scatters of
+    // `from`.
+    const Product one_minus_k = [&](std::span<const float> from, std::span<const float> addition,
+                                    std::span<float> to) -> Status {
         if (auto error = deadline.over()) return error;
-        for (std::size_t i = 0; i < cells; ++i)
-            for (std::size_t m = 0; m < count; ++m)
-                source[i * count + m] = matter.scattered[i] * moment[m] * from[i * count + m];
-        for (std::size_t i = 0; i < cells; ++i) even[i] = from[i * count];
-        add_sharpening(sharpening, even, count, source);
-        sweep(matter.grid, ordinates, source, {}, threads, space, to);
-        for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i] - to[i];
+        if (addition.empty()) {
+            for (std::size_t i = 0; i < cells; ++i) first[i] = from[i * count];
+            std::fill(even.begin(), even.end(), 0.F);
+        } else {
+            const float moment = scattered.weight[0];
+            for (std::size_t i = 0; i < cells; ++i) {
+                first[i] = from[i * count] + addition[i];
+                even[i] = matter.scattered[i] * moment * addition[i];
+            }
+        }
+        add_sharpening(sharpening, first, even);
+        scattered.moments = from;
+        sweep(matter.grid, ordinates, scattered, {}, threads, space, {to, from, addition});
         return std::nullopt;
     };
     // What a vector of moments scatters evenly, spread by diffusion.
@@ -102,7 +111,7 @@ Result<SolvedBand> solve_band(const BandProblem& problem, const Ordinates& ordin
         if (problem.spread)
             problem.spread(unsettled, addition);
         else
-            solve_diffusion(diffusion, unsettled, kDiffusionTolerance, addition);
+            solve_diffusion(diffusion, unsettled, kDiffusionTolerance, addition, threads);
     };
     std::vector<float> moments = radiance_of_guess(problem);
     const auto outcome = gmres(one_minus_k, {count, diffuse}, right,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/aligned_floats.h"
 #include "core/base/float_runs.h"
 #include "core/base/parallel.h"
 
@@ -12,10 +13,16 @@ namespace {
 // Floats of a block: one block of every vector of the basis stays in a processor's near cache.
 constexpr std::size_t kBlock = 4096;
 
-using Vector = std::vector<float>;
+using Vector = AlignedFloats;
 
 std::size_t blocks_of(std::size_t size) {
     return (size + kBlock - 1) / kBlock;
+}
+
+double sum_of(const std::vector<double>& parts) {
+    double sum = 0;
+    for (const double part : parts) sum += part;
+    return sum;
 }
 
 // Dot products of `w` with the first `count` vectors of the basis and with itself (last).
@@ -36,18 +43,31 @@ std::vector<double> dots(const std::vector<Vector>& basis, std::size_t count, co
     return sums;
 }
 
-// to += sum of scale[v] * basis[v].
-void add(const std::vector<Vector>& basis, const std::vector<double>& scale, int threads,
-         std::span<float> to) {
-    parallel_for(threads, blocks_of(to.size()), [&](std::size_t block) {
+// to += sum of scale[v] * basis[v]; the length of what it becomes.
+double add(const std::vector<Vector>& basis, const std::vector<double>& scale, int threads,
+           std::span<float> to) {
+    const std::vector<float> scales(scale.begin(), scale.end());
+    std::vector<const float*> vectors;
+    for (const Vector& one : basis) vectors.push_back(one.data());
+    std::vector<double> squares(blocks_of(to.size()));
+    parallel_for(threads, squares.size(), [&](std::size_t block) {
         const std::size_t at = block * kBlock, n = std::min(kBlock, to.size() - at);
-        for (std::size_t v = 0; v < scale.size(); ++v)
-            add_scaled(to.data() + at, basis[v].data() + at, static_cast<float>(scale[v]), n);
+        add_scaled(to.data() + at, vectors.data(), at, scales.data(), scales.size(), n);
+        squares[block] = dot_product(to.data() + at, to.data() + at, n);
     });
+    return std::sqrt(sum_of(squares));
 }
 
 double norm(const Vector& v, int threads) {
     return std::sqrt(dots({}, 0, v, threads)[0]);
+}
+
+void divide(Vector& vector, double by, int threads) {
+    const auto scale = static_cast<float>(1 / by);
+    parallel_for(threads, blocks_of(vector.size()), [&](std::size_t block) {
+        const std::size_t at = block * kBlock, n = std::min(kBlock, vector.size() - at);
+        for (std::size_t i = at; i < at + n; ++i) vector[i] *= scale;
+    });
 }
 
 // One Givens rotation, kept to be used on later columns.
@@ -65,10 +85,6 @@ Rotation rotation_that_clears(double a, double b) {
     return length > 0 ? Rotation{a / length, b / length} : Rotation{};
 }
 
-void divide(Vector& vector, double by) {
-    for (float& value : vector) value = static_cast<float>(static_cast<double>(value) / by);
-}
-
 // The vectors that x is sought among since the last restart, and what A makes of them: with V the basis and P the
 // preconditioner, A P V = V H, and H is kept as Q R, Q made of rotations and R triangular.
 struct KrylovSpace {
@@ -79,42 +95,38 @@ struct KrylovSpace {
     std::vector<double> right;                 // the residual in this basis, turned by Q
 };
 
-KrylovSpace space_from(const Vector& residual, double length) {
+KrylovSpace space_from(const Vector& residual, double length, int threads) {
     KrylovSpace space;
     space.basis.push_back(residual);
-    divide(space.basis.front(), length);
+    divide(space.basis.front(), length, threads);
     space.right.push_back(length);
     return space;
-}
-
-// The last vector of the basis with the preconditioner's addition, which is kept.
-Vector preconditioned(const Preconditioner& preconditioner, KrylovSpace& space) {
-    Vector changed = space.basis.back();
-    if (!preconditioner.add) return changed;
-    const std::size_t every = preconditioner.every;
-    Vector& addition = space.additions.emplace_back(changed.size() / every);
-    preconditioner.add(space.basis.back(), addition);
-    for (std::size_t i = 0; i < addition.size(); ++i) changed[i * every] += addition[i];
-    return changed;
 }
 
 // One more vector, by one product with A. False: it lies in the space already, which can grow no further.
 Result<bool> grow(const Product& product, const Preconditioner& preconditioner, int threads,
                   KrylovSpace& space) {
     const std::size_t k = space.columns.size();
-    const Vector from = preconditioned(preconditioner, space);
-    Vector& w = space.basis.emplace_back(from.size());
-    if (auto error = product(from, w)) return *error;
+    const std::size_t size = space.basis.back().size();
+    if (preconditioner.add) {
+        space.additions.emplace_back(size / preconditioner.every);
+        preconditioner.add(space.basis.back(), space.additions.back());
+    }
+    Vector w(size);
+    const std::span<const float> addition = preconditioner.add
+                                                ? std::span<const float>(space.additions.back())
+                                                : std::span<const float>();
+    if (auto error = product(space.basis.back(), addition, w)) return *error;
     // Classical Gram-Schmidt: one pass over memory. With so few vectors there is no need for a second.
     std::vector<double> column = dots(space.basis, k + 1, w, threads);
     const double before = std::sqrt(column.back());
     column.pop_back();
     std::vector<double> minus(column);
     for (double& value : minus) value = -value;
-    add(space.basis, minus, threads, w);
-    const double length = norm(w, threads);
+    const double length = add(space.basis, minus, threads, w);
     column.push_back(length);
-    if (length > 0) divide(w, length);
+    if (length > 0) divide(w, length, threads);
+    space.basis.push_back(std::move(w));
     for (std::size_t i = 0; i < k; ++i) space.rotations[i].turn(column[i], column[i + 1]);
     space.rotations.push_back(rotation_that_clears(column[k], column[k + 1]));
     space.rotations[k].turn(column[k], column[k + 1]);
@@ -145,6 +157,19 @@ void take_best(const KrylovSpace& space, std::size_t every, int threads, std::sp
             x[i * every] += static_cast<float>(y[v]) * space.additions[v][i];
 }
 
+// residual = b - A x. Its length.
+Result<double> residual_of(const Product& product, std::span<const float> b,
+                           std::span<const float> x, int threads, Vector& residual) {
+    if (auto error = product(x, {}, residual)) return *error;
+    std::vector<double> squares(blocks_of(b.size()));
+    parallel_for(threads, squares.size(), [&](std::size_t block) {
+        const std::size_t at = block * kBlock, n = std::min(kBlock, b.size() - at);
+        for (std::size_t i = at; i < at + n; ++i) residual[i] = b[i] - residual[i];
+        squares[block] = dot_product(residual.data() + at, residual.data() + at, n);
+    });
+    return std::sqrt(sum_of(squares));
+}
+
 struct Begun {
     double left;   // |b - A x|
     int products;  // of A, to know it
@@ -156,11 +181,9 @@ Result<Begun> residual_of_guess(const Product& product, std::span<const float> b
                                 int threads, std::span<float> x, Vector& residual) {
     if (std::all_of(x.begin(), x.end(), [](float value) { return value == 0; }))
         return Begun{whole, 0};
-    Vector product_of_x(b.size());
-    if (auto error = product(x, product_of_x)) return *error;
-    for (std::size_t i = 0; i < b.size(); ++i) residual[i] = b[i] - product_of_x[i];
-    const double left = norm(residual, threads);
-    if (left < whole) return Begun{left, 1};
+    const auto left = residual_of(product, b, x, threads, residual);
+    if (!left.ok()) return left.error();
+    if (*left < whole) return Begun{*left, 1};
     std::fill(x.begin(), x.end(), 0.F);
     std::copy(b.begin(), b.end(), residual.begin());
     return Begun{whole, 1};
@@ -188,7 +211,7 @@ Result<GmresOutcome> gmres(const Product& product, const Preconditioner& precond
     };
     while (goes_on()) {
         const double at_start = left;
-        KrylovSpace space = space_from(residual, left);
+        KrylovSpace space = space_from(residual, left, threads);
         for (bool grows = true; grows && space.columns.size() < most && goes_on();) {
             const auto grown = grow(product, preconditioner, threads, space);
             if (!grown.ok()) return grown.error();
@@ -199,11 +222,10 @@ Result<GmresOutcome> gmres(const Product& product, const Preconditioner& precond
         take_best(space, preconditioner.every, threads, x);
         if (!goes_on()) break;
         // The true residual before a restart, not the recurrence's: float32 vectors are not quite orthogonal.
-        Vector product_of_x(b.size());
-        if (auto error = product(x, product_of_x)) return *error;
+        const auto true_left = residual_of(product, b, x, threads, residual);
+        if (!true_left.ok()) return true_left.error();
         ++outcome.products;
-        for (std::size_t i = 0; i < b.size(); ++i) residual[i] = b[i] - product_of_x[i];
-        left = norm(residual, threads);
+        left = *true_left;
         // Less than a thousandth was gained: rounding is all that is left.
         if (!(left < 0.999 * at_start)) break;
     }

@@ -21,8 +21,10 @@ struct GmresOutcome {
     double residual = 0;  // |b - A x| / |b|; 0 when b is 0
 };
 
-// A: to = A from. May fail (deadline); the failure is passed on.
-using Product = std::function<Status(std::span<const float> from, std::span<float> to)>;
+// A: to = A (from + addition), `addition` as a preconditioner makes it; EMPTY: 0. May fail (deadline); the failure is
+// passed on.
+using Product = std::function<Status(std::span<const float> from, std::span<const float> addition,
+                                     std::span<float> to)>;
 
 // A preconditioner that changes a vector by adding to it: one number for every `every` floats, to the first of each
 // group. It may differ from call to call, as an inner iteration does: what it added is kept ("flexible" GMRES, Saad

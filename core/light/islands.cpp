@@ -88,6 +88,28 @@ IslandScene island_scene(const Scene& scene, const ParticleSet& particles, const
     return all;
 }
 
+// The same island in the scene's coarser light; null: there is none.
+const LightIsland* coarser_island(const SharedLight& coarser, std::size_t island) {
+    if (!coarser || island >= coarser->islands.size() || !coarser->islands[island].lit)
+        return nullptr;
+    return &coarser->islands[island];
+}
+
+// Whether light that was solved with `before` is as fine as `now` asks for.
+bool as_fine(const IslandCells& before, const IslandCells& now) {
+    return before.cells == now.cells && before.sun_cells == now.sun_cells;
+}
+
+// Light for which a finer grid of the scene asks for nothing finer: it stays. light: of a part of `coarser`, or of the
+// whole of it.
+TransportLight as_before(TransportLight light, const SharedLight& coarser, bool last) {
+    light.coarser = coarser;
+    light.sweeps = 0;
+    light.took = {};
+    if (last) light.solved = {};
+    return light;
+}
+
 // One island's light; not lit where it has no matter or is not seen.
 Result<LightIsland> light_of_island(const IslandScene& all, std::size_t self,
                                     const IslandCells& cells, const SharedLight& coarser,
@@ -98,30 +120,35 @@ Result<LightIsland> light_of_island(const IslandScene& all, std::size_t self,
     island.low = box.low;
     island.high = box.high;
     if (cells.sun_cells == 0 || !(mass_of(own) > 0)) return island;
+    const LightIsland* const before = coarser_island(coarser, self);
+    // It lives as long as the light that it is a part of.
+    const SharedLight before_light = before ? SharedLight{coarser, &before->light} : nullptr;
+    if (before && as_fine(before->light.asked, cells)) {
+        LightIsland same = *before;
+        same.light = as_before(std::move(same.light), before_light, all.settings.last);
+        return same;
+    }
     island.mean_s = box.s_sums[1] / box.s_sums[0];
     const Lattice prism = sun_lattice(own, sun_direction(all.scene->sun), cells.sun_cells, 1);
     const ParticleSet with = with_others(all.sets, all.islands.list, self, prism);
     TransportSettings settings = all.settings;
     settings.cells = cells.cells;
     EffectTimes took;
-    SunDepth sun = timed_for(took, Effect::kSelfShadow, [&] { return sun_depth_in(prism, with); });
+    SunDepth sun =
+        before && before->light.asked.sun_cells == cells.sun_cells
+            ? before->light.sun
+            : timed_for(took, Effect::kSelfShadow, [&] { return sun_depth_in(prism, with); });
     LightPart part{own, with, std::move(sun), box.depth};
     part.surroundings = surroundings_of(all.scene, all.neighbours, self, all.whole);
     part.whole = &all.whole;
-    auto solved = light_of_part(all.scene, std::move(part), settings, coarser, threads, deadline);
+    auto solved =
+        light_of_part(all.scene, std::move(part), settings, before_light, threads, deadline);
     if (!solved.ok()) return solved.error();
     island.light = *std::move(solved);
     island.light.took.add(took);
+    island.light.asked = cells;
     island.lit = true;
     return island;
-}
-
-// The light of the same island in the scene's coarser light; null: there is none.
-SharedLight coarser_island(const SharedLight& coarser, std::size_t island) {
-    if (!coarser || island >= coarser->islands.size() || !coarser->islands[island].lit)
-        return nullptr;
-    // It lives as long as the light that it is a part of.
-    return {coarser, &coarser->islands[island].light};
 }
 
 // Adds to the whole's figures what its islands took, each effect's time times `share`.
@@ -143,6 +170,16 @@ std::vector<std::size_t> largest_first(const std::vector<IslandCells>& islands) 
     return order;
 }
 
+// The whole scene, on a grid that is the same on the way to all others.
+Result<TransportLight> light_about_islands(const Scene& scene, const ParticleSet& particles,
+                                           const Survey& survey, const TransportSettings& settings,
+                                           const SharedLight& coarser, int threads,
+                                           const Deadline& deadline) {
+    if (coarser && as_fine(coarser->asked, {settings.cells, settings.sun_cells}))
+        return as_before(coarser->of_whole(), coarser, settings.last);
+    return light_of_whole(scene, particles, survey, settings, coarser, threads, deadline);
+}
+
 }  // namespace
 
 Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& particles,
@@ -150,7 +187,7 @@ Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& p
                                         const SharedLight& coarser, int threads,
                                         const Deadline& deadline) {
     const TransportSettings coarse = whole_settings(settings);
-    auto whole = light_of_whole(scene, particles, survey, coarse, coarser, threads, deadline);
+    auto whole = light_about_islands(scene, particles, survey, coarse, coarser, threads, deadline);
     if (!whole.ok()) return whole;
     TransportLight& light = *whole;
     light.regions = survey.islands;
@@ -167,7 +204,7 @@ Result<TransportLight> light_in_islands(const Scene& scene, const ParticleSet& p
     parallel_for(side_by_side ? threads : 1, order.size(), [&](std::size_t turn) {
         const std::size_t i = order[turn];
         const auto own_start = Deadline::Clock::now();
-        auto island = light_of_island(all, i, settings.islands[i], coarser_island(coarser, i),
+        auto island = light_of_island(all, i, settings.islands[i], coarser,
                                       side_by_side ? 1 : threads, deadline);
         if (!island.ok()) {
             const std::lock_guard lock(mutex);

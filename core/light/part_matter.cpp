@@ -29,25 +29,27 @@ Lattice above(double floor, Lattice lattice) {
     return lattice;
 }
 
-// Means over blocks of sub^3 cells. `cells`: how many blocks.
-std::vector<float> block_means(const std::vector<float>& fine, const glm::ivec3& cells, int sub) {
-    std::vector<float> means(fine.size() / static_cast<std::size_t>(sub * sub * sub));
-    const auto nx = static_cast<std::size_t>(cells.x), ny = static_cast<std::size_t>(cells.y);
-    const auto s = static_cast<std::size_t>(sub);
-    for (std::size_t i = 0; i < fine.size(); ++i) {
-        const std::size_t x = i % (nx * s), y = i / (nx * s) % (ny * s), z = i / (nx * s * ny * s);
-        means[((z / s) * ny + y / s) * nx + x / s] += fine[i];
-    }
-    const auto scale = static_cast<float>(1.0 / (sub * sub * sub));
-    for (float& mean : means) mean *= scale;
-    return means;
-}
-
 std::size_t index(const glm::ivec3& cells, int i, int j, int k) {
     return (static_cast<std::size_t>(k) * static_cast<std::size_t>(cells.y) +
             static_cast<std::size_t>(j)) *
                static_cast<std::size_t>(cells.x) +
            static_cast<std::size_t>(i);
+}
+
+// Means over blocks of sub^3 cells. `cells`: how many blocks.
+std::vector<float> block_means(const std::vector<float>& fine, const glm::ivec3& cells, int sub) {
+    std::vector<float> means(fine.size() / static_cast<std::size_t>(sub * sub * sub));
+    const glm::ivec3 n = cells * sub;
+    const float* from = fine.data();
+    for (int k = 0; k < n.z; ++k)
+        for (int j = 0; j < n.y; ++j) {
+            float* to = means.data() + index(cells, 0, j / sub, k / sub);
+            for (int i = 0; i < cells.x; ++i, ++to)
+                for (int within = 0; within < sub; ++within) *to += *from++;
+        }
+    const auto scale = static_cast<float>(1.0 / (sub * sub * sub));
+    for (float& mean : means) mean *= scale;
+    return means;
 }
 
 }  // namespace
@@ -78,40 +80,6 @@ PartGrid grid_of_part(const LightPart& part, int cells, double floor, int thread
     }
     grid.extinction = block_means(grid.fine_extinction, lattice.cells, grid.sub);
     return grid;
-}
-
-// Of a fine cell of depth x along the beam, whose front the beam reaches with the scaled depth e behind it, the beam
-// leaves the integral over the cell: exp(-e) (1 - exp(-k x)) / k with k = `scaled`. It is taken along the beam and not
-// from the cell's middle, so that a thick cell does not get more light than there is. Through a cubic cell the beam's
-// way is taken as its side, through a flat one as the way through its middle.
-std::vector<float> beam_source(const PartGrid& grid, const SunDepth& sun, double scaled,
-                               int threads, const Deadline& deadline) {
-    std::vector<float> source(grid.lattice.size());
-    const glm::ivec3 n = grid.fine.cells;
-    const int sub = grid.sub;
-    const glm::dvec3 cell = grid.fine.cell, ways = cell / glm::max(glm::abs(sun.w), 1e-12);
-    const double side = shortest(cell), way = longest(cell) == side ? side : shortest(ways);
-    const double per_way = side / way;
-    const glm::dmat3 nodes = to_nodes(sun);
-    const auto left_in = [&](int i, int j, int k) {
-        const auto extinction = static_cast<double>(grid.fine_extinction[index(n, i, j, k)]);
-        if (!(extinction > 0)) return 0.0;
-        const glm::dvec3 middle = grid.fine.at(glm::dvec3(i, j, k) + 0.5);
-        const double across = scaled * extinction * way;
-        const double entry = std::max(scaled * depth_at(sun, nodes, middle) - 0.5 * across, 0.0);
-        return -std::expm1(-across) * std::exp(-entry) / scaled * per_way;
-    };
-    // A cell's shortest side is `sub` fine ones long: the mean of sub^3 fine cells, sub times as deep.
-    parallel_for(threads, static_cast<std::size_t>(grid.lattice.cells.z), [&](std::size_t z) {
-        if (deadline.over()) return;
-        const int layer = static_cast<int>(z);
-        for (int k = layer * sub; k < (layer + 1) * sub; ++k)
-            for (int j = 0; j < n.y; ++j)
-                for (int i = 0; i < n.x; ++i)
-                    source[index(grid.lattice.cells, i / sub, j / sub, layer)] +=
-                        static_cast<float>(left_in(i, j, k) / (sub * sub));
-    });
-    return source;
 }
 
 std::vector<glm::vec3> colored_albedo(const ParticleSet& particles, const Lattice& lattice,

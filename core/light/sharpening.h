@@ -26,8 +26,8 @@ struct Sharpening {
 
 Sharpening make_sharpening(const SweepGrid& grid, const Ordinates& ordinates);
 
-// to[every i] += sum over faces of conductance * (own value - neighbour's), value: one of each cell.
-void add_sharpening(const Sharpening& sharpening, std::span<const float> value, std::size_t every,
+// to[i] += sum over faces of conductance * (own value - neighbour's); one value of each cell.
+void add_sharpening(const Sharpening& sharpening, std::span<const float> value,
                     std::span<float> to);
 
 }  // namespace awan

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
+#include "core/base/instruction_sets.h"
 #include "core/base/parallel.h"
 #include "core/light/sun_columns.h"
 #include "core/survey/lattice.h"
@@ -18,6 +19,33 @@ namespace {
 
 // Optical depth of matter that the lattice may leave outside.
 constexpr double kLeftOut = 0.01;
+
+// A row of nodes along u, and those before and behind it along v (left, right) and w (front, behind); null: there are
+// none.
+struct NodeRow {
+    const float *at, *left, *right, *front, *behind;
+    std::size_t count;
+    float* to;
+};
+AWAN_INLINE void settle_row_body(const NodeRow& row) {
+    constexpr float kAcross = 1.F / 24 + 1.F / 12, kAlong = 1.F / 12;
+    const float* const at = row.at;
+    float* __restrict const to = row.to;
+    const std::size_t n = row.count;
+    const auto bend = [](float before, float here, float after) {
+        return before - 2 * here + after;
+    };
+    to[0] = to[n - 1] = 0;
+    for (std::size_t i = 1; i + 1 < n; ++i) to[i] = bend(at[i - 1], at[i], at[i + 1]);
+    if (row.left != nullptr)
+        for (std::size_t i = 0; i < n; ++i) to[i] += bend(row.left[i], at[i], row.right[i]);
+    for (std::size_t i = 0; i < n; ++i) to[i] *= kAcross;
+    if (row.front != nullptr)
+        for (std::size_t i = 0; i < n; ++i)
+            to[i] += kAlong * bend(row.front[i], at[i], row.behind[i]);
+    for (std::size_t i = 0; i < n; ++i) to[i] = std::max(at[i] - to[i], 0.F);
+}
+AWAN_KERNEL(void, settle_row, (const NodeRow& row), (row))
 
 }  // namespace
 
@@ -69,24 +97,25 @@ glm::dmat3 to_nodes(const SunDepth& sun) {
 }
 
 void settle_nodes(SunDepth& sun, int threads) {
-    constexpr float kAcross = 1.F / 24 + 1.F / 12, kAlong = 1.F / 12;
     const std::vector<float> before = sun.depth;
     const auto nx = static_cast<std::size_t>(sun.nodes.x),
                ny = static_cast<std::size_t>(sun.nodes.y),
                nz = static_cast<std::size_t>(sun.nodes.z), layer = nx * ny;
     parallel_for(threads, nz, [&](std::size_t k) {
-        for (std::size_t j = 0; j < ny; ++j)
-            for (std::size_t i = 0; i < nx; ++i) {
-                const std::size_t at = k * layer + j * nx + i;
-                // The second difference; at an end there is none.
-                const auto bend = [&](std::size_t place, std::size_t count, std::size_t step) {
-                    if (place == 0 || place + 1 == count) return 0.F;
-                    return before[at - step] - 2 * before[at] + before[at + step];
-                };
-                const float bent =
-                    kAcross * (bend(i, nx, 1) + bend(j, ny, nx)) + kAlong * bend(k, nz, layer);
-                sun.depth[at] = std::max(before[at] - bent, 0.F);
-            }
+        // At an end there is no second difference.
+        const bool along = k > 0 && k + 1 < nz;
+        for (std::size_t j = 0; j < ny; ++j) {
+            const bool across = j > 0 && j + 1 < ny;
+            const std::size_t row = k * layer + j * nx;
+            const float* const at = before.data() + row;
+            settle_row({.at = at,
+                        .left = across ? at - nx : nullptr,
+                        .right = across ? at + nx : nullptr,
+                        .front = along ? at - layer : nullptr,
+                        .behind = along ? at + layer : nullptr,
+                        .count = nx,
+                        .to = sun.depth.data() + row});
+        }
     });
 }
 

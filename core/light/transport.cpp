@@ -277,6 +277,13 @@ Status refine_sunlight(const PartSolve& solve, TransportLight& light) {
     return std::nullopt;
 }
 
+// Whether the grid is the coarser one's, whose bands it would be given back by `extrapolate`: it differs by the sun's
+// depth, and by what that changes for the ground.
+bool has_bands_of_coarser(const PartSolve& solve, const TransportLight& light) {
+    return solve.coarser != nullptr && !solve.own_ground() && light.cells == solve.coarser->cells &&
+           light.origin == solve.coarser->origin;
+}
+
 // The light of the grid that `solve` names, as it is solved; without the sun's depth.
 Result<TransportLight> solve_grid(PartSolve solve) {
     TransportLight light;
@@ -286,9 +293,14 @@ Result<TransportLight> solve_grid(PartSolve solve) {
     if (solve.settings.cells == 0) return without_grid(solve, std::move(light));
 
     if (Status failed = prepare_grid(solve, light)) return *failed;
-    if (Status failed = add_bands_from_outside(solve, light)) return *failed;
-    if (solve.part.whole != nullptr)
-        if (Status failed = add_bands_of_whole_ground(solve, light)) return *failed;
+    if (has_bands_of_coarser(solve, light)) {
+        light.bands = solve.coarser->bands;
+        light.residual = solve.coarser->residual;
+    } else {
+        if (Status failed = add_bands_from_outside(solve, light)) return *failed;
+        if (solve.part.whole != nullptr)
+            if (Status failed = add_bands_of_whole_ground(solve, light)) return *failed;
+    }
     if (solve.own_ground() && (solve.settings.ground || solve.settings.ground_shadow))
         if (Status failed = add_own_ground(solve, light)) return *failed;
     if (Status failed = refine_sunlight(solve, light)) return *failed;
@@ -327,13 +339,20 @@ Result<TransportLight> light_of_whole(const Scene& scene, const ParticleSet& par
     // Of lines towards the lights only: lines towards the eye would tie the light to a camera.
     const double deepest = std::max(survey.optical_depth_sun, survey.optical_depth_zenith);
     EffectTimes took;
-    SunDepth sun = timed_for(took, Effect::kSelfShadow, [&] {
-        return sun_depth(particles, sun_direction(scene->sun),
-                         sun_cells_in(particles.detail.get(), settings.sun_cells), threads);
-    });
+    // Grids on the way to finer ones share it.
+    SunDepth sun = coarser && coarser->asked.sun_cells == settings.sun_cells
+                       ? coarser->sun
+                       : timed_for(took, Effect::kSelfShadow, [&] {
+                             return sun_depth(
+                                 particles, sun_direction(scene->sun),
+                                 sun_cells_in(particles.detail.get(), settings.sun_cells), threads);
+                         });
     auto light = light_of_part(scene, {particles, particles, std::move(sun), deepest, {}, nullptr},
                                settings, coarser, threads, deadline);
-    if (light.ok()) light->took.add(took);
+    if (light.ok()) {
+        light->took.add(took);
+        light->asked = {settings.cells, settings.sun_cells};
+    }
     return light;
 }
 

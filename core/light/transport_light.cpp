@@ -2,6 +2,28 @@
 
 namespace awan {
 
+TransportLight TransportLight::of_whole() const {
+    return {.origin = origin,
+            .cell = cell,
+            .cells = cells,
+            .bands = bands,
+            .fine = fine,
+            .albedo = albedo,
+            .sun = sun,
+            .peak_from = peak_from,
+            .peak_share = peak_share,
+            .coarser = coarser,
+            .solved = solved,
+            .asked = asked,
+            .sky = sky,
+            .ground = ground,
+            .sweeps = sweeps,
+            .residual = residual,
+            .took = took,
+            .regions = regions,
+            .islands = {}};
+}
+
 std::size_t TransportLight::bytes() const {
     std::size_t bytes = sizeof *this + sun.depth.capacity() * sizeof(float) +
                         albedo.capacity() * sizeof(glm::vec3) + ground.bytes();

@@ -11,6 +11,7 @@
 #include "core/light/harmonics.h"
 #include "core/light/sun_depth.h"
 #include "core/plan/effect_times.h"
+#include "core/plan/transport_settings.h"
 #include "core/survey/islands.h"
 
 namespace awan {
@@ -70,6 +71,7 @@ struct TransportLight {
     // Of each band, its moments as they were solved, before they gained by `coarser`: what a finer grid goes on from.
     // EMPTY: as the bands have them, or no finer grid will be asked for.
     std::vector<std::vector<std::array<float, kHarmonics>>> solved;
+    IslandCells asked;    // the cells that its settings asked for
     bool sky = true;      // whether the sky's light is in it, as TransportSettings asked
     GroundLight ground;   // of a scene that has one, as TransportSettings asked
     int sweeps = 0;       // transport sweeps it took, all bands
@@ -80,6 +82,9 @@ struct TransportLight {
     // above is then the whole scene on a coarse grid, for use where there is no finer light (core/light/islands.h).
     Islands regions;
     std::vector<LightIsland> islands;  // one for each of regions.list, or EMPTY
+
+    // A copy but for the islands.
+    TransportLight of_whole() const;
 
     std::size_t bytes() const;  // memory it holds, its own size included
 };

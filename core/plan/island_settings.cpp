@@ -71,7 +71,7 @@ TransportSettings settings_on_the_way(const TransportSettings& settings, int cel
 TransportSettings whole_settings(const TransportSettings& settings) {
     TransportSettings whole = settings;
     whole.islands.clear();
-    whole.cells = std::min(settings.cells, kWholeCells);
+    whole.cells = settings.cells == 0 ? 0 : kWholeCells;
     whole.sun_cells = std::min(2 * settings.sun_cells, kWholeSunCells);
     return whole;
 }

@@ -13,14 +13,14 @@ namespace awan {
 std::vector<IslandCells> island_cells(const TransportSettings& settings, const Survey& survey);
 
 // Of the whole scene, beside its islands: coarse light for what is out of the picture, and for what islands see of
-// each other.
+// each other. Its grid is the same on the way to all others, so that it is solved once.
 TransportSettings whole_settings(const TransportSettings& settings);
 
 // The same, of a grid with `cells` on the way to that of `settings`.
 TransportSettings settings_on_the_way(const TransportSettings& settings, int cells,
                                       const Survey& survey);
 
-inline constexpr int kWholeCells = 24;      // at most
+inline constexpr int kWholeCells = 24;
 inline constexpr int kWholeSunCells = 192;  // at most
 inline constexpr int kLeastIslandCells = 8, kLeastIslandSunCells = 24;
 

@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/base/float_runs.h"
+#include "core/base/instruction_sets.h"
 #include "core/base/parallel.h"
 #include "core/generate/gaussian.h"
 #include "core/survey/gauss.h"
@@ -28,6 +29,13 @@ constexpr double kFlattest = 1.0 / 32;
 constexpr double kCellsToCubic = 0.9;
 // Cells along a side to the count that was asked for.
 constexpr int kMostAlong = 2;
+
+std::size_t index_of(const glm::ivec3& cells, int i, int j, int k) {
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(cells.y) +
+            static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(cells.x) +
+           static_cast<std::size_t>(i);
+}
 
 struct Span {
     int first = 0, last = -1;  // cells, inclusive
@@ -103,6 +111,47 @@ std::vector<LayerSpan> layer_spans(const ParticleSet& particles, const Lattice& 
     return spans;
 }
 
+// Floats that a box's rows are a multiple of, where the lattice's rows are as long.
+constexpr std::size_t kWide = 8;
+
+// What a particle adds to a box of cells: along each axis its shares, w of the first.
+struct BoxShares {
+    const float *x, *y, *z;
+    std::size_t count[3];    // cells of the box; a multiple of kWide along x, or less than it
+    std::size_t row, layer;  // of the lattice, cells
+    float scale;
+    float* to;  // the box's first cell
+};
+AWAN_INLINE void add_box_body(const BoxShares& box) {
+    using Wide = float __attribute__((vector_size(4 * kWide)));
+    for (std::size_t k = 0; k < box.count[2]; ++k)
+        for (std::size_t j = 0; j < box.count[1]; ++j) {
+            const float w = box.scale * box.z[k] * box.y[j];
+            float* const to = box.to + k * box.layer + j * box.row;
+            if (box.count[0] < kWide) {
+                for (std::size_t i = 0; i < box.count[0]; ++i) to[i] += w * box.x[i];
+                continue;
+            }
+            for (std::size_t i = 0; i < box.count[0]; i += kWide) {
+                Wide sum, x;
+                std::memcpy(&sum, to + i, sizeof sum);
+                std::memcpy(&x, box.x + i, sizeof x);
+                sum += w * x;
+                std::memcpy(to + i, &sum, sizeof sum);
+            }
+        }
+}
+AWAN_KERNEL(void, add_box, (const BoxShares& box), (box))
+
+// A span whose length is a multiple of kWide and that holds the given one, where the row is long enough.
+Span widened(Span span, int cells) {
+    constexpr int kStep = kWide;
+    const int length = span.last - span.first + 1, wide = (length + kStep - 1) / kStep * kStep;
+    if (wide > cells) return span;
+    const int first = std::min(span.first, cells - wide);
+    return {first, first + wide - 1};
+}
+
 // Adds the particles to the cells of layers [first, last) along w. weight(i): mass of particle i.
 template <typename Mass>
 void add_layers(const ParticleSet& particles, const Lattice& lattice, int first, int last,
@@ -130,22 +179,34 @@ void add_layers(const ParticleSet& particles, const Lattice& lattice, int first,
         weights_of(below, cy, s, lattice.cell.y, y, wy.data());
         weights_of(below, cz, s, lattice.cell.z, z, wz.data());
         const auto scale = static_cast<float>(std::min(mass / volume, 1e30));
-        const auto count = static_cast<std::size_t>(x.last - x.first + 1);
-        for (int k = z.first; k <= z.last; ++k)
-            for (int j = y.first; j <= y.last; ++j) {
-                const float w = scale * wz[static_cast<std::size_t>(k - z.first)] *
-                                wy[static_cast<std::size_t>(j - y.first)];
-                float* row =
-                    cells.data() + (static_cast<std::size_t>(k) * static_cast<std::size_t>(n.y) +
-                                    static_cast<std::size_t>(j)) *
-                                       static_cast<std::size_t>(n.x);
-                if (count <= 8) {
-                    for (std::size_t a = 0; a < count; ++a)
-                        row[static_cast<std::size_t>(x.first) + a] += w * wx[a];
-                } else {
-                    add_scaled(row + x.first, wx.data(), w, count);
-                }
-            }
+        // Cells beside the particle get 0 more. Where the lattice is narrower, what is left over goes one by one.
+        const Span wide = widened(x, n.x);
+        const auto before = static_cast<std::size_t>(x.first - wide.first),
+                   count = static_cast<std::size_t>(x.last - x.first + 1),
+                   width = static_cast<std::size_t>(wide.last - wide.first + 1);
+        if (width > count || before > 0) {
+            std::move_backward(wx.data(), wx.data() + count, wx.data() + before + count);
+            std::fill_n(wx.data(), before, 0.F);
+            std::fill_n(wx.data() + before + count, width - before - count, 0.F);
+        }
+        BoxShares box{.x = wx.data(),
+                      .y = wy.data(),
+                      .z = wz.data(),
+                      .count = {width, static_cast<std::size_t>(y.last - y.first + 1),
+                                static_cast<std::size_t>(z.last - z.first + 1)},
+                      .row = static_cast<std::size_t>(n.x),
+                      .layer = static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y),
+                      .scale = scale,
+                      .to = cells.data() + index_of(n, wide.first, y.first, z.first)};
+        const std::size_t rest = width >= kWide ? width % kWide : 0;
+        box.count[0] = width - rest;
+        add_box(box);
+        if (rest > 0) {
+            box.x += width - rest;
+            box.to += width - rest;
+            box.count[0] = rest;
+            add_box(box);
+        }
     }
 }
 
@@ -196,37 +257,54 @@ std::array<Layers, 3> densest_of(const std::vector<float>& cells, const glm::ive
     std::array<Layers, 3> densest;
     for (int axis = 0; axis < 3; ++axis)
         densest[static_cast<std::size_t>(axis)].resize(static_cast<std::size_t>(n[axis]));
-    std::size_t at = 0;
-    for (int k = 0; k < n.z; ++k)
-        for (int j = 0; j < n.y; ++j)
-            for (int i = 0; i < n.x; ++i, ++at) {
-                const int index[3] = {i, j, k};
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    float& most = densest[axis][static_cast<std::size_t>(index[axis])];
-                    most = std::max(most, cells[at]);
-                }
+    const float* row = cells.data();
+    for (std::size_t k = 0; k < densest[2].size(); ++k)
+        for (std::size_t j = 0; j < densest[1].size(); ++j, row += n.x) {
+            float most = 0;
+            for (std::size_t i = 0; i < densest[0].size(); ++i) {
+                densest[0][i] = std::max(densest[0][i], row[i]);
+                most = std::max(most, row[i]);
             }
+            densest[1][j] = std::max(densest[1][j], most);
+            densest[2][k] = std::max(densest[2][k], most);
+        }
     return densest;
+}
+
+// Sum of |a[i] - b[i]|.
+double difference_of(const float* a, const float* b, std::size_t count) {
+    constexpr std::size_t kParts = 4;
+    std::array<double, kParts> parts{};
+    std::size_t i = 0;
+    for (; i + kParts <= count; i += kParts)
+        for (std::size_t p = 0; p < kParts; ++p)
+            parts[p] += static_cast<double>(std::abs(a[i + p] - b[i + p]));
+    for (; i < count; ++i) parts[0] += static_cast<double>(std::abs(a[i] - b[i]));
+    return (parts[0] + parts[1]) + (parts[2] + parts[3]);
 }
 
 // MatterBox::length in cells. Beyond the outermost cells there is no matter.
 glm::dvec3 lengths_of(const std::vector<float>& cells, const glm::ivec3& n) {
-    const std::size_t stride[3] = {1, static_cast<std::size_t>(n.x),
-                                   static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y)};
+    const auto row = static_cast<std::size_t>(n.x);
+    const std::size_t layer = row * static_cast<std::size_t>(n.y);
+    const std::vector<float> nothing(row);
     double whole = 0;
-    for (const float cell : cells) whole += static_cast<double>(cell);
-    glm::dvec3 lengths(1);
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::size_t step = stride[axis], count = static_cast<std::size_t>(n[axis]);
-        double change = 0;
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-            const std::size_t at = i / step % count;
-            const float before = at > 0 ? cells[i - step] : 0.F;
-            change += static_cast<double>(std::abs(cells[i] - before));
-            if (at + 1 == count) change += static_cast<double>(cells[i]);
+    glm::dvec3 change(0);
+    const float* at = cells.data();
+    for (int k = 0; k < n.z; ++k)
+        for (int j = 0; j < n.y; ++j, at += row) {
+            const double sum = difference_of(at, nothing.data(), row);
+            whole += sum;
+            change.x +=
+                difference_of(at + 1, at, row - 1) + static_cast<double>(at[0] + at[row - 1]);
+            change.y += j > 0 ? difference_of(at, at - row, row) : sum;
+            change.z += k > 0 ? difference_of(at, at - layer, row) : sum;
+            if (j + 1 == n.y) change.y += sum;
+            if (k + 1 == n.z) change.z += sum;
         }
-        if (change > 0) lengths[axis] = whole / change;
-    }
+    glm::dvec3 lengths(1);
+    for (int axis = 0; axis < 3; ++axis)
+        if (change[axis] > 0) lengths[axis] = whole / change[axis];
     return lengths;
 }
 

@@ -8,6 +8,7 @@
 #include "core/truth/path_tracer.h"
 #include "tests/bench/cloud_of_bench.h"
 #include "tests/bench/paired.h"
+#include "tests/plain_sweep.h"
 
 namespace awan {
 namespace {
@@ -102,19 +103,21 @@ void SecondCameraAgainstHarris(benchmark::State& state) {
 }
 BENCHMARK(SecondCameraAgainstHarris)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(7);
 
-// Argument: cells along the longest side. us_per_cell: of the light pass, CPU time, all cells and sweeps.
+// Arguments: cells along the longest side, threads. us_per_cell: of the light pass from nothing, CPU time, all cells
+// and sweeps.
 void LightPassByCells(benchmark::State& state) {
     const Scene scene = test::valid(bench::table_draft("transport-32"));
     const Planned planned = *plan_scene(scene, kThreads, {});
     TransportSettings settings;
     settings.cells = static_cast<int>(state.range(0));
+    const auto threads = static_cast<int>(state.range(1));
     TransportLight light;
     std::vector<double> wall, cpu;
     for (auto _ : state) {
         const double start = cpu_ms();
         wall.push_back(bench::milliseconds([&] {
             light =
-                *transport_light(scene, planned.particles, planned.survey, settings, kThreads, {});
+                *transport_light(scene, planned.particles, planned.survey, settings, threads, {});
         }));
         cpu.push_back(cpu_ms() - start);
     }
@@ -127,10 +130,49 @@ void LightPassByCells(benchmark::State& state) {
     state.counters["ns_per_cell_sweep"] = 1e6 * bench::median(cpu) / cells / light.sweeps;
 }
 BENCHMARK(LightPassByCells)
+    ->ArgsProduct({{16, 24, 32, 48, 64}, {1, kThreads}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(5);
+
+// Argument: cells along a side. One sweep on one thread against the plain one of the tests, and against its arithmetic:
+// operations on sixteen floats that a cell needs, two a cycle, of which there are cycles_per_ns.
+void SweepAgainstThePlainOne(benchmark::State& state) {
+    const auto side = static_cast<int>(state.range(0));
+    const test::Uneven scene = test::uneven({side, side, side}, 16);
+    const Ordinates ordinates = make_ordinates();
+    const SweepSource source{scene.source, scene.scale, scene.even};
+    const Inflow dark = [](const glm::dvec3&) { return 0.0; };
+    constexpr int kChain = 1'000'000;
+    std::vector<float> moments(scene.source.size());
+    SweepSpace space;
+    std::vector<double> ours, plain, imul;
+    for (auto _ : state) {
+        double start = cpu_ms();
+        sweep(scene.grid, ordinates, source, {}, 1, space, {moments});
+        ours.push_back(cpu_ms() - start);
+        start = cpu_ms();
+        benchmark::DoNotOptimize(test::plain_sweep(scene, source, ordinates, dark));
+        plain.push_back(cpu_ms() - start);
+        // A chain of multiplications, three cycles each, tells the clock.
+        start = cpu_ms();
+        std::uint64_t product = 3;
+        for (int i = 0; i < kChain; ++i) asm volatile("imul %0, %0" : "+r"(product));
+        imul.push_back(cpu_ms() - start);
+    }
+    // Of a cell and each way along z: sources 16 products, 12 + 8 sums and 6 of scale and even light; what crossing
+    // takes 26, and two divisions of sixteen cycles, or 64 operations; four octants of 19; moments 16 products, 8 + 15
+    // sums, and 30 that move lanes.
+    constexpr double kOperations = 2 * (16 + 12 + 8 + 6 + 26 + 64 + 4 * 19 + 16 + 8 + 15 + 30);
+    const double cycles_per_ns = 3.0 * kChain / (1e6 * bench::median(imul));
+    const double ns = 1e6 * bench::median(ours) / static_cast<double>(scene.grid.size());
+    state.counters["times_plain"] = bench::median(plain) / bench::median(ours);
+    state.counters["ns_per_cell"] = ns;
+    state.counters["cycles_per_ns"] = cycles_per_ns;
+    state.counters["share_of_floor"] = kOperations / (2 * cycles_per_ns) / ns;
+}
+BENCHMARK(SweepAgainstThePlainOne)
     ->Arg(16)
-    ->Arg(24)
     ->Arg(32)
-    ->Arg(48)
     ->Arg(64)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(5);
