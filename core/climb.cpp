@@ -20,9 +20,9 @@ constexpr double kErrorOfPicture = 1.1;
 constexpr double kEyeError = 0.016;
 // what 128 directions leave of the angles of forward scattered light, times g squared;
 constexpr double kAngularError = 0.035;
-// what lumps of detail that are smaller than steps and cells leave, times the detail's amount, and more of it where the
-// sun shines through their edges, times the cosine squared between it and the view.
-constexpr double kDetailError = 0.06, kBacklitDetailError = 0.15;
+// what lumps of detail that are smaller than steps, cells and the gaps between rays leave, times the detail's amount,
+// and more of it where the sun shines through their edges, times the cosine squared between it and the view.
+constexpr double kDetailError = 0.06, kBacklitDetailError = 0.075;
 // Of what is far below a pixel, times its share of the matter (Survey::sub_pixel).
 constexpr double kSubPixelError = 0.01;
 // With which power of its cells along a side a grid's time grows: the third, and deep light takes more sweeps.

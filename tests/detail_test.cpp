@@ -283,6 +283,43 @@ TEST(Detail, FineLightIsTheSameNearAndFar) {
             << k;
 }
 
+// Lumps that are smaller than pixels: these show the mean over their area, which the ray through a pixel's middle does
+// not.
+TEST(Detail, PixelsShowTheMeanOfSmallLumps) {
+    constexpr int kSide = 24, kFiner = 8;
+    const auto cloud_of = [](int side) { return detailed_cloud(0.9, "transport-16", side); };
+    const Detailed coarse = cloud_of(kSide), fine = cloud_of(kSide * kFiner);
+    const auto light = transport_light(coarse.scene, coarse.planned.particles,
+                                       coarse.planned.survey, coarse.planned.plan.transport, 2, {});
+    ASSERT_TRUE(light.ok());
+    const auto picture = [&](const Detailed& cloud) {
+        return march(cloud.scene, cloud.planned.particles, cloud.planned.survey.view, *light, {}, 2,
+                     {});
+    };
+    const auto own = picture(coarse), closer = picture(fine);
+    ASSERT_TRUE(own.ok() && closer.ok());
+    double off = 0, off_one_ray = 0, sum = 0;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const auto value = [](const Image& image, int i, int j) {
+                return static_cast<double>(
+                    image.pixels[4 * static_cast<std::size_t>(j * image.width + i)]);
+            };
+            double mean = 0;
+            for (int j = 0; j < kFiner; ++j)
+                for (int i = 0; i < kFiner; ++i)
+                    mean += value(*closer, x * kFiner + i, y * kFiner + j) / (kFiner * kFiner);
+            const int middle = kFiner / 2;
+            off += std::pow(value(*own, x, y) - mean, 2);
+            off_one_ray +=
+                std::pow(value(*closer, x * kFiner + middle, y * kFiner + middle) - mean, 2);
+            sum += mean * mean;
+        }
+    std::printf("pixels of lumps: off %.3f, with one ray %.3f\n", std::sqrt(off / sum),
+                std::sqrt(off_one_ray / sum));
+    EXPECT_LT(off, 0.15 * off_one_ray);
+}
+
 TEST(Detail, IsTheSameForAllNumbersOfThreads) {
     const Detailed cloud = detailed_cloud(0.8, "transport-16", 40);
     Tools one, many;

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "core/base/parallel.h"
+#include "core/draw/behind_peak.h"
 #include "core/draw/march_block.h"
 #include "core/draw/march_scene.h"
 #include "core/generate/detail.h"
@@ -198,9 +199,11 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     if ((behind || has_peak || march.cut) && wants_backdrop(scene, view)) {
         backdrop = make_backdrop(scene, view, image.width, image.height, light.ground, threads);
         march.sky.backdrop = &backdrop;
-        march.sky.peak = has_peak;
-        march.sky.sky_peak = light.sky;
-        march.sky.ground_peak = light.ground.into_cloud;
+        march.sky.peak = has_peak && (light.sky || light.ground.into_cloud);
+        if (march.sky.peak)
+            march.sky.through_peak =
+                behind_through_peak(scene, view, image.width, image.height, light.ground,
+                                    march.peak, light.sky, light.ground.into_cloud, threads);
     }
     const std::optional<Air> air = air_of(scene, view, light, settings, threads, took);
     if (air) march.air = &*air;

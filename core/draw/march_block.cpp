@@ -17,6 +17,9 @@ namespace {
 constexpr int kManyChunks = 8192;
 // A chunk whose steps all are below this share of what they may be is followed by longer ones.
 constexpr float kFarTooFine = 0.3f;
+// Tiles of finer rays that a block may have in matter with detail, where lumps may lie in all of it: as many as its
+// squares of 2 x 2 pixels; and again, of pixels that are still uneven.
+constexpr std::size_t kMostSharpOfLumps = 64;
 
 // How far a block's march has come. Distances are counted from the block's reference.
 struct Progress {
@@ -119,7 +122,7 @@ class BlockMarch {
         const float up[3] = {static_cast<float>(to_scene(view, frame.right).y),
                              static_cast<float>(to_scene(view, frame.up).y),
                              static_cast<float>(to_scene(view, frame.forward).y)};
-        simd::Floats backdrop[4];
+        simd::Floats backdrop[6];
         const simd::Floats* const behind = scene_.sky.backdrop != nullptr ? backdrop : nullptr;
         if (behind != nullptr) take_backdrop(t, backdrop);
         if (scene_.air != nullptr)
@@ -308,16 +311,15 @@ class BlockMarch {
                static_cast<std::size_t>(x);
     }
 
-    // r g b, and 1 or 0: whether it is seen through the peak.
+    // r g b, and r g b as the peak brings it.
     void take_backdrop(int t, simd::Floats* to) const {
         const SkyBehind& sky = scene_.sky;
-        const Backdrop& backdrop = *sky.backdrop;
         for (int lane = 0; lane < simd::kLanes; ++lane) {
             const std::size_t pixel = pixel_of(t, lane);
-            for (std::size_t c = 0; c < 3; ++c) to[c][lane] = backdrop.rgb[3 * pixel + c];
-            const bool ground =
-                !backdrop.distance.empty() && std::isfinite(backdrop.distance[pixel]);
-            to[3][lane] = (ground ? sky.ground_peak : sky.sky_peak) ? 1.0f : 0.0f;
+            for (std::size_t c = 0; c < 3; ++c) {
+                to[c][lane] = sky.backdrop->rgb[3 * pixel + c];
+                to[3 + c][lane] = sky.peak ? sky.through_peak[3 * pixel + c] : 0.0f;
+            }
         }
     }
 
@@ -343,21 +345,32 @@ void march_block(const MarchScene& scene, int block_x, int block_y,
     block.draw(image);
     if (items.empty()) return;
 
-    FinePixels pixels;
-    const auto march_part = [&](const FineBatch& batch) {
-        BlockMarch part(scene, place_block(scene, block_x, block_y, batch.places, room), room);
-        part.run(batch.items);
-        part.add_to(pixels);
+    FinePixels pixels, finest;
+    const auto march_part = [&](std::span<const TilePlace> places,
+                                const std::vector<std::uint32_t>& part_items, FinePixels& to) {
+        BlockMarch part(scene, place_block(scene, block_x, block_y, places, room), room);
+        part.run(part_items);
+        part.add_to(to);
+    };
+    const auto march_all = [&](const std::vector<TilePlace>& places, FinePixels& to) {
+        const std::span<const TilePlace> all(places);
+        for (std::size_t first = 0; first < all.size(); first += kTiles)
+            march_part(all.subspan(first, std::min<std::size_t>(kTiles, all.size() - first)), items,
+                       to);
     };
     const int left = block_x * kBlockSide, top = block_y * kBlockSide;
-    const std::vector<TilePlace> sharp = sharp_places(image, left, top, fine);
-    if (!sharp.empty()) march_part({sharp, items});
+    const bool lumps = scene.detail != nullptr;
+    march_all(sharp_places(image, left, top, fine, lumps ? kMostSharpOfLumps : kTiles), pixels);
     for (std::size_t first = 0; first < fine.size();) {
         const FineBatch batch = batch_from(fine, first);
-        march_part(batch);
+        march_part(batch.places, batch.items, pixels);
         first += batch.places.size();
     }
-    if (!sharp.empty() || !fine.empty()) pixels.draw(left, top, image);
+    pixels.draw(left, top, image);
+    if (!lumps) return;
+    march_all(pixels.sharp_places(left, top, brightest_pixel(image, left, top), kMostSharpOfLumps),
+              finest);
+    finest.draw(left, top, image);
 }
 
 }  // namespace awan

@@ -24,7 +24,7 @@ struct DetailRays {
     float start[3] = {};                 // of the middle ray at the reference, 0..kDetailSide
     float right[3] = {}, up[3] = {}, middle[3] = {};  // voxels per scene unit
     float reference = 0;                              // distance from the eye, scene units
-    float far = 1e30f;  // distance from the eye at which the largest bumps are a pixel wide
+    float far = 1e30f;  // distance from the eye at which the largest bumps are as wide as the closest rays are apart
 };
 
 // The noise n at places p (voxels), trilinear. A word of the tile holds four neighbours, a byte each: those at (x, y),
@@ -102,7 +102,7 @@ AWAN_INLINE void add_detail(const DetailRays& rays, const Chunk& chunk, Tile& ti
         const Floats u = tile.profile[k] * per_whole;
         const Ints thin = static_cast<Ints>(u < 1.0f) & static_cast<Ints>(1e-6f < u);
         const float t = chunk.from + (static_cast<float>(k) + 0.5f) * chunk.step;
-        // Bumps smaller than a pixel would be seen as noise: as they shrink from two pixels to one, smooth matter takes
+        // Bumps that lie between rays would be seen as noise: as they shrink from two gaps to one, smooth matter takes
         // over.
         const float seen = rays.far / (rays.reference + t) - 1.0f;
         const float sharp = seen < 0.0f ? 0.0f : seen > 1.0f ? 1.0f : seen;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/survey/projection.h"
 
@@ -56,6 +57,8 @@ void divide(const TilePlace& place, int level, const std::vector<Touched>& touch
 // A change from pixel to pixel that is looked at more closely: of alpha, and of light in shares of the block's
 // brightest.
 constexpr float kSharp = 0.12f;
+// Of a pixel: rays so close fill one with a tile.
+constexpr double kQuarter = 1.0 / kTileSide;
 
 // Alpha and light of a block's pixels; beyond the picture those at its rim.
 struct BlockPixels {
@@ -91,19 +94,40 @@ float change_at(const float (&pixels)[kBlockSide][kBlockSide], int x, int y) {
     return change;
 }
 
+struct Sharp {
+    float change;
+    TilePlace place;
+};
+
+// The places of the `most` that change most, in their order.
+std::vector<TilePlace> sharpest(std::vector<Sharp> sharp, std::size_t most) {
+    if (sharp.size() > most) {
+        std::stable_sort(sharp.begin(), sharp.end(),
+                         [](const Sharp& a, const Sharp& b) { return a.change > b.change; });
+        sharp.resize(most);
+        std::sort(sharp.begin(), sharp.end(), [](const Sharp& a, const Sharp& b) {
+            return a.place.y != b.place.y ? a.place.y < b.place.y : a.place.x < b.place.x;
+        });
+    }
+    std::vector<TilePlace> places;
+    places.reserve(sharp.size());
+    for (const Sharp& one : sharp) places.push_back(one.place);
+    return places;
+}
+
 }  // namespace
 
+float brightest_pixel(const Image& image, int left, int top) {
+    return pixels_of(image, left, top).brightest;
+}
+
 std::vector<TilePlace> sharp_places(const Image& image, int left, int top,
-                                    const std::vector<FineTile>& tiles) {
+                                    const std::vector<FineTile>& tiles, std::size_t most) {
     std::uint32_t divided = 0;
     for (const FineTile& tile : tiles)
         divided |= 1u << ((static_cast<int>(tile.place.y) - top) / kTileSide * 4 +
                           (static_cast<int>(tile.place.x) - left) / kTileSide);
     const BlockPixels block = pixels_of(image, left, top);
-    struct Sharp {
-        float change;
-        TilePlace place;
-    };
     std::vector<Sharp> sharp;
     for (int y = 0; y < kBlockSide; y += 2)
         for (int x = 0; x < kBlockSide; x += 2) {
@@ -116,12 +140,25 @@ std::vector<TilePlace> sharp_places(const Image& image, int left, int top,
                 sharp.push_back(
                     {change, {static_cast<double>(left + x), static_cast<double>(top + y), 0.5}});
         }
-    std::stable_sort(sharp.begin(), sharp.end(),
-                     [](const Sharp& a, const Sharp& b) { return a.change > b.change; });
-    std::vector<TilePlace> places;
-    for (std::size_t i = 0; i < std::min<std::size_t>(sharp.size(), kTiles); ++i)
-        places.push_back(sharp[i].place);
-    return places;
+    return sharpest(std::move(sharp), most);
+}
+
+std::vector<TilePlace> FinePixels::sharp_places(int left, int top, float brightest,
+                                                std::size_t most) const {
+    std::vector<Sharp> sharp;
+    for (int y = 0; y < kBlockSide; ++y)
+        for (int x = 0; x < kBlockSide; ++x) {
+            const Sum& sum = sums_[y * kBlockSide + x];
+            if (!(sum.widest > kQuarter * kQuarter)) continue;
+            const float change =
+                std::max(sum.alpha.greatest - sum.alpha.least,
+                         (sum.light.greatest - sum.light.least) / std::max(brightest, 1e-30f));
+            if (change > kSharp)
+                sharp.push_back(
+                    {change,
+                     {static_cast<double>(left + x), static_cast<double>(top + y), kQuarter}});
+        }
+    return sharpest(std::move(sharp), most);
 }
 
 std::vector<FineTile> fine_tiles(const MarchScene& scene, int block_x, int block_y,

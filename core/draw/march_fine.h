@@ -2,6 +2,8 @@
 // change sharply.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -30,10 +32,14 @@ struct FineBatch {
 FineBatch batch_from(const std::vector<FineTile>& tiles, std::size_t first);
 
 // Squares of 2 x 2 pixels of a block across which, or beside which, alpha or light changes by so much that their
-// middles stand badly for them: silhouettes, bright rims. Each as a tile with rays half a pixel apart; at most 16:
-// those that change most. image: with the block's pixels in it. tiles: those that are divided already (fine_tiles).
+// middles stand badly for them: silhouettes, bright rims. Each as a tile with rays half a pixel apart; at most `most`:
+// those that change most, in the order of the picture. image: with the block's pixels in it. tiles: those that are
+// divided already (fine_tiles).
 std::vector<TilePlace> sharp_places(const Image& image, int left, int top,
-                                    const std::vector<FineTile>& tiles);
+                                    const std::vector<FineTile>& tiles, std::size_t most);
+
+// The most light (r + g + b) of a block's pixels.
+float brightest_pixel(const Image& image, int left, int top);
 
 // A block's pixels as the means of finer rays.
 class FinePixels {
@@ -42,14 +48,31 @@ class FinePixels {
     void add(int x, int y, double area, const float* rgba) {
         Sum& sum = sums_[y * kBlockSide + x];
         sum.area += area;
+        sum.widest = std::max(sum.widest, area);
         for (int c = 0; c < 4; ++c) sum.rgba[c] += area * static_cast<double>(rgba[c]);
+        const float light = rgba[0] + rgba[1] + rgba[2];
+        sum.alpha.take(rgba[3]);
+        sum.light.take(light);
     }
+    // Pixels of the block whose rays, half a pixel apart, differ by so much that their mean is still a bad one: each as
+    // a tile with rays a quarter of a pixel apart; at most `most`, those that differ most, in the order of the picture.
+    // brightest: the light (r + g + b) that differences are shares of.
+    std::vector<TilePlace> sharp_places(int left, int top, float brightest, std::size_t most) const;
     // To the picture's pixels; what no ray stands for stays as it is there. left, top: of the block.
     void draw(int left, int top, Image& image) const;
 
   private:
+    struct Range {
+        float least = INFINITY, greatest = -INFINITY;
+        void take(float value) {
+            least = std::min(least, value);
+            greatest = std::max(greatest, value);
+        }
+    };
     struct Sum {
         double area = 0, rgba[4] = {};
+        double widest = 0;   // area of a ray
+        Range alpha, light;  // of its rays
     };
     Sum sums_[kBlockSide * kBlockSide];
 };

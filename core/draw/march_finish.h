@@ -13,7 +13,7 @@ namespace awan {
 
 // What stands behind a tile's pixels.
 struct BehindTile {
-    // Radiance r g b, then 1 or 0: whether the forward peak brings it. Null: the sky's gradient.
+    // Radiance r g b, then that which the forward peak brings, r g b. Null: the sky's gradient.
     const simd::Floats* backdrop;
     simd::Floats up;  // of the rays' directions, along the scene's y
 };
@@ -29,7 +29,8 @@ AWAN_INLINE simd::Floats zenith_share(const simd::Floats& up) {
     return zenith;
 }
 
-// Light from behind that the peak has scattered, and that hence reaches the eye as if it had gone straight on:
+// The share of light from around there that the peak has scattered, and that reaches the eye as if it had gone straight
+// on:
 //     exp(-k tau) - exp(-tau) = exp(-k tau) (1 - exp(-(1 - k) tau)),     k = `scaled` < 1,
 // written so that nothing cancels.
 AWAN_INLINE simd::Floats through_peak(float scaled, const simd::Floats& depth) {
@@ -44,6 +45,13 @@ AWAN_INLINE simd::Floats radiance_behind(const SkyBehind& sky, const BehindTile&
     return sky.horizon[channel] + (sky.zenith[channel] - sky.horizon[channel]) * zenith;
 }
 
+// The same as the forward peak brings it: a gradient is even enough to be that right behind.
+AWAN_INLINE simd::Floats radiance_through_peak(const SkyBehind& sky, const BehindTile& tile,
+                                               int channel, const simd::Floats& zenith) {
+    if (tile.backdrop != nullptr) return tile.backdrop[3 + channel];
+    return radiance_behind(sky, tile, channel, zenith);
+}
+
 // From a channel a vector to a pixel a row: to[lane][channel].
 AWAN_INLINE void to_pixels(const simd::Floats channels[4], float (*to)[4]) {
     float lanes[4][simd::kLanes];
@@ -54,23 +62,22 @@ AWAN_INLINE void to_pixels(const simd::Floats channels[4], float (*to)[4]) {
 }
 
 // With tau the cloud's depth along the ray, B what stands behind it and L what the cloud sends:
-//     pixel = L + B (exp(-tau) + through_peak),     alpha = 1 - exp(-tau), or 1 where B is drawn.
+//     pixel = L + B exp(-tau) + B' through_peak,     alpha = 1 - exp(-tau), or 1 where B is drawn,
+// B' the mean of what stands around there (behind_peak.h).
 AWAN_INLINE void finish(const MarchScene& scene, const BehindTile& behind, const Tile& tile,
                         float (*to)[4]) {
     const SkyBehind& sky = scene.sky;
     const simd::Floats clear = simd::exp(-tile.depth);
-    simd::Floats passes{};
+    simd::Floats passes{}, through{};
     if (sky.behind) passes = clear;
-    if (sky.peak) {
-        const simd::Floats through = through_peak(scene.scaled, tile.depth);
-        passes += behind.backdrop != nullptr ? through * behind.backdrop[3] : through;
-    }
+    if (sky.peak) through = through_peak(scene.scaled, tile.depth);
     simd::Floats zenith{};
     if (behind.backdrop == nullptr && (sky.behind || sky.peak)) zenith = zenith_share(behind.up);
     const simd::Floats radiance[3] = {tile.red, tile.green, tile.blue};
     simd::Floats channels[4];
     for (int c = 0; c < 3; ++c)
-        channels[c] = radiance[c] + passes * radiance_behind(sky, behind, c, zenith);
+        channels[c] = radiance[c] + passes * radiance_behind(sky, behind, c, zenith) +
+                      through * radiance_through_peak(sky, behind, c, zenith);
     channels[3] = sky.behind ? simd::all(1.0f) : simd::one_minus(clear, tile.depth);
     to_pixels(channels, to);
 }
@@ -90,13 +97,12 @@ AWAN_INLINE void finish_in_air(const MarchScene& scene, const AirTile& air, cons
     const simd::Floats whole = (behind.up < 0.0f ? simd::all(air.down) : simd::all(air.up)) / slope;
     const simd::Floats whole_clear = simd::exp(-whole);
     const simd::Floats whole_air = simd::one_minus(whole_clear, simd::min(whole, simd::all(86.0f)));
-    simd::Floats passes{};
+    simd::Floats passes{}, through{};
     if (sky.behind) passes = clear * whole_clear;
     if (sky.peak) {
         const simd::Floats dimmed =
             1.0f - simd::min(tile.seen_air / simd::max(opaque, simd::all(1e-30f)), simd::all(1.0f));
-        const simd::Floats through = through_peak(scene.scaled, tile.depth) * dimmed;
-        passes += behind.backdrop != nullptr ? through * behind.backdrop[3] : through;
+        through = through_peak(scene.scaled, tile.depth) * dimmed;
     }
     const simd::Floats haze = tile.seen_air + clear * whole_air;
     const simd::Floats lit = rest_of_phase(scene.air->phase, chords) *
@@ -107,7 +113,8 @@ AWAN_INLINE void finish_in_air(const MarchScene& scene, const AirTile& air, cons
     simd::Floats channels[4];
     for (int c = 0; c < 3; ++c)
         channels[c] = radiance[c] + haze * air.ambient[c] + lit * air.sun[c] +
-                      passes * radiance_behind(sky, behind, c, zenith);
+                      passes * radiance_behind(sky, behind, c, zenith) +
+                      through * radiance_through_peak(sky, behind, c, zenith);
     channels[3] = simd::all(1.0f);
     if (!sky.behind) channels[3] -= clear * whole_clear;
     to_pixels(channels, to);

@@ -15,6 +15,9 @@ constexpr double kMostSamples = 2048;
 // The longest step over the shortest. Matter in which steps get as short as this is so dense that rays soon end.
 constexpr double kFinest = 4096;
 
+// The closest rays of matter with detail, of a pixel (march_block.cpp): smaller bumps than their gaps are not seen.
+constexpr double kRaysAcross = 4;
+
 // A tile of a block's pixels, relative to the block.
 TilePlace pixels_of(int tile) {
     return {static_cast<double>(tile % 4 * kTileSide), static_cast<double>(tile / 4 * kTileSide),
@@ -110,7 +113,7 @@ DetailRays detail_rays(const MarchScene& scene, const BlockFrame& frame, double 
     rays.field = &field;
     rays.reference = static_cast<float>(reference);
     rays.far = static_cast<float>(
-        std::min(field.bump * scene.height / (2 * scene.view.tan_half_fov), 1e30));
+        std::min(kRaysAcross * field.bump * scene.height / (2 * scene.view.tan_half_fov), 1e30));
     const glm::dvec3 middle = to_scene(scene.view, frame.forward);
     const glm::dvec3 start = field.to_tile * (scene.view.eye + reference * middle - field.origin);
     const glm::dvec3 axes[3] = {field.to_tile * to_scene(scene.view, frame.right),

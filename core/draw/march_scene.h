@@ -21,10 +21,10 @@ struct SkyBehind {
     float zenith[3] = {}, horizon[3] = {};  // radiance of a sky that is a gradient
     bool behind = false;                    // it is drawn behind the cloud
     bool peak = false;                      // it is seen through the forward peak, too
-    // What stands behind instead of the gradient; null: nothing. Then these say whether the sky's and the ground's
-    // pixels are seen through the peak.
+    // What stands behind instead of the gradient; null: nothing.
     const Backdrop* backdrop = nullptr;
-    bool sky_peak = false, ground_peak = false;
+    // Of each of its pixels, as the peak brings it (behind_peak.h); EMPTY where nothing is seen through the peak.
+    std::vector<float> through_peak;
 };
 
 struct MarchScene {
