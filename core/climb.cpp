@@ -184,9 +184,43 @@ Image moved_by(const Image& small, const Image& with_behind, const Image& pictur
 
 }  // namespace
 
+bool asks_for_error(const Scene& scene, const Planned& planned) {
+    return !planned.rung_is_settled && !scene->accuracy.time_ms;
+}
+
+bool holds(double error, const Scene& scene) {
+    return error <= scene->accuracy.error.value_or(kDefaultError);
+}
+
+bool paths_may_hold(const Scene& scene, const Plan& plan) {
+    // Paths are for what is finer than the default: a scene that asks for nothing is not made to wait for them.
+    if (scene->accuracy.error.value_or(kDefaultError) >= kDefaultError || wants_splats(scene))
+        return false;
+    for (const RungForecast& forecast : plan.forecasts)
+        if (forecast.rung->method == Method::kPaths) return forecast.time_ms <= kPatience_ms;
+    return false;
+}
+
+Planned planned_for_grids(const Scene& scene, Planned planned, int threads) {
+    SceneDraft draft = *scene;
+    draft.accuracy = {{}, {}, rung_of(RungId::kTransport16).name};
+    const auto named = validate(std::move(draft));
+    if (!named.ok()) return planned;  // it was valid before
+    Plan plan_of_grids = plan(*named, planned.survey, threads, {});
+    plan_of_grids.rung = std::move(planned.plan.rung);
+    plan_of_grids.rung_reason = std::move(planned.plan.rung_reason);
+    plan_of_grids.predicted = planned.plan.predicted;
+    plan_of_grids.forecasts = std::move(planned.plan.forecasts);
+    plan_of_grids.samples = planned.plan.samples;
+    planned.plan = std::move(plan_of_grids);
+    planned.plan.transport.islands = island_cells(planned.plan.transport, planned.survey);
+    if (planned.particles.detail != nullptr) return planned;
+    return *with_detail_made(scene, std::move(planned), threads);
+}
+
 Result<Climbed> climb(const Scene& scene, const Planned& planned, const ClimbTools& tools,
                       const Deadline& deadline) {
-    const bool by_name = scene->accuracy.rung.has_value();
+    const bool by_name = planned.rung_is_settled;
     const int planned_cells = planned.plan.transport.cells;
     const int most = by_name || planned_cells == 0 ? planned_cells : grids_of_ladder().finest;
     auto begun = climb_to(most, scene, planned, tools, deadline);

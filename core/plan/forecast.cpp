@@ -69,7 +69,6 @@ double predicted_bytes(const Rung& rung, const Scene& scene, const Survey& surve
 }
 
 // Time with so many threads over that of the calibration; `serial`: share that threads do not shorten.
-constexpr int kCalibratedThreads = 2;
 constexpr double kMarchSerial = 0.25;
 double stretch(int threads, double serial) {
     const auto time = [&](int n) { return serial + (1 - serial) / std::max(n, 1); };

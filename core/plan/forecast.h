@@ -9,6 +9,9 @@
 
 namespace awan {
 
+// Threads with which times were calibrated.
+inline constexpr int kCalibratedThreads = 2;
+
 // How much slower this machine is than the one on which times were calibrated: 1 is the same.
 struct MachineSpeed {
     double slowness = 1;

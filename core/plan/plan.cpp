@@ -253,6 +253,25 @@ bool wants_splats(const Scene& scene) {
     return false;
 }
 
+void plan_samples(Plan& plan, std::uint32_t samples, const Scene& scene, const Survey& survey,
+                  int threads, const MachineSpeed& speed) {
+    const Rung& truth = rung_of(RungId::kTruth);
+    const auto with = [&](std::uint32_t count) {
+        return forecast(truth, scene, survey, count, threads, speed);
+    };
+    const RungForecast before = with(plan.samples), now = with(samples);
+    plan.samples = samples;
+    const auto change = [&](RungForecast& of) {
+        if (of.rung != &truth) return;
+        // What was added to the time stays.
+        of.time_ms += now.time_ms - before.time_ms;
+        of.error = now.error > 0 ? std::hypot(now.error, survey.model_error) : now.error;
+        of.bytes = now.bytes;
+    };
+    for (RungForecast& of : plan.forecasts) change(of);
+    change(plan.predicted);
+}
+
 Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSpeed& speed) {
     if (scene->look != Look::kPhysical) return plan_look();
     Plan plan;
