@@ -13,6 +13,7 @@
 #include "core/light/light.h"
 #include "core/light/transport.h"
 #include "core/looks/looks.h"
+#include "core/plan/step_times.h"
 #include "core/sequence.h"
 #include "core/truth/path_tracer.h"
 
@@ -123,11 +124,24 @@ Status render_grid_or_paths(const Scene& scene, Planned& planned, const Tools& t
     return march_light(scene, planned, **light, tools, deadline, rendered);
 }
 
+// Whether measuring fits into the time that the scene asks for, if it asks for one.
+bool is_time_to_measure(const Scene& scene, const Planned& planned, const StageTimes& times) {
+    if (planned.rung_is_settled || !scene->accuracy.time_ms) return true;
+    const TimeSpent time{*scene->accuracy.time_ms,
+                         times.generate_ms + times.survey_ms + times.light_ms + times.draw_ms, 0,
+                         planned.plan.predicted.measure_ms};
+    return time.is_left_to_measure();
+}
+
 // A picture of a rung without a grid is measured against the coarsest grid. Where it is not what the scene asks for,
 // one of a transport rung takes its place.
 Status measure_or_climb(const Scene& scene, Planned& planned, const Tools& tools,
                         const Deadline& deadline, Rendered& rendered) {
     if (planned.particles.size() == 0 || !(planned.survey.total_mass > 0)) return std::nullopt;
+    if (!is_time_to_measure(scene, planned, rendered.times)) {
+        rendered.stated_error = std::numeric_limits<double>::quiet_NaN();
+        return std::nullopt;
+    }
     // The grid that measures is the first of those that are climbed then.
     LightCache lights(kLightsOfOne);
     Tools keeping = tools;
@@ -223,7 +237,9 @@ Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools
     if (failed) return *failed;
     if (planned.plan.rung != rendered.rung->name) {
         planned.plan.rung_reason =
-            climbed_reason(planned.plan, *rendered.rung, rendered.stated_error);
+            scene->accuracy.time_ms
+                ? "the finest that there was time for; expected was " + planned.plan.rung
+                : climbed_reason(planned.plan, *rendered.rung, rendered.stated_error);
         planned.plan.rung = rendered.rung->name;
     }
     for (const EffectDecision& decision : planned.plan.effects)

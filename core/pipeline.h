@@ -23,8 +23,8 @@ struct Rendered {
     bool light_was_kept = false;  // it came from the cache
     // The rung that the picture is of: the plan's, or where that did not keep to the scene's wish, another.
     const Rung* rung = nullptr;
-    // Its error, measured while it was made (core/climb.h), as PictureError::nrmse. NaN: nothing is known of it (a
-    // look).
+    // Its error, measured while it was made (core/climb.h), as PictureError::nrmse. NaN: it was not measured, as the
+    // time that the scene asks for is too short, and plan.predicted.error is all that is known; or there is none (a look).
     double stated_error = 0;
 };
 
@@ -44,8 +44,8 @@ struct Tools {
 };
 
 // Generates, surveys and plans. Of a scene with a sequence: with what is settled for all of its frames
-// (core/sequence.h), its rung as far as forecasts tell. threads >= 1. Errors: kInvalidScene (what only making the clouds shows), kOverDeadline,
-// kCancelled.
+// (core/sequence.h), its rung as far as forecasts tell. threads >= 1. Errors: kInvalidScene (what only making the
+// clouds shows), kOverDeadline, kCancelled.
 Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadline,
                           const MachineSpeed& speed = {});
 

@@ -23,9 +23,9 @@ double frame_time(const Sequence& sequence, std::uint64_t i);
 // first, the middle and the last: the camera holds the clouds of all three; an effect is on if one of them calls for
 // it; the detail's scale is the largest. Light is not settled: it is made anew for every frame whose matter moved.
 //
-// The rung, where an error is asked for, is one whose error is measured: of the three frames the one that is forecast to
-// be the hardest climbs (core/climb.h) until the error holds, and all frames are of the rung where it ends, paths where
-// no grid will do. Every frame still states its own error. Where a time is asked for, the rung is the cheapest that one
+// The rung, where an error is asked for, is one whose error is measured: of the three frames the one that is forecast
+// to be the hardest climbs (core/climb.h) until the error holds, and all frames are of the rung where it ends, paths
+// where no grid will do. Every frame still states its own error. Where a time is asked for, the rung is the cheapest that one
 // of the three is forecast to call for. Machines that share out the frames of one sequence must come to the same: so
 // these forecasts are for the machine and the threads of the calibration, not for the own ones.
 struct Settled {

@@ -25,7 +25,7 @@ struct TimeModel {
     TimeFigures coefficient;
 };
 // Generate, survey and plan.
-inline constexpr TimeModel kPrepareTime = {{66.8774, 0, 0.0210607, 2.0423e-06, 0, 0, 0, 0, 0, 0, 263.885}};
+inline constexpr TimeModel kPrepareTime = {{5, 0, 0.0105, 1.0e-06, 0, 0, 0, 0, 0, 0, 140}};
 inline constexpr TimeModel kAdditiveTime = {{0.895725, 0, 0.00169457, 2.31472e-06, 2.94577e-05, 0, 0, 0, 0, 4.14511e-05, 0}};
 inline constexpr TimeModel kHarrisLightTime = {{2.48227, 0, 0.00850872, 0, 0, 0, 0, 0, 0, 0, 0}};
 inline constexpr TimeModel kHarrisDrawTime = {{0.00991303, 0, 0.00201153, 1.7639e-06, 3.98729e-05, 0, 0, 0, 0, 2.6592e-05, 0}};

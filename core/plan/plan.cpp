@@ -116,10 +116,12 @@ Choice best_in_time(double time_ms, const std::vector<RungForecast>& candidates)
     const RungForecast* best = nullptr;
     const RungForecast* fastest = nullptr;
     for (const RungForecast& candidate : candidates) {
-        if (!fastest || candidate.time_ms < fastest->time_ms) fastest = &candidate;
+        // The error is measured only where there is time for it.
+        if (!fastest || candidate.picture_ms() < fastest->picture_ms()) fastest = &candidate;
         // Noise is worse to look at than an even error: paths have to win by far. They are the last of the ladder.
         const double handicap = candidate.rung->method == Method::kPaths ? kNoiseHandicap : 1;
-        if (candidate.time_ms <= time_ms && (!best || handicap * candidate.error < best->error))
+        if (candidate.picture_ms() <= time_ms &&
+            (!best || handicap * candidate.error < best->error))
             best = &candidate;
     }
     if (best)

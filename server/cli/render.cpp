@@ -60,7 +60,15 @@ std::string percent(double share) {
 // Which rung it was, how far off it is, and what was expected; nothing where the picture itself goes to standard
 // output.
 void say_error(const Rendered& rendered, const std::string& output) {
-    if (output == "-" || !std::isfinite(rendered.stated_error)) return;
+    if (output == "-") return;
+    if (!std::isfinite(rendered.stated_error)) {
+        // A look has no error.
+        if (!std::isfinite(rendered.plan.predicted.error)) return;
+        std::printf("%s: %s, error not measured, the time is too short (expected %s)\n",
+                    output.c_str(), rendered.plan.rung.c_str(),
+                    percent(rendered.plan.predicted.error).c_str());
+        return;
+    }
     std::printf("%s: %s, error %s (expected %s)\n", output.c_str(), rendered.plan.rung.c_str(),
                 percent(rendered.stated_error).c_str(),
                 percent(rendered.plan.predicted.error).c_str());

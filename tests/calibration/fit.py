@@ -157,7 +157,7 @@ struct TimeModel {
     def field(name):
         return lambda r: float(r[name])
     def rest(r):
-        return float(r["time_ms"]) - float(r["light_ms"]) - float(r["draw_ms"])
+        return float(r["time_ms"]) - float(r["light_ms"]) - float(r["draw_ms"]) - float(r["measure_ms"])
     print("// Generate, survey and plan.")
     table("kPrepareTime", "TimeModel", timed(("transport", "harris"), rest, (0, 2, 3, 10)))
     table("kAdditiveTime", "TimeModel", timed(("additive",), field("draw_ms"), (0, 2, 3, 4, 9)))
@@ -170,4 +170,5 @@ struct TimeModel {
 }  // namespace awan""")
 
 
-main()
+if __name__ == "__main__":
+    main()
