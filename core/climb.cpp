@@ -24,12 +24,13 @@ constexpr double kErrorOfPicture = 1.1;
 constexpr double kOrder = 1.3;
 // What differences of grids do not show, of thick matter. The march's steps, its light between looked up rays and the
 // sun's lattice:
-constexpr double kEyeError = 0.016;
+constexpr double kEyeError = 0.018;
 // what 128 directions leave of the angles of forward scattered light, times g squared;
-constexpr double kAngularError = 0.035;
-// what lumps of detail that are smaller than steps and cells leave, times the detail's amount, and more of it where the
-// sun shines through their edges, times the cosine squared between it and the view.
-constexpr double kDetailError = 0.09, kBacklitDetailError = 0.22;
+constexpr double kAngularError = 0.045;
+// what lumps of detail that are smaller than steps and cells leave, times the detail's amount; more of it in deep
+// matter, times log10(1 + depth), and where the sun shines through their edges, times the cosine squared between it and
+// the view.
+constexpr double kDetailError = 0.03, kDeepDetailError = 0.07, kBacklitDetailError = 0.15;
 // Of what is far below a pixel, times its share of the matter (Survey::sub_pixel).
 constexpr double kSubPixelError = 0.01;
 
@@ -142,20 +143,23 @@ double stated_error(double difference, const Climb& climb) {
     if (climb.planned.particles.detail != nullptr) {
         const double into_sun = std::max(survey.sun_cosine, 0.0);
         floor = std::hypot(floor, climb.scene->detail->amount *
-                                      (kDetailError + kBacklitDetailError * into_sun * into_sun));
+                                      (kDetailError + kDeepDetailError * std::log10(1 + depth) +
+                                       kBacklitDetailError * into_sun * into_sun));
     }
     return std::hypot(kErrorOfDifference * difference,
                       std::hypot(floor, kSubPixelError * survey.sub_pixel), survey.model_error);
 }
 
 // By how much grids differ, as far as it tells how far off the finest is: two can be near to each other by luck. Then
-// what the two before differ by says more, as errors fall about with the cells' side. cells: of the finest.
+// what the two before differ by says more, as errors fall about with the cells' side; but not of grids that are only on
+// the way to the coarsest rung, whose cells are too large for that. cells: of the finest.
 Result<double> difference_of(const Climb& climb, const TransportLight& light, int cells,
                              Pictures& pictures) {
     const std::vector<int> grids = nested_cells(cells);
     const TransportLight* finer = &light;
     double difference = 0, shrinks = 1;
     for (std::size_t i = grids.size(); i-- > 1 && i + 3 > grids.size() && finer->coarser;) {
+        if (i + 1 < grids.size() && rung_with(grids[i]) == nullptr) break;
         const auto own = small_picture(climb, *finer, pictures);
         if (!own.ok()) return own.error();
         const auto before = small_picture(climb, *finer->coarser, pictures);

@@ -26,8 +26,8 @@ double frame_time(const Sequence& sequence, std::uint64_t i);
 // The rung, where an error is asked for, is one whose error is measured: of the three frames the one that is forecast
 // to be the hardest climbs (core/climb.h) until the error holds, and all frames are of the rung where it ends, paths
 // where no grid will do. Every frame still states its own error. Where a time is asked for, the rung is the cheapest
-// that one of the three is forecast to call for. Machines that share out the frames of one sequence must come to the same: so
-// these forecasts are for the machine and the threads of the calibration, not for the own ones.
+// that one of the three is forecast to call for. Machines that share out the frames of one sequence must come to the
+// same: so these forecasts are for the machine and the threads of the calibration, not for the own ones.
 struct Settled {
     // The scene without its sequence, with what was settled in place of what was automatic.
     SceneDraft draft;
