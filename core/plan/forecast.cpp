@@ -85,7 +85,9 @@ double measuring_ms(const Rung& rung, const Scene& scene, const Survey& survey, 
     double ms = rung.cells > 0 ? 0 : predicted_ms(kMarchLightTime, times);
     const double smaller = std::min(
         1.0, kSmallPixels / (static_cast<double>(scene->image.width) * scene->image.height));
+    const double looked_up = std::min(times[1], kMostLookedUp);
     for (const std::size_t of_pixels : {1, 3, 4, 8, 9}) times[of_pixels] *= smaller;
+    if (looked_up > 0) times[11] *= std::min(times[1], looked_up) / looked_up;
     ms += kSmallPictures * predicted_ms(kMarchDrawTime, times);
     return ms * stretch(threads, kMarchSerial);
 }
