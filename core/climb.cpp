@@ -171,12 +171,39 @@ Result<double> difference_of(const Climb& climb, const TransportLight& light, in
     return difference;
 }
 
+// Whether an island in the picture has no finer grid than it had on the next coarser step: by how much these differ says
+// nothing of it.
+bool has_islands_as_before(const Climb& climb, int cells) {
+    const std::vector<int> grids = nested_cells(cells);
+    if (grids.size() < 2) return false;
+    const Survey& survey = climb.planned.survey;
+    const auto of = [&](int step) {
+        return settings_on_the_way(climb.settings, step, survey).islands;
+    };
+    const std::vector<IslandCells> own = of(cells), before = of(grids[grids.size() - 2]);
+    for (std::size_t i = 0; i < std::min(own.size(), before.size()); ++i)
+        if (own[i].cells > 0 && own[i].cells == before[i].cells) return true;
+    return false;
+}
+
+// What the plan expects of a rung.
+const RungForecast* forecast_of(const Plan& plan, const Rung& rung) {
+    for (const RungForecast& forecast : plan.forecasts)
+        if (*forecast.rung == rung) return &forecast;
+    return nullptr;
+}
+
 // States the error of the light that was reached, of a grid with so many cells.
 Status measure(const Climb& climb, int cells, Pictures& pictures, Climbed& reached) {
     const auto start = Clock::now();
     const auto difference = difference_of(climb, *reached.light, cells, pictures);
     if (!difference.ok()) return difference.error();
     reached.stated = stated_error(*difference, climb);
+    const RungForecast* const expected =
+        reached.rung != nullptr && has_islands_as_before(climb, cells)
+            ? forecast_of(climb.planned.plan, *reached.rung)
+            : nullptr;
+    if (expected != nullptr) reached.stated = std::max(reached.stated, expected->error);
     reached.measure_ms += ms_since(start);
     return std::nullopt;
 }
@@ -219,13 +246,6 @@ Clock::time_point in_ms(double ms) {
                               std::chrono::duration<double, std::milli>(ms));
 }
 
-// What measuring the error of that rung is forecast to take.
-double measuring_ms(const Plan& plan, const Rung& rung) {
-    for (const RungForecast& forecast : plan.forecasts)
-        if (*forecast.rung == rung) return forecast.measure_ms;
-    return 0;
-}
-
 // As many of the grids as there is time for; the coarsest rung in any case. The error is measured if that fits too.
 Status climb_in_time(const Climb& climb, const std::vector<int>& grids, Climbed& reached) {
     const Plan& plan = climb.planned.plan;
@@ -263,7 +283,8 @@ Status climb_in_time(const Climb& climb, const std::vector<int>& grids, Climbed&
         if (first || reached.rung == nullptr) continue;
         first = reached.light;
         time.spent = planned_ms + ms_since(begun);
-        time.measure = measuring_ms(plan, *reached.rung);
+        const RungForecast* const expected = forecast_of(plan, *reached.rung);
+        time.measure = expected != nullptr ? expected->measure_ms : 0;
         if (!time.is_left_to_measure()) return std::nullopt;
         // Its small pictures tell what drawing will take, and measuring again.
         const auto measuring = Clock::now();
