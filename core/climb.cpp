@@ -151,8 +151,8 @@ double stated_error(double difference, const Climb& climb) {
 }
 
 // By how much grids differ, as far as it tells how far off the finest is: two can be near to each other by luck. Then
-// what the two before differ by says more, as errors fall about with the cells' side; but not of grids that are only on
-// the way to the coarsest rung, whose cells are too large for that. cells: of the finest.
+// what the two before differ by says more, as errors fall about with the cells' side; but not of grids that are only
+// on the way to the coarsest rung, whose cells are too large for that. cells: of the finest.
 Result<double> difference_of(const Climb& climb, const TransportLight& light, int cells,
                              Pictures& pictures) {
     const std::vector<int> grids = nested_cells(cells);
@@ -171,8 +171,8 @@ Result<double> difference_of(const Climb& climb, const TransportLight& light, in
     return difference;
 }
 
-// Whether an island in the picture has no finer grid than it had on the next coarser step: by how much these differ says
-// nothing of it.
+// Whether an island in the picture has no finer grid than it had on the next coarser step: by how much these differ
+// says nothing of it.
 bool has_islands_as_before(const Climb& climb, int cells) {
     const std::vector<int> grids = nested_cells(cells);
     if (grids.size() < 2) return false;

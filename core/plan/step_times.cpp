@@ -53,8 +53,7 @@ void StepTimes::kept(int cells) {
 
 double StepTimes::next_ms(int cells) const {
     double scale = 1;
-    if (expected_ms_ > 0)
-        scale = std::clamp(took_ms_ / expected_ms_, 1 / kMostScale, kMostScale);
+    if (expected_ms_ > 0) scale = std::clamp(took_ms_ / expected_ms_, 1 / kMostScale, kMostScale);
     return scale * std::max(light_ms(cells) - light_ms(reached_), 0.0);
 }
 
