@@ -1,32 +1,38 @@
 #include "core/climb.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <limits>
+#include <list>
+#include <utility>
 
 #include "core/draw/picture_difference.h"
 #include "core/light/transport.h"
 #include "core/plan/island_settings.h"
+#include "core/plan/step_times.h"
 #include "core/scene/validate.h"
 
 namespace awan {
 namespace {
 
-// Error over the difference to the next coarser grid (tests/calibration/RESULTS.md).
-constexpr double kErrorOfDifference = 1.6;
+// Error over the difference to the next coarser grid (tests/calibration/README.md).
+constexpr double kErrorOfDifference = 1.8;
 // The same, of pictures without a grid to one with it.
 constexpr double kErrorOfPicture = 1.1;
+// With which power of a cell's side errors fall, at least: from 1.3 to 1.6 was measured on smooth clouds.
+constexpr double kOrder = 1.3;
 // What differences of grids do not show, of thick matter. The march's steps, its light between looked up rays and the
 // sun's lattice:
-constexpr double kEyeError = 0.016;
+constexpr double kEyeError = 0.018;
 // what 128 directions leave of the angles of forward scattered light, times g squared;
-constexpr double kAngularError = 0.035;
-// what lumps of detail that are smaller than steps, cells and the gaps between rays leave, times the detail's amount,
-// and more of it where the sun shines through their edges, times the cosine squared between it and the view.
-constexpr double kDetailError = 0.06, kBacklitDetailError = 0.075;
+constexpr double kAngularError = 0.045;
+// what lumps of detail that are smaller than steps, cells and the gaps between rays leave, times the detail's amount;
+// more of it in deep matter, times log10(1 + depth), and where the sun shines through their edges, times the cosine
+// squared between it and the view.
+constexpr double kDetailError = 0.03, kDeepDetailError = 0.07, kBacklitDetailError = 0.075;
 // Of what is far below a pixel, times its share of the matter (Survey::sub_pixel).
 constexpr double kSubPixelError = 0.01;
-// With which power of its cells along a side a grid's time grows: the third, and deep light takes more sweeps.
-constexpr double kTimePower = 3.3;
 
 using Clock = Deadline::Clock;
 
@@ -59,7 +65,6 @@ struct Climb {
     const Deadline& deadline;
     Scene small;
     TransportSettings settings;  // of the finest grid that may be reached
-    Clock::time_point begun = Clock::now();
 };
 
 Result<Climb> climb_to(int cells, const Scene& scene, const Planned& planned,
@@ -80,7 +85,7 @@ Result<Climb> climb_to(int cells, const Scene& scene, const Planned& planned,
 
 // The light of these settings: kept from an earlier picture, or solved, going on from the one that was reached.
 Result<SharedLight> light_of_step(const Climb& climb, const TransportSettings& settings,
-                                  Climbed& reached) {
+                                  const Deadline& deadline, Climbed& reached) {
     const ParticleSet& particles = climb.planned.particles;
     LightCache* const kept = climb.tools.lights;
     const std::string key =
@@ -90,7 +95,7 @@ Result<SharedLight> light_of_step(const Climb& climb, const TransportSettings& s
         if (SharedLight light = kept->find(key)) return light;
     reached.was_kept = false;
     auto solved = transport_light(climb.scene, particles, climb.planned.survey, settings,
-                                  climb.tools.threads, climb.deadline, reached.light);
+                                  climb.tools.threads, deadline, reached.light);
     if (!solved.ok()) return solved.error();
     reached.took.add(solved->took);
     SharedLight light = std::make_shared<const TransportLight>(*std::move(solved));
@@ -98,17 +103,16 @@ Result<SharedLight> light_of_step(const Climb& climb, const TransportSettings& s
     return light;
 }
 
-// One grid more; what it took, ms.
-Result<double> step(const Climb& climb, int cells, Climbed& reached) {
+// One grid more.
+Status step(const Climb& climb, int cells, const Deadline& deadline, Climbed& reached) {
     const auto start = Clock::now();
     auto light = light_of_step(
-        climb, settings_on_the_way(climb.settings, cells, climb.planned.survey), reached);
+        climb, settings_on_the_way(climb.settings, cells, climb.planned.survey), deadline, reached);
+    reached.light_ms += ms_since(start);
     if (!light.ok()) return light.error();
     reached.light = *std::move(light);
     reached.rung = rung_with(cells);
-    const double ms = ms_since(start);
-    reached.light_ms += ms;
-    return ms;
+    return std::nullopt;
 }
 
 Result<Image> picture_of(const Climb& climb, const Scene& scene, const TransportLight& light) {
@@ -116,6 +120,19 @@ Result<Image> picture_of(const Climb& climb, const Scene& scene, const Transport
     settings.eye_effects = climb.planned.plan.eye_effects();
     return march(scene, climb.planned.particles, climb.planned.survey.view, light, settings,
                  climb.tools.threads, climb.deadline);
+}
+
+// Small pictures of lights, each made once.
+using Pictures = std::list<std::pair<const TransportLight*, Image>>;
+
+Result<const Image*> small_picture(const Climb& climb, const TransportLight& light,
+                                   Pictures& pictures) {
+    for (const auto& [of, picture] : pictures)
+        if (of == &light) return &picture;
+    auto made = picture_of(climb, climb.small, light);
+    if (!made.ok()) return made.error();
+    pictures.emplace_back(&light, *std::move(made));
+    return &pictures.back().second;
 }
 
 // difference: of a transport rung's small picture to the next coarser grid's.
@@ -126,39 +143,78 @@ double stated_error(double difference, const Climb& climb) {
     if (climb.planned.particles.detail != nullptr) {
         const double into_sun = std::max(survey.sun_cosine, 0.0);
         floor = std::hypot(floor, climb.scene->detail->amount *
-                                      (kDetailError + kBacklitDetailError * into_sun * into_sun));
+                                      (kDetailError + kDeepDetailError * std::log10(1 + depth) +
+                                       kBacklitDetailError * into_sun * into_sun));
     }
     return std::hypot(kErrorOfDifference * difference,
                       std::hypot(floor, kSubPixelError * survey.sub_pixel), survey.model_error);
 }
 
-// States the error of the light that was reached. picture: the small one of the next coarser light, or empty; becomes
-// that of this one.
-Status measure(const Climb& climb, Image& picture, Climbed& reached) {
-    const auto start = Clock::now();
-    const TransportLight& light = *reached.light;
-    if (light.coarser && picture.pixels.empty()) {
-        auto coarser = picture_of(climb, climb.small, *light.coarser);
-        if (!coarser.ok()) return coarser.error();
-        picture = *std::move(coarser);
+// By how much grids differ, as far as it tells how far off the finest is: two can be near to each other by luck. Then
+// what the two before differ by says more, as errors fall about with the cells' side; but not of grids that are only
+// on the way to the coarsest rung, whose cells are too large for that. cells: of the finest.
+Result<double> difference_of(const Climb& climb, const TransportLight& light, int cells,
+                             Pictures& pictures) {
+    const std::vector<int> grids = nested_cells(cells);
+    const TransportLight* finer = &light;
+    double difference = 0, shrinks = 1;
+    for (std::size_t i = grids.size(); i-- > 1 && i + 3 > grids.size() && finer->coarser;) {
+        if (i + 1 < grids.size() && rung_with(grids[i]) == nullptr) break;
+        const auto own = small_picture(climb, *finer, pictures);
+        if (!own.ok()) return own.error();
+        const auto before = small_picture(climb, *finer->coarser, pictures);
+        if (!before.ok()) return before.error();
+        difference = std::max(difference, shrinks * picture_difference(**before, **own));
+        shrinks *= std::pow(static_cast<double>(grids[i - 1]) / grids[i], kOrder);
+        finer = finer->coarser.get();
     }
-    auto own = picture_of(climb, climb.small, light);
-    if (!own.ok()) return own.error();
-    reached.stated = stated_error(light.coarser ? picture_difference(picture, *own) : 0, climb);
-    picture = *std::move(own);
+    return difference;
+}
+
+// Whether an island in the picture has no finer grid than it had on the next coarser step: by how much these differ
+// says nothing of it.
+bool has_islands_as_before(const Climb& climb, int cells) {
+    const std::vector<int> grids = nested_cells(cells);
+    if (grids.size() < 2) return false;
+    const Survey& survey = climb.planned.survey;
+    const auto of = [&](int step) {
+        return settings_on_the_way(climb.settings, step, survey).islands;
+    };
+    const std::vector<IslandCells> own = of(cells), before = of(grids[grids.size() - 2]);
+    for (std::size_t i = 0; i < std::min(own.size(), before.size()); ++i)
+        if (own[i].cells > 0 && own[i].cells == before[i].cells) return true;
+    return false;
+}
+
+// What the plan expects of a rung.
+const RungForecast* forecast_of(const Plan& plan, const Rung& rung) {
+    for (const RungForecast& forecast : plan.forecasts)
+        if (*forecast.rung == rung) return &forecast;
+    return nullptr;
+}
+
+// States the error of the light that was reached, of a grid with so many cells.
+Status measure(const Climb& climb, int cells, Pictures& pictures, Climbed& reached) {
+    const auto start = Clock::now();
+    const auto difference = difference_of(climb, *reached.light, cells, pictures);
+    if (!difference.ok()) return difference.error();
+    reached.stated = stated_error(*difference, climb);
+    const RungForecast* const expected =
+        reached.rung != nullptr && has_islands_as_before(climb, cells)
+            ? forecast_of(climb.planned.plan, *reached.rung)
+            : nullptr;
+    if (expected != nullptr) reached.stated = std::max(reached.stated, expected->error);
     reached.measure_ms += ms_since(start);
     return std::nullopt;
 }
 
-// Whether the light that was reached will do. last_ms: what its grid took, of `cells`.
-bool enough(const Climb& climb, const Climbed& reached, double last_ms, int cells, int next_cells) {
-    const Accuracy& asked = climb.scene->accuracy;
-    if (!asked.time_ms) return reached.stated <= asked.error.value_or(kDefaultError);
-    const StageTimes& times = climb.planned.times;
-    const double next_ms = last_ms * std::pow(static_cast<double>(next_cells) / cells, kTimePower);
-    return times.generate_ms + times.survey_ms + ms_since(climb.begun) + next_ms +
-               climb.planned.plan.predicted.draw_ms >
-           *asked.time_ms;
+// How many times longer the march of the scene's picture is expected to take than that of the small one.
+double draw_ratio(const Climb& climb, const Rung& rung) {
+    const Survey& survey = climb.planned.survey;
+    const auto draw_ms = [&](const Scene& scene) {
+        return forecast(rung, scene, survey, 0, climb.tools.threads, {}).draw_ms;
+    };
+    return draw_ms(climb.scene) / std::max(draw_ms(climb.small), 1e-3);
 }
 
 // `small` plus what the pixels of `picture` that are nearest to its own have more than `with_behind`, a picture of its
@@ -182,26 +238,123 @@ Image moved_by(const Image& small, const Image& with_behind, const Image& pictur
     return moved;
 }
 
+// So many milliseconds from now, or the end of time.
+Clock::time_point in_ms(double ms) {
+    constexpr double kLong = 1e9;
+    if (!(ms < kLong)) return Clock::time_point::max();
+    return Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                              std::chrono::duration<double, std::milli>(ms));
+}
+
+// As many of the grids as there is time for; the coarsest rung in any case. The error is measured if that fits too.
+Status climb_in_time(const Climb& climb, const std::vector<int>& grids, Climbed& reached) {
+    const Plan& plan = climb.planned.plan;
+    const auto begun = Clock::now();
+    const double planned_ms = climb.planned.times.generate_ms + climb.planned.times.survey_ms;
+    StepTimes steps(plan.forecasts);
+    TimeSpent time{*climb.scene->accuracy.time_ms, 0, plan.predicted.draw_ms, 0};
+    Pictures pictures;
+    SharedLight first;  // of the coarsest rung
+    int reached_cells = 0;
+    reached.stated = std::numeric_limits<double>::quiet_NaN();
+    for (const int cells : grids) {
+        Deadline own = climb.deadline;
+        time.spent = planned_ms + ms_since(begun);
+        if (first) {
+            if (!time.is_left_for(steps.next_ms(cells))) break;
+            own.until = std::min(own.until, in_ms(time.most_for_a_step()));
+        }
+        const auto start = Clock::now();
+        const bool all_were_kept = std::exchange(reached.was_kept, true);
+        const Status failed = step(climb, cells, own, reached);
+        if (failed) {
+            reached.was_kept = false;
+            // The time is over, if not for the answer: what was reached before will do.
+            if (first && !climb.deadline.over()) break;
+            return failed;
+        }
+        reached_cells = cells;
+        if (reached.was_kept) {
+            steps.kept(cells);
+        } else {
+            steps.solved(cells, ms_since(start));
+        }
+        reached.was_kept = reached.was_kept && all_were_kept;
+        if (first || reached.rung == nullptr) continue;
+        first = reached.light;
+        time.spent = planned_ms + ms_since(begun);
+        const RungForecast* const expected = forecast_of(plan, *reached.rung);
+        time.measure = expected != nullptr ? expected->measure_ms : 0;
+        if (!time.is_left_to_measure()) return std::nullopt;
+        // Its small pictures tell what drawing will take, and measuring again.
+        const auto measuring = Clock::now();
+        if (Status wrong = measure(climb, cells, pictures, reached)) return wrong;
+        time.measure = ms_since(measuring);
+        time.draw =
+            time.measure / static_cast<double>(pictures.size()) * draw_ratio(climb, *reached.rung);
+    }
+    if (reached.light == first) return std::nullopt;
+    reached.stated = std::numeric_limits<double>::quiet_NaN();
+    time.spent = planned_ms + ms_since(begun);
+    if (!time.is_left_to_measure()) return std::nullopt;
+    return measure(climb, reached_cells, pictures, reached);
+}
+
 }  // namespace
+
+bool asks_for_error(const Scene& scene, const Planned& planned) {
+    return !planned.rung_is_settled && !scene->accuracy.time_ms;
+}
+
+bool holds(double error, const Scene& scene) {
+    return error <= scene->accuracy.error.value_or(kDefaultError);
+}
+
+bool paths_may_hold(const Scene& scene, const Plan& plan) {
+    // Paths are for what is finer than the default: a scene that asks for nothing is not made to wait for them.
+    if (scene->accuracy.error.value_or(kDefaultError) >= kDefaultError || wants_splats(scene))
+        return false;
+    for (const RungForecast& forecast : plan.forecasts)
+        if (forecast.rung->method == Method::kPaths) return forecast.time_ms <= kPatience_ms;
+    return false;
+}
+
+Planned planned_for_grids(const Scene& scene, Planned planned, int threads) {
+    SceneDraft draft = *scene;
+    draft.accuracy = {{}, {}, rung_of(RungId::kTransport16).name};
+    const auto named = validate(std::move(draft));
+    if (!named.ok()) return planned;  // it was valid before
+    Plan plan_of_grids = plan(*named, planned.survey, threads, {});
+    plan_of_grids.rung = std::move(planned.plan.rung);
+    plan_of_grids.rung_reason = std::move(planned.plan.rung_reason);
+    plan_of_grids.predicted = planned.plan.predicted;
+    plan_of_grids.forecasts = std::move(planned.plan.forecasts);
+    plan_of_grids.samples = planned.plan.samples;
+    planned.plan = std::move(plan_of_grids);
+    planned.plan.transport.islands = island_cells(planned.plan.transport, planned.survey);
+    if (planned.particles.detail != nullptr) return planned;
+    return *with_detail_made(scene, std::move(planned), threads);
+}
 
 Result<Climbed> climb(const Scene& scene, const Planned& planned, const ClimbTools& tools,
                       const Deadline& deadline) {
-    const bool by_name = scene->accuracy.rung.has_value();
+    const bool by_name = planned.rung_is_settled;
     const int planned_cells = planned.plan.transport.cells;
     const int most = by_name || planned_cells == 0 ? planned_cells : grids_of_ladder().finest;
     auto begun = climb_to(most, scene, planned, tools, deadline);
     if (!begun.ok()) return begun.error();
     Climbed reached;
-    Image picture;
-    const std::vector<int> steps = nested_cells(most);
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-        const bool last = i + 1 == steps.size();
-        const auto took_ms = step(*begun, steps[i], reached);
-        if (!took_ms.ok()) return took_ms.error();
+    if (!by_name && scene->accuracy.time_ms && most > 0) {
+        if (Status failed = climb_in_time(*begun, nested_cells(most), reached)) return *failed;
+        return reached;
+    }
+    Pictures pictures;
+    for (const int cells : nested_cells(most)) {
+        if (Status failed = step(*begun, cells, deadline, reached)) return *failed;
         // Grids that are only on the way are too coarse to show.
-        if (reached.rung == nullptr || (by_name && !last)) continue;
-        if (Status failed = measure(*begun, picture, reached)) return *failed;
-        if (last || enough(*begun, reached, *took_ms, steps[i], steps[i + 1])) break;
+        if (reached.rung == nullptr || (by_name && cells != most)) continue;
+        if (Status failed = measure(*begun, cells, pictures, reached)) return *failed;
+        if (holds(reached.stated, scene)) break;
     }
     return reached;
 }
@@ -216,11 +369,13 @@ Result<double> error_of_picture(const Scene& scene, const Planned& planned, cons
     begun->small = *std::move(aligned);
     Climbed reached;
     for (const int step_cells : nested_cells(cells)) {
-        const auto took_ms = step(*begun, step_cells, reached);
-        if (!took_ms.ok()) return took_ms.error();
+        if (Status failed = step(*begun, step_cells, deadline, reached)) return *failed;
     }
-    Image small;
-    if (Status failed = measure(*begun, small, reached)) return *failed;
+    Pictures pictures;
+    if (Status failed = measure(*begun, cells, pictures, reached)) return *failed;
+    const auto own = small_picture(*begun, *reached.light, pictures);
+    if (!own.ok()) return own.error();
+    const Image& small = **own;
     // What stands behind is the same in both: with it, they differ by the cloud alone.
     Image with_behind = small;
     if (scene->image.background != Background::kTransparent) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "core/climb.h"
@@ -14,10 +13,8 @@
 #include "core/light/light.h"
 #include "core/light/transport.h"
 #include "core/looks/looks.h"
-#include "core/plan/island_settings.h"
-#include "core/scene/validate.h"
+#include "core/plan/step_times.h"
 #include "core/sequence.h"
-#include "core/survey/detail_of.h"
 #include "core/truth/path_tracer.h"
 
 namespace awan {
@@ -43,6 +40,9 @@ Status render_splats(const Scene& scene, const Planned& planned, const Tools& to
     return std::nullopt;
 }
 
+// Of a render that keeps none otherwise: the few coarse grids of its own climb.
+constexpr std::size_t kLightsOfOne = 64 << 20;
+
 Status march_light(const Scene& scene, const Planned& planned, const TransportLight& light,
                    const Tools& tools, const Deadline& deadline, Rendered& rendered) {
     MarchSettings settings;
@@ -56,15 +56,6 @@ Status march_light(const Scene& scene, const Planned& planned, const TransportLi
     rendered.times.draw_ms += draw_ms;
     rendered.image = *std::move(image);
     return std::nullopt;
-}
-
-bool holds(double error, const Scene& scene) {
-    return error <= scene->accuracy.error.value_or(kDefaultError);
-}
-
-// Whether the scene asks for an error, if only by asking for nothing.
-bool asks_for_error(const Scene& scene) {
-    return !scene->accuracy.rung && !scene->accuracy.time_ms;
 }
 
 // Transport on a grid, as fine as the scene's wish needs; not drawn yet.
@@ -120,45 +111,26 @@ Status render_look(const Scene& scene, const Planned& planned, const Tools& tool
     return std::nullopt;
 }
 
-// The same plan for the transport rungs.
-Planned for_grids(const Scene& scene, Planned planned, const Tools& tools) {
-    SceneDraft draft = *scene;
-    draft.accuracy = {{}, {}, rung_of(RungId::kTransport16).name};
-    const auto named = validate(std::move(draft));
-    if (!named.ok()) return planned;  // it was valid before
-    const RungForecast forecast = planned.plan.predicted;
-    planned.plan = plan(*named, planned.survey, tools.threads, tools.speed);
-    planned.plan.predicted = forecast;
-    planned.plan.transport.islands = island_cells(planned.plan.transport, planned.survey);
-    return *with_detail_made(scene, std::move(planned), tools.threads);
-}
-
-// Whether paths of tolerable length are expected to keep to what the scene asks for.
-bool paths_may_hold(const Scene& scene, const Plan& plan) {
-    // Paths are for what is finer than the default: a scene that asks for nothing is not made to wait for them.
-    if (scene->accuracy.error.value_or(kDefaultError) >= kDefaultError || wants_splats(scene))
-        return false;
-    for (const RungForecast& forecast : plan.forecasts)
-        if (forecast.rung->method == Method::kPaths) return forecast.time_ms <= kPatience_ms;
-    return false;
-}
-
 // The coarsest grid that keeps to the error that the scene asks for; paths where none does; else the finest grid.
+// planned: for the transport rungs.
 Status render_grid_or_paths(const Scene& scene, Planned& planned, const Tools& tools,
                             const Deadline& deadline, Rendered& rendered) {
-    // A plan for a grid is that already: its particles need not be copied, nor its detail be made again.
-    const bool is_for_grids = planned.plan.predicted.rung->cells > 0;
-    std::optional<Planned> made;
-    if (!is_for_grids) made = for_grids(scene, planned, tools);
-    const Planned& grids = made ? *made : planned;
-    const auto light = climbed_light(scene, grids, tools, deadline, rendered);
+    const auto light = climbed_light(scene, planned, tools, deadline, rendered);
     if (!light.ok()) return light.error();
     if (!holds(rendered.stated_error, scene) && paths_may_hold(scene, planned.plan)) {
         rendered.rung = &rung_of(RungId::kTruth);
         return render_paths(scene, planned, tools, deadline, rendered);
     }
-    if (made) planned = *std::move(made);
     return march_light(scene, planned, **light, tools, deadline, rendered);
+}
+
+// Whether measuring fits into the time that the scene asks for, if it asks for one.
+bool is_time_to_measure(const Scene& scene, const Planned& planned, const StageTimes& times) {
+    if (planned.rung_is_settled || !scene->accuracy.time_ms) return true;
+    const TimeSpent time{*scene->accuracy.time_ms,
+                         times.generate_ms + times.survey_ms + times.light_ms + times.draw_ms, 0,
+                         planned.plan.predicted.measure_ms};
+    return time.is_left_to_measure();
 }
 
 // A picture of a rung without a grid is measured against the coarsest grid. Where it is not what the scene asks for,
@@ -166,16 +138,29 @@ Status render_grid_or_paths(const Scene& scene, Planned& planned, const Tools& t
 Status measure_or_climb(const Scene& scene, Planned& planned, const Tools& tools,
                         const Deadline& deadline, Rendered& rendered) {
     if (planned.particles.size() == 0 || !(planned.survey.total_mass > 0)) return std::nullopt;
+    if (!is_time_to_measure(scene, planned, rendered.times)) {
+        rendered.stated_error = std::numeric_limits<double>::quiet_NaN();
+        return std::nullopt;
+    }
+    // The grid that measures is the first of those that are climbed then.
+    LightCache lights(kLightsOfOne);
+    Tools keeping = tools;
+    if (keeping.lights == nullptr) keeping.lights = &lights;
+    Plan own = planned.plan;
     double measure_ms = 0;
     const auto error = timed(measure_ms, [&] {
-        return error_of_picture(scene, planned, rendered.image, {tools.lights, tools.threads},
+        planned = planned_for_grids(scene, std::move(planned), tools.threads);
+        return error_of_picture(scene, planned, rendered.image, {keeping.lights, tools.threads},
                                 deadline);
     });
     if (!error.ok()) return error.error();
     rendered.times.measure_ms += measure_ms;
     rendered.stated_error = *error;
-    if (!asks_for_error(scene) || holds(*error, scene) || wants_splats(scene)) return std::nullopt;
-    return render_grid_or_paths(scene, planned, tools, deadline, rendered);
+    if (!asks_for_error(scene, planned) || holds(*error, scene) || wants_splats(scene)) {
+        planned.plan = std::move(own);
+        return std::nullopt;
+    }
+    return render_grid_or_paths(scene, planned, keeping, deadline, rendered);
 }
 
 // Why the picture is of another rung than was planned.
@@ -187,42 +172,33 @@ std::string climbed_reason(const Plan& plan, const Rung& rung, double stated) {
     return text.data();
 }
 
-}  // namespace
-
-Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadline,
-                          const MachineSpeed& speed) {
+Result<Planned> plan_any(const Scene& scene, Settling how, int threads, const Deadline& deadline,
+                         const MachineSpeed& speed, LightCache* lights) {
     if (!scene->sequence) return plan_still(scene, threads, deadline, speed, {});
     const auto start = Deadline::Clock::now();
-    auto settled = settle(scene, threads, deadline, speed);
+    auto settled = settle(scene, how, {lights, threads}, deadline);
     if (!settled.ok()) return settled.error();
     const double settling_ms = ms_since(start);
-    const Frame frame = frame_at(*settled, scene->time);
-    auto planned = plan_still(frame.scene, threads, deadline, speed, frame.detail);
+    auto planned = plan_frame(frame_at(*settled, scene->time), threads, deadline, speed);
     if (!planned.ok()) return planned;
     // Settling is mostly surveys, and a client waits for it as for them.
     planned->times.survey_ms += settling_ms;
     add_to_predictions(planned->plan, settling_ms);
-    if (!scene->accuracy.rung && settled->draft.accuracy.rung)
-        planned->plan.rung_reason =
-            "settled for the whole sequence by its first, middle and last frame";
+    if (!settled->reason.empty()) planned->plan.rung_reason = settled->reason;
     return planned;
 }
 
-Result<Planned> with_detail_made(const Scene& scene, Result<Planned> planned, int threads,
-                                 DetailTiles* tiles) {
-    if (planned.ok() && planned->plan.on(Effect::kDetail)) {
-        EffectTimes& effects = planned->times.effects;
-        planned->particles.detail = timed_for(effects, Effect::kDetail, [&] {
-            return detail_of(scene, planned->survey, threads, tiles);
-        });
-        planned->times.survey_ms += effects.of(Effect::kDetail);
-    }
-    return planned;
+}  // namespace
+
+Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadline,
+                          const MachineSpeed& speed) {
+    return plan_any(scene, Settling::kForecast, threads, deadline, speed, nullptr);
 }
 
 Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& deadline,
-                           const MachineSpeed& speed, DetailTiles* tiles) {
-    return with_detail_made(scene, plan_only(scene, threads, deadline, speed), threads, tiles);
+                           const MachineSpeed& speed, DetailTiles* tiles, LightCache* lights) {
+    auto planned = plan_any(scene, Settling::kMeasured, threads, deadline, speed, lights);
+    return with_detail_made(scene, std::move(planned), threads, tiles);
 }
 
 Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools& tools,
@@ -237,7 +213,7 @@ Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools
             if (!failed) failed = measure_or_climb(scene, planned, tools, deadline, rendered);
             break;
         case Method::kMarch:
-            if (planned.plan.transport.cells > 0 && asks_for_error(scene)) {
+            if (planned.plan.transport.cells > 0 && asks_for_error(scene, planned)) {
                 failed = render_grid_or_paths(scene, planned, tools, deadline, rendered);
                 break;
             }
@@ -246,9 +222,12 @@ Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools
                 failed = measure_or_climb(scene, planned, tools, deadline, rendered);
             break;
         case Method::kPaths:
-            failed = asks_for_error(scene)
-                         ? render_grid_or_paths(scene, planned, tools, deadline, rendered)
-                         : render_paths(scene, planned, tools, deadline, rendered);
+            if (!asks_for_error(scene, planned)) {
+                failed = render_paths(scene, planned, tools, deadline, rendered);
+                break;
+            }
+            planned = planned_for_grids(scene, std::move(planned), tools.threads);
+            failed = render_grid_or_paths(scene, planned, tools, deadline, rendered);
             break;
         case Method::kLook:
             rendered.stated_error = std::numeric_limits<double>::quiet_NaN();
@@ -258,7 +237,9 @@ Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools
     if (failed) return *failed;
     if (planned.plan.rung != rendered.rung->name) {
         planned.plan.rung_reason =
-            climbed_reason(planned.plan, *rendered.rung, rendered.stated_error);
+            scene->accuracy.time_ms
+                ? "the finest that there was time for; expected was " + planned.plan.rung
+                : climbed_reason(planned.plan, *rendered.rung, rendered.stated_error);
         planned.plan.rung = rendered.rung->name;
     }
     for (const EffectDecision& decision : planned.plan.effects)

@@ -23,7 +23,8 @@ struct Rendered {
     bool light_was_kept = false;  // it came from the cache
     // The rung that the picture is of: the plan's, or where that did not keep to the scene's wish, another.
     const Rung* rung = nullptr;
-    // Its error, measured while it was made (core/climb.h), as PictureError::nrmse. NaN: nothing is known of it (a
+    // Its error, measured while it was made (core/climb.h), as PictureError::nrmse. NaN: it was not measured, as the
+    // time that the scene asks for is too short, and plan.predicted.error is all that is known; or there is none (a
     // look).
     double stated_error = 0;
 };
@@ -44,19 +45,16 @@ struct Tools {
 };
 
 // Generates, surveys and plans. Of a scene with a sequence: with what is settled for all of its frames
-// (core/sequence.h). threads >= 1. Errors: kInvalidScene (what only making the clouds shows), kOverDeadline,
-// kCancelled.
+// (core/sequence.h), its rung as far as forecasts tell. threads >= 1. Errors: kInvalidScene (what only making the
+// clouds shows), kOverDeadline, kCancelled.
 Result<Planned> plan_only(const Scene& scene, int threads, const Deadline& deadline,
                           const MachineSpeed& speed = {});
 
-// Adds to a plan what render_planned needs beside it: the tiles of the particles' detail, where the plan has detail on.
-// An error in `planned` is passed on. tiles: keeps what one picture made for the next; may be null.
-Result<Planned> with_detail_made(const Scene& scene, Result<Planned> planned, int threads,
-                                 DetailTiles* tiles = nullptr);
-
-// plan_only, then with_detail_made: all that render_planned needs.
+// The same, then with_detail_made: all that render_planned needs. The rung of a sequence is settled by measure; lights
+// keeps what that is measured with, and may be null.
 Result<Planned> plan_scene(const Scene& scene, int threads, const Deadline& deadline,
-                           const MachineSpeed& speed = {}, DetailTiles* tiles = nullptr);
+                           const MachineSpeed& speed = {}, DetailTiles* tiles = nullptr,
+                           LightCache* lights = nullptr);
 
 // Lights and draws what plan_scene planned. Errors: kNoRenderer where the rung needs a device and `tools` has none,
 // kOverDeadline, kCancelled.

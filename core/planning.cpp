@@ -6,6 +6,7 @@
 #include "core/generate/generate.h"
 #include "core/looks/looks.h"
 #include "core/plan/island_settings.h"
+#include "core/survey/detail_of.h"
 
 namespace awan {
 
@@ -23,12 +24,25 @@ Result<Planned> plan_still(const Scene& scene, int threads, const Deadline& dead
     planned.survey = *std::move(surveyed);
     if (detail) planned.survey.detail = *detail;
     planned.plan = plan(scene, planned.survey, threads, speed);
+    planned.rung_is_settled = scene->accuracy.rung.has_value();
     if (look) add_to_predictions(planned.plan, look_time_ms(scene, planned.survey.view, threads));
     // How long procedural clouds take to make is known only by making them.
     if (std::any_of(scene->clouds.begin(), scene->clouds.end(), is_procedural))
         add_to_predictions(planned.plan, planned.times.generate_ms);
     if (planned.plan.predicted.rung->method == Method::kMarch)
         planned.plan.transport.islands = island_cells(planned.plan.transport, planned.survey);
+    return planned;
+}
+
+Result<Planned> with_detail_made(const Scene& scene, Result<Planned> planned, int threads,
+                                 DetailTiles* tiles) {
+    if (planned.ok() && planned->plan.on(Effect::kDetail)) {
+        EffectTimes& effects = planned->times.effects;
+        planned->particles.detail = timed_for(effects, Effect::kDetail, [&] {
+            return detail_of(scene, planned->survey, threads, tiles);
+        });
+        planned->times.survey_ms += effects.of(Effect::kDetail);
+    }
     return planned;
 }
 

@@ -26,6 +26,9 @@ struct Planned {
     Survey survey;
     Plan plan;
     StageTimes times;
+    // The picture is of the planned rung, whatever its error: the scene names it, or it is settled for all frames of a
+    // sequence.
+    bool rung_is_settled = false;
 };
 
 // Plans a picture of the scene at its own time; a sequence that it may have is not looked at. detail: the figures from
@@ -33,6 +36,11 @@ struct Planned {
 // threads >= 1. Errors: of generate() and survey().
 Result<Planned> plan_still(const Scene& scene, int threads, const Deadline& deadline,
                            const MachineSpeed& speed, const std::optional<DetailFigures>& detail);
+
+// Adds to a plan what rendering needs beside it: the tiles of the particles' detail, where the plan has detail on.
+// An error in `planned` is passed on. tiles: keeps what one picture made for the next; may be null.
+Result<Planned> with_detail_made(const Scene& scene, Result<Planned> planned, int threads,
+                                 DetailTiles* tiles = nullptr);
 
 // Adds `ms` to what the plan predicts, for the chosen rung and for every other: work that all of them share.
 void add_to_predictions(Plan& plan, double ms);

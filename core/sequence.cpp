@@ -22,8 +22,14 @@ Bounds joined(const Bounds& a, const Bounds& b) {
     return {glm::min(a.min, b.min), glm::max(a.max, b.max)};
 }
 
+// The first, the middle and the last.
+using Times = std::array<double, 3>;
+Times three_times(const Sequence& sequence) {
+    return {sequence.from, 0.5 * (sequence.from + sequence.to), sequence.to};
+}
+
 // Where the automatic camera stands to hold the clouds at all of the times.
-Result<Camera> hold_all(const SceneDraft& draft, const std::array<double, 3>& times, int threads,
+Result<Camera> hold_all(const SceneDraft& draft, const Times& times, int threads,
                         const Deadline& deadline) {
     std::optional<Bounds> bounds;
     for (const double time : times) {
@@ -46,6 +52,129 @@ Result<Camera> hold_all(const SceneDraft& draft, const std::array<double, 3>& ti
     return camera;
 }
 
+// Of one of the three frames.
+struct FramePlan {
+    double time = 0;
+    Plan plan;
+    DetailFigures detail;
+    bool empty = false;
+};
+
+// As every machine plans it. error: that paths would have to keep to, if any.
+Result<FramePlan> plan_frame_for_all(const Scene& scene, const std::optional<double>& error,
+                                     int threads, const Deadline& deadline) {
+    auto planned = plan_still(scene, threads, deadline, {}, {});
+    if (!planned.ok()) return planned.error();
+    const Survey& survey = planned->survey;
+    FramePlan frame{scene->time, plan(scene, survey, kCalibratedThreads, {}), survey.detail,
+                    planned->particles.size() == 0 || !(survey.total_mass > 0)};
+    if (error)
+        plan_samples(frame.plan, samples_for(*error, scene, survey), scene, survey,
+                     kCalibratedThreads, {});
+    return frame;
+}
+
+void settle_effects_and_detail(const Plan& plan, const DetailFigures& detail, SceneDraft& effects,
+                               std::optional<DetailFigures>& settled) {
+    for (const EffectDecision& decision : plan.effects) {
+        Switch& asked = effects.effects[static_cast<int>(decision.effect)];
+        if (decision.on && asked == Switch::kAuto) asked = Switch::kOn;
+    }
+    if (!settled) {
+        settled = detail;
+    } else {
+        settled->extinction = std::max(settled->extinction, detail.extinction);
+        settled->radius = std::max(settled->radius, detail.radius);
+    }
+}
+
+void name_rung(const Rung& rung, Settled& settled) {
+    settled.draft.accuracy = {{}, {}, std::string(rung.name)};
+}
+
+// The finest rung that a frame calls for, or where a time is asked for, the cheapest.
+void settle_by_forecast(const Accuracy& accuracy, const std::vector<FramePlan>& plans,
+                        Settled& settled) {
+    const Rung* chosen = nullptr;
+    for (const FramePlan& frame : plans) {
+        const Rung* const own = frame.plan.predicted.rung;
+        if (chosen == nullptr || (accuracy.time_ms ? own->id < chosen->id : own->id > chosen->id))
+            chosen = own;
+    }
+    name_rung(*chosen, settled);
+    for (const FramePlan& frame : plans)
+        if (chosen->method == Method::kPaths)
+            settled.samples =
+                std::min(settled.samples.value_or(frame.plan.samples), frame.plan.samples);
+    settled.reason =
+        "settled for the whole sequence by what its first, middle and last frame call for";
+}
+
+const RungForecast& of_rung(const Plan& plan, RungId id) {
+    return *std::find_if(plan.forecasts.begin(), plan.forecasts.end(),
+                         [&](const RungForecast& forecast) { return forecast.rung->id == id; });
+}
+
+// A transport rung and the error of the hardest frame with it.
+struct RungError {
+    const Rung* rung = nullptr;
+    double error = 0;
+};
+
+// The coarsest that is forecast to hold, or the finest.
+RungError expected_grid(const Scene& scene, const Plan& plan) {
+    RungError expected;
+    for (const RungForecast& forecast : plan.forecasts) {
+        if (forecast.rung->cells == 0) continue;
+        expected = {forecast.rung, forecast.error};
+        if (holds(expected.error, scene)) break;
+    }
+    return expected;
+}
+
+// The coarsest whose stated error holds, or the finest. settled: all but the rung.
+Result<RungError> measured_grid(const Scene& scene, Settled settled, double time,
+                                const ClimbTools& tools, const Deadline& deadline) {
+    settled.draft.accuracy = scene->accuracy;
+    const Frame frame = frame_at(settled, time);
+    auto planned = plan_frame(frame, tools.threads, deadline, {});
+    if (!planned.ok()) return planned.error();
+    const Planned grids = planned_for_grids(frame.scene, *std::move(planned), tools.threads);
+    const auto climbed = climb(frame.scene, grids, tools, deadline);
+    if (!climbed.ok()) return climbed.error();
+    return RungError{climbed->rung, climbed->stated};
+}
+
+// By the frame that is forecast to be the hardest; of equals the first.
+Result<Settled> settle_by_error(const Scene& scene, Settled settled,
+                                const std::vector<FramePlan>& plans, Settling how,
+                                const ClimbTools& tools, const Deadline& deadline) {
+    const FramePlan& hardest =
+        *std::max_element(plans.begin(), plans.end(), [](const FramePlan& a, const FramePlan& b) {
+            return of_rung(a.plan, RungId::kTransport32).error <
+                   of_rung(b.plan, RungId::kTransport32).error;
+        });
+    RungError grid = expected_grid(scene, hardest.plan);
+    const bool measured = how == Settling::kMeasured && !hardest.empty;
+    if (measured) {
+        const auto climbed = measured_grid(scene, settled, hardest.time, tools, deadline);
+        if (!climbed.ok()) return climbed.error();
+        grid = *climbed;
+    }
+    settled.reason = std::string("settled for the whole sequence by the error that is ") +
+                     (measured ? "measured" : "expected") +
+                     " of the hardest of its first, middle "
+                     "and last frame";
+    if (holds(grid.error, scene) || !paths_may_hold(scene, hardest.plan)) {
+        name_rung(*grid.rung, settled);
+        return settled;
+    }
+    name_rung(rung_of(RungId::kTruth), settled);
+    for (const FramePlan& frame : plans)
+        settled.samples = std::max(settled.samples.value_or(0), frame.plan.samples);
+    return settled;
+}
+
 }  // namespace
 
 double frame_time(const Sequence& sequence, std::uint64_t i) {
@@ -54,61 +183,60 @@ double frame_time(const Sequence& sequence, std::uint64_t i) {
     return sequence.from + share * (sequence.to - sequence.from);
 }
 
-Result<Settled> settle(const Scene& scene, int threads, const Deadline& deadline,
-                       const MachineSpeed& speed) {
-    Settled settled{*scene, {}, scene->sequence->from};
+Result<Settled> settle(const Scene& scene, Settling how, const ClimbTools& tools,
+                       const Deadline& deadline) {
+    Settled settled;
+    settled.draft = *scene;
+    settled.from = scene->sequence->from;
     SceneDraft& draft = settled.draft;
     draft.sequence.reset();
-    const Sequence& sequence = *scene->sequence;
-    const std::array<double, 3> times = {sequence.from, 0.5 * (sequence.from + sequence.to),
-                                         sequence.to};
+    const Times times = three_times(*scene->sequence);
     if (draft.camera.automatic) {
-        auto camera = hold_all(draft, times, threads, deadline);
+        auto camera = hold_all(draft, times, tools.threads, deadline);
         if (!camera.ok()) return camera.error();
         const Camera own = std::exchange(draft.camera, *camera);
         // It would stand beyond the limits.
         if (!validate(draft).ok()) draft.camera = own;
     }
     if (draft.look != Look::kPhysical) return settled;
-    const Rung* chosen = nullptr;
-    const Accuracy& accuracy = scene->accuracy;
+    // Which effects there are must not hang on the rung that is expected of a frame.
+    const bool for_error = !draft.accuracy.rung && !draft.accuracy.time_ms && !wants_splats(scene);
+    std::optional<double> error;
+    if (for_error) error = draft.accuracy.error.value_or(kDefaultError);
+    std::vector<FramePlan> plans;
     SceneDraft with_effects = draft;
     for (const double time : times) {
         SceneDraft frame = draft;
         frame.time = time;
-        auto planned = plan_still(valid(std::move(frame)), threads, deadline, speed, {});
+        if (error) frame.accuracy = {{}, {}, rung_of(RungId::kTransport16).name};
+        auto planned = plan_frame_for_all(valid(std::move(frame)), error, tools.threads, deadline);
         if (!planned.ok()) return planned.error();
-        const Rung* const own = planned->plan.predicted.rung;
-        if (chosen == nullptr || (accuracy.time_ms ? own->id < chosen->id : own->id > chosen->id))
-            chosen = own;
-        for (const EffectDecision& decision : planned->plan.effects) {
-            Switch& asked = with_effects.effects[static_cast<int>(decision.effect)];
-            if (decision.on && asked == Switch::kAuto) asked = Switch::kOn;
-        }
-        const DetailFigures& own_detail = planned->survey.detail;
-        if (!settled.detail) {
-            settled.detail = own_detail;
-        } else {
-            settled.detail->extinction =
-                std::max(settled.detail->extinction, own_detail.extinction);
-            settled.detail->radius = std::max(settled.detail->radius, own_detail.radius);
-        }
+        settle_effects_and_detail(planned->plan, planned->detail, with_effects, settled.detail);
+        plans.push_back(*std::move(planned));
     }
     draft = std::move(with_effects);
-    // Rung truth is not named: by name it would have a noise of its own choice instead of the one that the scene's
-    // error or time asks for.
-    if (chosen->method != Method::kPaths) draft.accuracy = {{}, {}, std::string(chosen->name)};
+    if (draft.accuracy.rung) return settled;
+    if (error) return settle_by_error(scene, std::move(settled), plans, how, tools, deadline);
+    settle_by_forecast(scene->accuracy, plans, settled);
     return settled;
 }
 
 Frame frame_at(const Settled& settled, double time) {
     SceneDraft draft = settled.draft;
     draft.time = time;
-    Frame frame{valid(std::move(draft)), settled.detail};
+    Frame frame{valid(std::move(draft)), settled.detail, settled.samples};
     // The detail's bumps move with the first cloud.
     if (frame.detail && !settled.draft.clouds.empty())
         frame.detail->origin += (time - settled.from) * settled.draft.clouds[0].velocity;
     return frame;
+}
+
+Result<Planned> plan_frame(const Frame& frame, int threads, const Deadline& deadline,
+                           const MachineSpeed& speed) {
+    auto planned = plan_still(frame.scene, threads, deadline, speed, frame.detail);
+    if (planned.ok() && frame.samples)
+        plan_samples(planned->plan, *frame.samples, frame.scene, planned->survey, threads, speed);
+    return planned;
 }
 
 }  // namespace awan

@@ -5,10 +5,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "core/base/deadline.h"
+#include "core/climb.h"
 #include "core/generate/detail.h"
 #include "core/plan/forecast.h"
+#include "core/planning.h"
 #include "core/scene/scene.h"
 
 namespace awan {
@@ -17,27 +20,45 @@ namespace awan {
 double frame_time(const Sequence& sequence, std::uint64_t i);
 
 // What is chosen automatically and yet must not change from frame to frame. It is chosen from three frames, the
-// first, the middle and the last: the camera holds the clouds of all three; the rung is the finest that one of them
-// calls for, or the cheapest where a time is given; an effect is on if one of them calls for it; the detail's scale
-// is the largest. Light is not settled: it is made anew for every frame whose matter moved.
+// first, the middle and the last: the camera holds the clouds of all three; an effect is on if one of them calls for
+// it; the detail's scale is the largest. Light is not settled: it is made anew for every frame whose matter moved.
+//
+// The rung, where an error is asked for, is one whose error is measured: of the three frames the one that is forecast
+// to be the hardest climbs (core/climb.h) until the error holds, and all frames are of the rung where it ends, paths
+// where no grid will do. Every frame still states its own error. Where a time is asked for, the rung is the cheapest
+// that one of the three is forecast to call for. Machines that share out the frames of one sequence must come to the
+// same: so these forecasts are for the machine and the threads of the calibration, not for the own ones.
 struct Settled {
     // The scene without its sequence, with what was settled in place of what was automatic.
     SceneDraft draft;
+    // How the rung came about; EMPTY: the scene names it, or has none.
+    std::string reason;
+    // Paths a pixel, where rung truth is settled.
+    std::optional<std::uint32_t> samples;
     // None: nothing was planned (a look). Stands where the clouds are at the time `from`.
     std::optional<DetailFigures> detail;
     double from = 0;
 };
 
-// A scene with a sequence. Takes three times what it takes to plan one frame.
-Result<Settled> settle(const Scene& scene, int threads, const Deadline& deadline,
-                       const MachineSpeed& speed);
+// kForecast: nothing is measured, the rung is the one that is expected.
+enum class Settling { kForecast, kMeasured };
 
-// One picture of a sequence, as plan_still (core/planning.h) takes it.
+// A scene with a sequence. Takes three times what it takes to plan one frame and, measured, about the time of its light
+// once more. Errors: of plan_still() and climb().
+Result<Settled> settle(const Scene& scene, Settling how, const ClimbTools& tools,
+                       const Deadline& deadline);
+
+// One picture of a sequence.
 struct Frame {
     Scene scene;
     std::optional<DetailFigures> detail;
+    std::optional<std::uint32_t> samples;
 };
 // time: seconds, any of the sequence.
 Frame frame_at(const Settled& settled, double time);
+
+// As plan_still (core/planning.h).
+Result<Planned> plan_frame(const Frame& frame, int threads, const Deadline& deadline,
+                           const MachineSpeed& speed);
 
 }  // namespace awan

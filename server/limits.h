@@ -68,6 +68,8 @@ inline constexpr std::size_t kWorkBytes = std::size_t{3} << 30;
 inline constexpr std::size_t kBytesPerParticle = 150;
 // What one pixel takes of it, an estimate: float RGBA and its encoding.
 inline constexpr std::size_t kBytesPerPixel = 24;
+// Bytes of lights that are kept to settle the rungs of sequences: a few dozen coarse grids, or one of the finest.
+inline constexpr std::size_t kSettlingLightBytes = 64u << 20;
 
 // --- Pieces
 

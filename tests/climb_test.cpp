@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/accuracy/error_measures.h"
+#include "core/climb.h"
 #include "core/draw/picture_difference.h"
 #include "core/light/nested_grids.h"
 #include "core/pipeline.h"
@@ -136,6 +137,57 @@ TEST(Climb, ANewCameraKeepsTheLight) {
     const Rendered again = rendered(draft, 2, &lights);
     EXPECT_TRUE(again.light_was_kept);
     EXPECT_EQ(again.image.pixels, rendered(draft).image.pixels);
+}
+
+// A time that is over before it begins, and one that never is.
+TEST(Climb, WithoutTimeNothingIsMeasuredAndWithAllOfItTheFinestGridIs) {
+    SceneDraft draft = cumulus(0.6, 4);
+    const auto climbed_in = [&](double ms) {
+        draft.accuracy = {{}, ms, {}};
+        const Scene scene = test::valid(draft);
+        auto planned = plan_scene(scene, 2, {});
+        EXPECT_TRUE(planned.ok());
+        const Planned grids = planned_for_grids(scene, *std::move(planned), 2);
+        auto climbed = climb(scene, grids, {nullptr, 2}, {});
+        EXPECT_TRUE(climbed.ok());
+        return *std::move(climbed);
+    };
+    const Climbed hurried = climbed_in(1e-3), patient = climbed_in(1e7);
+    EXPECT_EQ(hurried.rung->cells, 16);
+    EXPECT_TRUE(std::isnan(hurried.stated));
+    EXPECT_EQ(patient.rung->cells, 64);
+    draft.accuracy = {{}, {}, "transport-64"};
+    EXPECT_EQ(patient.stated, rendered(draft).stated_error);
+}
+
+// Two grids may be near to each other by luck; then the ones before tell.
+TEST(Climb, StatedErrorsHardlyGrowFromGridToGrid) {
+    for (const double density : {0.3, 3.0, 30.0}) {
+        double before = 0;
+        for (const char* rung : {"transport-16", "transport-24", "transport-32", "transport-48"}) {
+            SceneDraft draft = cumulus(0.6, density);
+            draft.accuracy.rung = rung;
+            const double stated = rendered(draft).stated_error;
+            if (before > 0) {
+                EXPECT_LE(stated, 1.25 * before) << density << ' ' << rung;
+            }
+            before = stated;
+        }
+    }
+}
+
+TEST(Climb, TheSameBytesOnAnyThreads) {
+    SceneDraft draft = cumulus(0.6, 4);
+    draft.detail = Detail{};
+    draft.image.width = 40;
+    draft.image.height = 30;
+    draft.accuracy.rung = "transport-24";
+    const Rendered one = rendered(draft, 1);
+    for (const int threads : {2, 7, 32}) {
+        const Rendered many = rendered(draft, threads);
+        EXPECT_EQ(one.image.pixels, many.image.pixels) << threads;
+        EXPECT_EQ(one.stated_error, many.stated_error) << threads;
+    }
 }
 
 // Against the path tracer: what is stated is near to what is measured, and not below it by more than the noise.

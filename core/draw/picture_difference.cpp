@@ -4,14 +4,13 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/plan/forecast.h"
 #include "core/scene/validate.h"
 
 namespace awan {
 namespace {
 
-// A mean over so many pixels is known to 2%, and they take a hundredth of the time of a picture of 640 x 480.
-constexpr double kSmallPixels = 3000;
-// The same, where their middles are to be those of other pixels.
+// As kSmallPixels, where their middles are to be those of other pixels.
 constexpr double kMostAligned = 5000;
 // Of the largest alpha: pixels below are not cloud.
 constexpr float kCloud = 0.05F;

@@ -69,11 +69,27 @@ double predicted_bytes(const Rung& rung, const Scene& scene, const Survey& surve
 }
 
 // Time with so many threads over that of the calibration; `serial`: share that threads do not shorten.
-constexpr int kCalibratedThreads = 2;
 constexpr double kMarchSerial = 0.25;
 double stretch(int threads, double serial) {
     const auto time = [&](int n) { return serial + (1 - serial) / std::max(n, 1); };
     return time(threads) / time(kCalibratedThreads);
+}
+
+// Small pictures of the grid and the two before it (core/climb.h); of a rung without a grid, after solving the coarsest
+// for them.
+constexpr double kSmallPictures = 3;
+double measuring_ms(const Rung& rung, const Scene& scene, const Survey& survey, int threads) {
+    if (rung.method == Method::kPaths || rung.method == Method::kLook) return 0;
+    const Rung& grid = rung.cells > 0 ? rung : rung_of(RungId::kTransport16);
+    TimeFigures times = time_figures(grid, scene, survey, 0);
+    double ms = rung.cells > 0 ? 0 : predicted_ms(kMarchLightTime, times);
+    const double smaller = std::min(
+        1.0, kSmallPixels / (static_cast<double>(scene->image.width) * scene->image.height));
+    const double looked_up = std::min(times[1], kMostLookedUp);
+    for (const std::size_t of_pixels : {1, 3, 4, 8, 9}) times[of_pixels] *= smaller;
+    if (looked_up > 0) times[11] *= std::min(times[1], looked_up) / looked_up;
+    ms += kSmallPictures * predicted_ms(kMarchDrawTime, times);
+    return ms * stretch(threads, kMarchSerial);
 }
 
 const ErrorModel& error_model(const Rung& rung) {
@@ -100,6 +116,7 @@ RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey
     const bool empty = survey.particles == 0 || !(survey.total_mass > 0);
     if (!empty) forecast.error = predicted_error(error_model(rung), errors);
     double ms = predicted_ms(kPrepareTime, times);
+    const double march_speed = stretch(threads, kMarchSerial);
     switch (rung.method) {
         case Method::kSplats:
             ms += rung.id == RungId::kAdditive ? predicted_ms(kAdditiveTime, times)
@@ -107,10 +124,10 @@ RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey
                                                      predicted_ms(kHarrisDrawTime, times);
             break;
         case Method::kMarch:
-            forecast.draw_ms = predicted_ms(kMarchDrawTime, times) *
-                               stretch(threads, kMarchSerial) * speed.slowness;
+            forecast.light_ms = predicted_ms(kMarchLightTime, times) * march_speed * speed.slowness;
+            forecast.draw_ms = predicted_ms(kMarchDrawTime, times) * march_speed * speed.slowness;
             ms += (predicted_ms(kMarchLightTime, times) + predicted_ms(kMarchDrawTime, times)) *
-                  stretch(threads, kMarchSerial);
+                  march_speed;
             break;
         case Method::kPaths:
             forecast.error /= std::sqrt(std::max(samples, 1U));
@@ -119,7 +136,9 @@ RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey
         case Method::kLook:
             break;
     }
-    forecast.time_ms = ms * speed.slowness;
+    const double measure_ms = empty ? 0 : measuring_ms(rung, scene, survey, threads);
+    forecast.measure_ms = measure_ms * speed.slowness;
+    forecast.time_ms = (ms + measure_ms) * speed.slowness;
     forecast.bytes = predicted_bytes(rung, scene, survey, times, threads);
     return forecast;
 }

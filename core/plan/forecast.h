@@ -9,6 +9,9 @@
 
 namespace awan {
 
+// Threads with which times were calibrated.
+inline constexpr int kCalibratedThreads = 2;
+
 // How much slower this machine is than the one on which times were calibrated: 1 is the same.
 struct MachineSpeed {
     double slowness = 1;
@@ -23,9 +26,16 @@ struct RungForecast {
     double time_ms = 0;
     // Memory at its peak, beside the scene's particles and the picture.
     double bytes = 0;
-    // Of time_ms, the part that follows the light; transport rungs.
-    double draw_ms = 0;
+    // Of time_ms, the light and what follows it, of rungs of Method::kMarch; and measuring the error, of all but paths.
+    double light_ms = 0, draw_ms = 0, measure_ms = 0;
+
+    // Where nothing is measured.
+    double picture_ms() const { return time_ms - measure_ms; }
 };
+
+// Pixels of the small pictures with which errors are measured (core/climb.h): a mean over so many is known to 3%, and
+// three of them take a tenth of the time of a picture of 640 x 480.
+inline constexpr double kSmallPixels = 2000;
 
 // Of one rung; `samples`: paths a pixel, for rung truth only. threads: of the march and the paths.
 RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey,

@@ -200,8 +200,9 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
     const double pixels = static_cast<double>(scene->image.width) * scene->image.height;
     const double covered = pixels * survey.covered;
     const auto particles = static_cast<double>(survey.particles);
-    TimeFigures figures{1, covered, particles, pixels * survey.particles_per_pixel, pixels, 0, 0, 0,
-                        0, 0,       0};
+    TimeFigures figures{
+        1, covered, particles, pixels * survey.particles_per_pixel, pixels, 0, 0, 0, 0, 0, 0,
+        0, 0,       0};
     if (has_detail(scene)) {
         // As long a way as the cloud's mean side, in steps of a fifth of a bump (core/draw/march.cpp).
         const glm::dvec3 size = survey.bounds.max - survey.bounds.min;
@@ -224,10 +225,16 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
         // From the ground, and back once more.
         if (survey.ground.light > 0) bands += 2;
         const double harmonics = scene->medium.g == 0 ? 0.5 : 1;  // of the cost of 16
-        // Sweeps that the solve takes: few in thin matter, three times as many at depth 30.
-        const double sweeps = 1 + 0.7 * std::log1p(std::min(survey.optical_depth_sun, 1e3));
+        // Sweeps that the solve takes, from the coarser grid's light: few in thin matter, twice as many at depth 30.
+        const double sweeps = 1 + 0.35 * std::log1p(std::min(survey.optical_depth_sun, 1e3));
         // Islands' grids are small and less deep than all of them in a row: measured on the sky of 100 clouds.
         figures[5] = cells * bands * harmonics * sweeps * (one ? 1 : kIslandsShare);
+        figures[11] = std::min(covered, kMostLookedUp) * figures[3] / std::max(covered, 1.0) *
+                      std::log1p(std::clamp(survey.optical_depth_eye, 0.0, kMostDepth));
+        if (figures[10] > 0)
+            figures[12] =
+                figures[5] / std::max(bands, 1.0) * std::pow(fine_cells_a_side(rung.cells), 3);
+        figures[13] = std::pow(figures[5] / sweeps, 2.0 / 3);
         figures[6] = one ? updates(survey, settings.sun_cells) + updates(survey, 3 * rung.cells)
                          : islands.updates;
     }

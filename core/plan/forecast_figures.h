@@ -44,9 +44,12 @@ using ErrorFigures = std::array<double, kErrorFigureCount>;
 // and products and squares of them, as the other names say.
 ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& survey);
 
-inline constexpr std::array kTimeFigureNames = {"one",    "covered",  "particles", "pairs",
-                                                "pixels", "unknowns", "updates",   "scatterings",
-                                                "lumps",  "air",      "detail"};
+// Pixels between which the march takes the light from its neighbours, about.
+inline constexpr double kMostLookedUp = 3000;
+
+inline constexpr std::array kTimeFigureNames = {
+    "one",         "covered", "particles", "pairs",  "pixels",  "unknowns", "updates",
+    "scatterings", "lumps",   "air",       "detail", "lookups", "fine",     "faces"};
 inline constexpr std::size_t kTimeFigureCount = kTimeFigureNames.size();
 using TimeFigures = std::array<double, kTimeFigureCount>;
 // Of these names:
@@ -59,6 +62,9 @@ using TimeFigures = std::array<double, kTimeFigureCount>;
 //   lumps                samples of detail along the rays that meet cloud
 //   air                  pixels that are seen through haze
 //   detail               1 where there is detail
+//   lookups              pairs that are looked at for the light, of at most kMostLookedUp pixels: the more the deeper
+//   fine                 as unknowns, of the sun's solve on fine cells; 0 without detail
+//   faces                unknowns of one sweep, to the power of 2/3
 // samples: paths a pixel of rung truth.
 TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& survey,
                          std::uint32_t samples);

@@ -25,12 +25,12 @@ struct TimeModel {
     TimeFigures coefficient;
 };
 // Generate, survey and plan.
-inline constexpr TimeModel kPrepareTime = {{66.8774, 0, 0.0210607, 2.0423e-06, 0, 0, 0, 0, 0, 0, 263.885}};
-inline constexpr TimeModel kAdditiveTime = {{0.895725, 0, 0.00169457, 2.31472e-06, 2.94577e-05, 0, 0, 0, 0, 4.14511e-05, 0}};
-inline constexpr TimeModel kHarrisLightTime = {{2.48227, 0, 0.00850872, 0, 0, 0, 0, 0, 0, 0, 0}};
-inline constexpr TimeModel kHarrisDrawTime = {{0.00991303, 0, 0.00201153, 1.7639e-06, 3.98729e-05, 0, 0, 0, 0, 2.6592e-05, 0}};
-inline constexpr TimeModel kMarchLightTime = {{3.70278, 0, 0.00187245, 0, 0, 0.0054285, 1.01929e-06, 0, 0, 0, 237.517}};
-inline constexpr TimeModel kMarchDrawTime = {{39.3468, 0, 0.00314015, 5.88942e-06, 0.000239217, 0, 0, 0, 0.000161516, 0.00123181, 0}};
+inline constexpr TimeModel kPrepareTime = {{1.7765, 0, 0.00167521, 7.36115e-08, 0, 0, 0, 0, 0, 0, 141.258, 0, 0, 0}};
+inline constexpr TimeModel kAdditiveTime = {{1.43196, 0, 0.00305032, 5.11517e-07, 2.54259e-05, 0, 0, 0, 0, 2.91663e-05, 0, 0, 0, 0}};
+inline constexpr TimeModel kHarrisLightTime = {{2.69117, 0, 0.00648709, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}};
+inline constexpr TimeModel kHarrisDrawTime = {{0, 0, 0.00295753, 1.08264e-06, 2.82601e-05, 0, 0, 0, 0, 4.18864e-05, 0, 0, 0, 0}};
+inline constexpr TimeModel kMarchLightTime = {{0.996115, 0, 0.000669329, 0, 0, 0.0010281, 2.34041e-07, 0, 0, 0, 0, 0, 0.00148587, 0.062998}};
+inline constexpr TimeModel kMarchDrawTime = {{4.57377, 0, 0.00157544, 5.83424e-07, 0.00011699, 0, 0, 0, 7.43522e-05, 0.000231353, 0, 4.55681e-05, 0, 0.013981}};
 inline constexpr TimeModel kPathTime = {{0, 0, 0.818912, 0, 0.00606168, 0, 0, 0.00470154, 0, 0.0101256, 0}};
 
 }  // namespace awan

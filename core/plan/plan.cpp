@@ -116,10 +116,12 @@ Choice best_in_time(double time_ms, const std::vector<RungForecast>& candidates)
     const RungForecast* best = nullptr;
     const RungForecast* fastest = nullptr;
     for (const RungForecast& candidate : candidates) {
-        if (!fastest || candidate.time_ms < fastest->time_ms) fastest = &candidate;
+        // The error is measured only where there is time for it.
+        if (!fastest || candidate.picture_ms() < fastest->picture_ms()) fastest = &candidate;
         // Noise is worse to look at than an even error: paths have to win by far. They are the last of the ladder.
         const double handicap = candidate.rung->method == Method::kPaths ? kNoiseHandicap : 1;
-        if (candidate.time_ms <= time_ms && (!best || handicap * candidate.error < best->error))
+        if (candidate.picture_ms() <= time_ms &&
+            (!best || handicap * candidate.error < best->error))
             best = &candidate;
     }
     if (best)
@@ -251,6 +253,25 @@ bool wants_splats(const Scene& scene) {
          {Effect::kSelfShadow, Effect::kMultipleScattering, Effect::kViewExtinction})
         if (scene->effects[static_cast<int>(effect)] == Switch::kOff) return true;
     return false;
+}
+
+void plan_samples(Plan& plan, std::uint32_t samples, const Scene& scene, const Survey& survey,
+                  int threads, const MachineSpeed& speed) {
+    const Rung& truth = rung_of(RungId::kTruth);
+    const auto with = [&](std::uint32_t count) {
+        return forecast(truth, scene, survey, count, threads, speed);
+    };
+    const RungForecast before = with(plan.samples), now = with(samples);
+    plan.samples = samples;
+    const auto change = [&](RungForecast& of) {
+        if (of.rung != &truth) return;
+        // What was added to the time stays.
+        of.time_ms += now.time_ms - before.time_ms;
+        of.error = now.error > 0 ? std::hypot(now.error, survey.model_error) : now.error;
+        of.bytes = now.bytes;
+    };
+    for (RungForecast& of : plan.forecasts) change(of);
+    change(plan.predicted);
 }
 
 Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSpeed& speed) {

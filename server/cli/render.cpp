@@ -32,7 +32,6 @@ struct Work {
 };
 
 Result<Rendered> render_frame(const Scene& scene, Result<Planned> planned, Work& work) {
-    planned = with_detail_made(scene, std::move(planned), work.command.threads, &work.tiles);
     if (!planned) return planned.error();
     if (const Status failed = open_for(planned->plan, work.command.device, work.device))
         return *failed;
@@ -61,7 +60,15 @@ std::string percent(double share) {
 // Which rung it was, how far off it is, and what was expected; nothing where the picture itself goes to standard
 // output.
 void say_error(const Rendered& rendered, const std::string& output) {
-    if (output == "-" || !std::isfinite(rendered.stated_error)) return;
+    if (output == "-") return;
+    if (!std::isfinite(rendered.stated_error)) {
+        // A look has no error.
+        if (!std::isfinite(rendered.plan.predicted.error)) return;
+        std::printf("%s: %s, error not measured, the time is too short (expected %s)\n",
+                    output.c_str(), rendered.plan.rung.c_str(),
+                    percent(rendered.plan.predicted.error).c_str());
+        return;
+    }
     std::printf("%s: %s, error %s (expected %s)\n", output.c_str(), rendered.plan.rung.c_str(),
                 percent(rendered.stated_error).c_str(),
                 percent(rendered.plan.predicted.error).c_str());
@@ -69,8 +76,8 @@ void say_error(const Rendered& rendered, const std::string& output) {
 
 Status render_still(const Scene& scene, Work& work) {
     work.progress.say("planning");
-    auto rendered =
-        render_frame(scene, plan_only(scene, work.command.threads, Deadline{}, work.speed), work);
+    auto rendered = render_frame(
+        scene, plan_scene(scene, work.command.threads, Deadline{}, work.speed, &work.tiles), work);
     if (!rendered) return rendered.error();
     work.progress.say("encoding");
     const auto bytes = encode(*rendered, scene);
@@ -83,8 +90,9 @@ Status render_still(const Scene& scene, Work& work) {
 
 Result<Rendered> render_of(const Settled& settled, double time, Work& work, Scene& scene) {
     Frame frame = frame_at(settled, time);
-    auto planned =
-        plan_still(frame.scene, work.command.threads, Deadline{}, work.speed, frame.detail);
+    auto planned = with_detail_made(frame.scene,
+                                    plan_frame(frame, work.command.threads, Deadline{}, work.speed),
+                                    work.command.threads, &work.tiles);
     scene = std::move(frame.scene);
     return render_frame(scene, std::move(planned), work);
 }
@@ -93,7 +101,7 @@ Result<Rendered> render_of(const Settled& settled, double time, Work& work, Scen
 Status render_frames(const Scene& scene, const std::vector<std::uint64_t>& frames,
                      const std::string& format, Work& work) {
     work.progress.say("settling the sequence");
-    auto settled = settle(scene, work.command.threads, Deadline{}, work.speed);
+    auto settled = settle(scene, Settling::kMeasured, {nullptr, work.command.threads}, Deadline{});
     if (!settled) return settled.error();
     std::optional<Animation> animation;
     if (format == "webp" || format == "apng") {

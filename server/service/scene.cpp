@@ -253,7 +253,7 @@ Response answer_render(Service::State& state, const Request& request, const Scen
 
     Timing timing;
     auto planned = plan_scene(scene, state.options.threads, request.deadline, state.options.speed,
-                              &state.tiles);
+                              &state.tiles, &state.settling_lights);
     if (!planned) return fail(planned.error(), request);
     if (const auto reason = hopeless(planned->plan, request.deadline))
         return problem(504, *reason, "", request.id);

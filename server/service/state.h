@@ -6,6 +6,8 @@
 #include <optional>
 #include <span>
 
+#include "core/light/light_cache.h"
+#include "server/limits.h"
 #include "server/service/pages.h"
 #include "server/service/service.h"
 #include "server/service/work_budget.h"
@@ -75,6 +77,8 @@ struct Service::State {
     // At most one measurement of accuracy: two at once would measure each other.
     WorkGate sweeps{1};
     DetailTiles tiles;
+    // Of the frames by which the rungs of sequences are settled: for the frames that are asked for next.
+    LightCache settling_lights{limits::kSettlingLightBytes};
     const std::vector<Page> pages = make_pages();
     const std::vector<Preset> presets = make_presets();
     std::string presets_json;

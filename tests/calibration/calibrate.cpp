@@ -2,11 +2,15 @@
 //   calibrate --set fit --count 60 -o fit.csv        then tests/calibration/fit.py
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/accuracy/error_measures.h"
 #include "core/gl/device.h"
@@ -28,6 +32,7 @@ struct Options {
     double noise = 0.1;   // of a pixel of the truth that is wanted
     double seconds = 20;  // of a truth, at most
     int runs = 3;         // timed renders; the least counts
+    std::vector<double> errors, times;
     bool only_grids = false, write = false;
     std::string keep;  // folder of references from an earlier run; EMPTY: none are kept
 };
@@ -116,6 +121,63 @@ void keep(const Options& options, int index, const Reference& reference) {
         put(half->pixels.data(), half->pixels.size());
 }
 
+struct TimedRender {
+    Rendered rendered;
+    double time_ms = 0, cpu_ms = 0;  // of all threads
+};
+
+// The fastest of some runs.
+TimedRender timed_render(const Scene& scene, const Options& options, Device& device) {
+    std::optional<TimedRender> best;
+    for (int run = 0; run < options.runs; ++run) {
+        const auto start = Deadline::Clock::now();
+        const std::clock_t cpu = std::clock();
+        auto rendered = must(render_scene(scene, {&device, options.threads, nullptr, {}, {}}, {}));
+        const double cpu_ms = 1e3 * static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+        const double ms = 1e3 * seconds_since(start);
+        if (!best || ms < best->time_ms) best = TimedRender{std::move(rendered), ms, cpu_ms};
+    }
+    return *std::move(best);
+}
+
+// What a row compares a picture with.
+struct Truth {
+    const std::string& kind;
+    const Scene& scene;
+    const Planned& planned;
+    const Reference& reference;
+};
+
+std::string ask_name(const char* what, double ask) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%s %g", what, ask);
+    return text.data();
+}
+
+// name: what was asked for; rung: that the picture is of.
+void write_row(const Options& options, int index, const std::string& name, const Rung& rung,
+               const Truth& truth, const TimedRender& made, std::FILE* out) {
+    const Rendered& rendered = made.rendered;
+    const PictureError error = picture_error(rendered.image, truth.reference.image);
+    const Survey& survey = truth.planned.survey;
+    const Scene& scene = truth.scene;
+    std::fprintf(out,
+                 "%s,%d,%s,%s,%d,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,%.3g,%.4g,%.3g,%.3g,%u,%.5g,"
+                 "%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%s",
+                 options.set.c_str(), index, truth.kind.c_str(), name.c_str(), rung.cells,
+                 survey.particles, survey.optical_depth_eye, survey.optical_depth_sun,
+                 scene->medium.g, scene->medium.albedo, survey.sun_cosine, error.nrmse,
+                 error.nrmse_noise, error.bias, error.bias_noise, truth.reference.noise,
+                 truth.reference.samples, rendered.plan.predicted.error, made.time_ms,
+                 rendered.times.light_ms, rendered.times.draw_ms, rendered.times.measure_ms,
+                 rendered.plan.predicted.time_ms, rendered.stated_error, made.cpu_ms, rung.name);
+    for (const double figure : error_figures(rung, scene, survey))
+        std::fprintf(out, ",%.6g", figure);
+    for (const double figure : time_figures(rung, scene, survey, 0))
+        std::fprintf(out, ",%.6g", figure);
+    std::fputc('\n', out);
+}
+
 void measure(const Options& options, int index, Device& device, std::FILE* out) {
     const auto numbered =
         calibration::numbered_scene(options.set, index, options.width, options.height);
@@ -134,46 +196,34 @@ void measure(const Options& options, int index, Device& device, std::FILE* out) 
         reference = reference_of(scene, planned, options);
         keep(options, index, reference);
     }
+    const Truth against{numbered.kind, scene, planned, reference};
+    const auto rendered_as = [&](const Accuracy& accuracy) {
+        SceneDraft draft = numbered.draft;
+        draft.accuracy = accuracy;
+        return timed_render(must(validate(draft)), options, device);
+    };
     for (const Rung& rung : ladder()) {
         if (rung.method == Method::kPaths || (options.only_grids && rung.cells == 0)) continue;
-        SceneDraft draft = numbered.draft;
-        draft.accuracy.rung = rung.name;
-        const Scene same = must(validate(draft));
-        double time_ms = 1e30, light_ms = 0, draw_ms = 0;
-        std::optional<Rendered> rendered;
-        for (int run = 0; run < options.runs; ++run) {
-            const auto start = Deadline::Clock::now();
-            rendered = must(render_scene(same, {&device, options.threads, nullptr, {}, {}}, {}));
-            const double ms = 1e3 * seconds_since(start);
-            if (ms >= time_ms) continue;
-            time_ms = ms;
-            light_ms = rendered->times.light_ms;
-            draw_ms = rendered->times.draw_ms;
-        }
-        const PictureError error = picture_error(rendered->image, reference.image);
-        const auto& plan = rendered->plan;
-        std::fprintf(out,
-                     "%s,%d,%s,%s,%d,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,%.3g,%.4g,%.3g,%.3g,%u,%.5g,"
-                     "%.5g,%.5g,%.5g,%.5g,%.5g",
-                     options.set.c_str(), index, numbered.kind.c_str(), rung.name, rung.cells,
-                     planned.survey.particles, planned.survey.optical_depth_eye,
-                     planned.survey.optical_depth_sun, scene->medium.g, scene->medium.albedo,
-                     planned.survey.sun_cosine, error.nrmse, error.nrmse_noise, error.bias,
-                     error.bias_noise, reference.noise, reference.samples, plan.predicted.error,
-                     time_ms, light_ms, draw_ms, plan.predicted.time_ms, rendered->stated_error);
-        for (const double figure : error_figures(rung, scene, planned.survey))
-            std::fprintf(out, ",%.6g", figure);
-        for (const double figure : time_figures(rung, scene, planned.survey, 0))
-            std::fprintf(out, ",%.6g", figure);
-        std::fputc('\n', out);
+        const TimedRender made = rendered_as({{}, {}, std::string(rung.name)});
+        write_row(options, index, rung.name, rung, against, made, out);
+    }
+    for (const double ask : options.errors) {
+        const TimedRender made = rendered_as({ask, {}, {}});
+        write_row(options, index, ask_name("error", ask), *made.rendered.rung, against, made, out);
+    }
+    for (const double ask : options.times) {
+        const TimedRender made = rendered_as({{}, ask, {}});
+        write_row(options, index, ask_name("time", ask), *made.rendered.rung, against, made, out);
     }
     // The truth's own figures: noise of one path and what it took.
-    std::fprintf(
-        out, "%s,%d,%s,truth,0,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,0,0,0,%.3g,%u,0,%.5g,0,%.5g,0,0",
-        options.set.c_str(), index, numbered.kind.c_str(), planned.survey.particles,
-        planned.survey.optical_depth_eye, planned.survey.optical_depth_sun, scene->medium.g,
-        scene->medium.albedo, planned.survey.sun_cosine, reference.noise, reference.noise,
-        reference.samples, 1e3 * reference.seconds, 1e3 * reference.seconds);
+    std::fprintf(out,
+                 "%s,%d,%s,truth,0,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,0,0,0,%.3g,%u,0,%.5g,0,%.5g,0,"
+                 "0,0,0,truth",
+                 options.set.c_str(), index, numbered.kind.c_str(), planned.survey.particles,
+                 planned.survey.optical_depth_eye, planned.survey.optical_depth_sun,
+                 scene->medium.g, scene->medium.albedo, planned.survey.sun_cosine, reference.noise,
+                 reference.noise, reference.samples, 1e3 * reference.seconds,
+                 1e3 * reference.seconds);
     const Rung& truth = rung_of(RungId::kTruth);
     for (const double figure : error_figures(truth, scene, planned.survey))
         std::fprintf(out, ",%.6g", figure);
@@ -198,6 +248,8 @@ int main(int argc, char** argv) {
                    "of a pixel of the truth that is wanted; 1 and more: only times count");
     app.add_option("--seconds", options.seconds, "that a truth may take");
     app.add_option("--runs", options.runs);
+    app.add_option("--ask-error", options.errors, "render each scene with these wishes too");
+    app.add_option("--ask-time", options.times, "milliseconds; the same");
     app.add_option(
         "--keep", options.keep,
         "a folder that keeps references for the next run: only while the truth stays the same");
@@ -213,7 +265,8 @@ int main(int argc, char** argv) {
     std::fputs(
         "set,index,kind,rung,cells,particles,depth_eye,depth_sun,g,albedo,sun_cosine,error,error_"
         "noise,bias,bias_noise,"
-        "truth_noise,samples,predicted_error,time_ms,light_ms,draw_ms,predicted_ms,stated",
+        "truth_noise,samples,predicted_error,time_ms,light_ms,draw_ms,measure_ms,predicted_ms,"
+        "stated,cpu_ms,chosen",
         out);
     for (const char* name : kErrorFigureNames) std::fprintf(out, ",e_%s", name);
     for (const char* name : kTimeFigureNames) std::fprintf(out, ",t_%s", name);
