@@ -1,13 +1,13 @@
 // Flights side by side. Included once for each instruction set, after lanes.h, as that is.
 
 // Idle lanes from which on new flights are fetched.
-constexpr int kFetch = kLanes / 4;
+constexpr int kFetch = kLanes / 2;
 
 // The flights at work, as far as lanes need them one by one.
 struct Lanes {
-    // Of each lane, -1: it is idle.
-    std::int32_t index[kLanes];
-    int idle = kLanes;
+    // Of each lane; those that are idle have none.
+    std::uint32_t index[kLanes]{};
+    std::uint32_t idle_lanes = (1u << kLanes) - 1;
     // What was fetched, and which lanes were.
     alignas(64) float place[3][kLanes]{}, direction[3][kLanes]{}, to[kLanes]{};
     alignas(64) std::int32_t brick[3][kLanes]{}, fresh[kLanes]{};
@@ -18,18 +18,18 @@ struct Lanes {
     alignas(64) float meets[kLanes];
 
     Lanes() {
-        std::fill(std::begin(index), std::end(index), -1);
         std::fill(std::begin(meets), std::end(meets), INFINITY);
     }
 
     void fetch(const Flights& f, std::span<const std::uint32_t> which, std::size_t& taken) {
         std::fill(std::begin(fresh), std::end(fresh), 0);
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            if (index[lane] >= 0 || taken == which.size()) continue;
+        for (std::uint32_t left = idle_lanes; left != 0 && taken < which.size();
+             left &= left - 1) {
+            const auto lane = static_cast<std::size_t>(__builtin_ctz(left));
             const std::uint32_t i = which[taken++];
-            index[lane] = static_cast<std::int32_t>(i);
+            index[lane] = i;
             fresh[lane] = -1;
-            --idle;
+            idle_lanes &= ~(1u << lane);
             for (std::size_t a = 0; a < 3; ++a) {
                 place[a][lane] = f.places.local[a][i];
                 brick[a][lane] = f.places.brick[a][i];
@@ -69,12 +69,11 @@ struct Lanes {
 
     // The lane's flight has ended.
     void free(std::size_t lane, const Flights& f, bool met) {
-        const auto i = static_cast<std::size_t>(index[lane]);
+        const std::size_t i = index[lane];
         f.met[i] = met ? 1 : 0;
         for (std::size_t word = 0; word < 4; ++word) f.random[word][i] = random[word][lane];
-        index[lane] = -1;
         meets[lane] = INFINITY;
-        ++idle;
+        idle_lanes |= 1u << lane;
     }
 };
 
@@ -94,7 +93,8 @@ struct Batch {
     // began; the block where they are: its first cell, and how many more it has a side.
     Floats o[3]{}, d[3]{}, per_d[3]{};
     Ints cell[3]{}, origin[3]{}, block[3]{}, more{};
-    Ints active{}, looked{};
+    // At work; come to a new block.
+    Ints active{}, arrived{}, looked{};
     // `far`: t where the block ends. `ahead`: optical depth, as the majorants have it.
     Floats t{}, to{}, far{}, ahead{}, most{}, per_most{}, meets = all(INFINITY);
     RandomLanes random{};
@@ -127,14 +127,13 @@ struct Batch {
         for (int a = 0; a < 3; ++a) block[a] = cell[a] & ~more;
         far = max(min(min(far_side(0), far_side(1)), far_side(2)), t);
         if (m.listed.empty()) return;
-        alignas(64) std::int32_t there[kLanes];
         alignas(64) float now[kLanes], leave[kLanes];
-        store(there, lanes_there);
         store(now, t);
         store(leave, min(far, to));
-        for (std::size_t lane = 0; lane < kLanes; ++lane)
-            if (there[lane] != 0 && listed[lane] != 0)
+        each_lane(lanes_there, [&](std::size_t lane) {
+            if (listed[lane] != 0)
                 lanes.race(m, lane, static_cast<std::size_t>(at[lane]), now[lane], leave[lane]);
+        });
         meets = loaded(lanes.meets);
     }
 
@@ -169,7 +168,7 @@ struct Batch {
             cell[a] = fresh ? first + within : cell[a];
         }
         active |= fresh;
-        enter(fresh);
+        arrived |= fresh;
     }
 
     // What lanes have found at a point that they looked at.
@@ -178,13 +177,13 @@ struct Batch {
         // The brick's first cell, and the place from there.
         Ints first[3]{};
         Floats local[3]{};
-        alignas(64) float depth[kLanes]{};
+        alignas(64) float depth[kLanes];
     };
 
     // Those lanes look whether there is matter at `further`. Gives those that are done.
     AWAN_INLINE Ints look(const Ints& looks, const Floats& further, Found& found) {
         t = looks ? further : t;
-        alignas(64) float part[3][kLanes], extinction[kLanes]{};
+        alignas(64) float part[3][kLanes], extinction[kLanes];
         Ints at[3], in[3];
         for (int a = 0; a < 3; ++a) {
             const Floats place = o[a] + t * d[a];
@@ -203,26 +202,20 @@ struct Batch {
             store(part[a], min(max(found.local[a] - __builtin_convertvector(in[a], Floats), all(0.0f)),
                                all(1.0f)));
         }
-        alignas(64) std::int32_t brick[kLanes], node[kLanes], wanted[kLanes];
+        alignas(64) std::int32_t brick[kLanes], node[kLanes];
         store(brick, brick_of_cells(at));
         store(node, (in[0] * kBrickNodes + in[1]) * kBrickNodes + in[2]);
-        store(wanted, looks);
-        // Only what is looked at: memory is what a look costs.
-        std::size_t list[kLanes], count = 0;
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            list[count] = lane;
-            count += wanted[lane] != 0 ? 1 : 0;
-        }
-        for (std::size_t n = 0; n < count; ++n) {
-            const std::size_t lane = list[n];
+        // Only where it is looked: memory is what a look costs.
+        each_lane(looks, [&](std::size_t lane) {
             const Brick& one = m.brick[static_cast<std::size_t>(brick[lane])];
-            if (one.nodes == kNoNodes) continue;
+            extinction[lane] = 0;
+            if (one.nodes == kNoNodes) return;
             const Sampled here =
                 sampled(m, {kBrickStride * one.nodes + static_cast<std::size_t>(node[lane]),
                             part[0][lane], part[1][lane], part[2][lane]});
             extinction[lane] = here.extinction;
             found.depth[lane] = here.depth;
-        }
+        });
         if (m.detail) add_detail(looks, extinction);
         RandomLanes drawn = random;
         found.met = looks & (unit(drawn) * most < loaded(extinction));
@@ -234,14 +227,12 @@ struct Batch {
 
     AWAN_INLINE void add_detail(const Ints& looks, float (&extinction)[kLanes]) const {
         alignas(64) float distance[kLanes];
-        alignas(64) std::int32_t look[kLanes];
         store(distance, t);
-        store(look, looks);
-        for (std::size_t lane = 0; lane < kLanes; ++lane)
-            if (look[lane] != 0)
-                extinction[lane] = static_cast<float>(with_detail(
-                    m, extinction[lane],
-                    lanes.origin(lane) + static_cast<double>(distance[lane]) * lanes.along(lane)));
+        each_lane(looks, [&](std::size_t lane) {
+            extinction[lane] = static_cast<float>(with_detail(
+                m, extinction[lane],
+                lanes.origin(lane) + static_cast<double>(distance[lane]) * lanes.along(lane)));
+        });
     }
 
     // Those lanes go on to the next block. Gives those that ended instead.
@@ -266,25 +257,23 @@ struct Batch {
             cell[a] = moves ? next : cell[a];
         }
         for (int a = 0; a < 3; ++a) cell[a] = ~ended & cell[a];
-        enter(moves & ~ended);
+        arrived = moves & ~ended;
         return ended;
     }
 
     // Those lanes' flights are over.
     AWAN_INLINE void finish(const Ints& done, const Found& found) {
-        alignas(64) std::int32_t over[kLanes], met[kLanes];
+        alignas(64) std::int32_t met[kLanes];
         alignas(64) float local[3][kLanes];
         alignas(64) std::int32_t first[3][kLanes];
-        store(over, done);
         store(met, found.met);
         for (int a = 0; a < 3; ++a) {
             store(local[a], found.local[a]);
             store(first[a], found.first[a]);
         }
         for (int word = 0; word < 4; ++word) store(lanes.random[word], random.state[word]);
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            if (over[lane] == 0) continue;
-            const auto i = static_cast<std::size_t>(lanes.index[lane]);
+        each_lane(done, [&](std::size_t lane) {
+            const std::size_t i = lanes.index[lane];
             const bool by_listed = met[lane] == 0 && lanes.meets[lane] < INFINITY;
             if (met[lane] != 0) {
                 for (std::size_t a = 0; a < 3; ++a) {
@@ -301,15 +290,17 @@ struct Batch {
                 f.depth[i] = static_cast<float>(depth_to_sun_at(m, q));
             }
             lanes.free(lane, f, met[lane] != 0 || by_listed);
-        }
+        });
         active &= ~done;
         meets = loaded(lanes.meets);
     }
 
     AWAN_INLINE void run() {
         for (;;) {
-            if (lanes.idle >= kFetch && taken < which.size()) fetch();
-            if (lanes.idle == kLanes) return;
+            if (__builtin_popcount(lanes.idle_lanes) >= kFetch && taken < which.size()) fetch();
+            if (!any(active)) return;
+            if (any(arrived)) enter(arrived);
+            arrived = Ints{};
             const Floats stop = min(min(far, to), meets);
             const Floats further = t + ahead * per_most;
             const Ints looks = active & (further < stop), moves = active & ~looks;

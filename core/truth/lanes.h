@@ -6,11 +6,7 @@
 // be for the plainest processor in all of them. The operations are the same IEEE ones in every set, however many lanes
 // go at a time, and so are the bytes.
 //
-// Expected in the namespace: kLanes. Expected by what comes after it: sqrt of Floats, correctly rounded.
-
-using Floats = float __attribute__((vector_size(4 * kLanes)));
-using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
-using Bits = std::uint32_t __attribute__((vector_size(4 * kLanes)));
+// Expected in the namespace: kLanes, Floats, Ints, Bits, sqrt, lanes_of (for_each_target.h).
 
 // Vectors in memory, of any alignment.
 template <typename Vector, typename Element>
@@ -46,11 +42,13 @@ AWAN_INLINE Floats abs(const Floats& x) {
     return floats(bits(x) & 0x7fffffffu);
 }
 AWAN_INLINE bool any(const Ints& mask) {
-    std::int64_t words[kLanes / 2];
-    std::memcpy(words, &mask, sizeof words);
-    std::int64_t sum = 0;
-    for (const std::int64_t word : words) sum |= word;
-    return sum != 0;
+    return lanes_of(mask) != 0;
+}
+// visit(lane) for each lane of a mask, from the first on.
+template <typename Visit>
+AWAN_INLINE void each_lane(const Ints& mask, const Visit& visit) {
+    for (std::uint32_t left = lanes_of(mask); left != 0; left &= left - 1)
+        visit(static_cast<std::size_t>(__builtin_ctz(left)));
 }
 
 // The state of xoshiro128+ (Blackman & Vigna 2021) of each lane's path: 128 bits, seeded by its key. Its lowest bits are
