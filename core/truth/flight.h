@@ -1,4 +1,4 @@
-// Free flights through matter: delta tracking (Woodcock et al. 1965) through bricks with majorants of their own, sixteen
+// Free flights through matter: delta tracking (Woodcock et al. 1965) through blocks with majorants of their own, many
 // flights at a time. Places and directions are those of the lattice (q in matter.h).
 #pragma once
 

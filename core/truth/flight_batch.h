@@ -12,19 +12,16 @@ struct Lanes {
     alignas(64) float place[3][kLanes]{}, direction[3][kLanes]{}, to[kLanes]{};
     alignas(64) std::int32_t brick[3][kLanes]{}, fresh[kLanes]{};
     alignas(64) std::uint32_t random[4][kLanes]{};
-    // Of listed particles, each lane's race with them: the optical depth ahead, and t of a meeting in the brick where it
-    // is, infinite: there is none.
+    // Of listed particles, each lane's race with them: the optical depth ahead, and t of a meeting in the brick where
+    // it is, infinite: there is none.
     double listed_ahead[kLanes]{};
     alignas(64) float meets[kLanes];
 
-    Lanes() {
-        std::fill(std::begin(meets), std::end(meets), INFINITY);
-    }
+    Lanes() { std::fill(std::begin(meets), std::end(meets), INFINITY); }
 
     void fetch(const Flights& f, std::span<const std::uint32_t> which, std::size_t& taken) {
         std::fill(std::begin(fresh), std::end(fresh), 0);
-        for (std::uint32_t left = idle_lanes; left != 0 && taken < which.size();
-             left &= left - 1) {
+        for (std::uint32_t left = idle_lanes; left != 0 && taken < which.size(); left &= left - 1) {
             const auto lane = static_cast<std::size_t>(__builtin_ctz(left));
             const std::uint32_t i = which[taken++];
             index[lane] = i;
@@ -199,8 +196,9 @@ struct Batch {
             found.local[a] = min(
                 max(place - __builtin_convertvector(found.first[a] - origin[a], Floats), all(0.0f)),
                 all(kSide));
-            store(part[a], min(max(found.local[a] - __builtin_convertvector(in[a], Floats), all(0.0f)),
-                               all(1.0f)));
+            store(part[a],
+                  min(max(found.local[a] - __builtin_convertvector(in[a], Floats), all(0.0f)),
+                      all(1.0f)));
         }
         alignas(64) std::int32_t brick[kLanes], node[kLanes];
         store(brick, brick_of_cells(at));
@@ -242,7 +240,8 @@ struct Batch {
         Ints ended = moves & (~(stop < to) | (meets <= stop));
         // Across that side which is reached first, to the cell beyond it; along the others no farther than the block.
         const Floats side[3] = {far_side(0), far_side(1), far_side(2)};
-        const Ints by_x = (side[0] <= side[1]) & (side[0] <= side[2]), by_y = ~by_x & (side[1] <= side[2]);
+        const Ints by_x = (side[0] <= side[1]) & (side[0] <= side[2]),
+                   by_y = ~by_x & (side[1] <= side[2]);
         const Ints across[3] = {by_x, by_y, ~(by_x | by_y)};
         for (int a = 0; a < 3; ++a) {
             const Floats place = o[a] + t * d[a];
@@ -284,8 +283,8 @@ struct Batch {
                 if (!m.listed.empty())
                     f.depth[i] += static_cast<float>(listed_depth_to_sun(m, f.places.at(i)));
             } else if (by_listed) {
-                const glm::dvec3 q = lanes.origin(lane) +
-                                     static_cast<double>(lanes.meets[lane]) * lanes.along(lane);
+                const glm::dvec3 q =
+                    lanes.origin(lane) + static_cast<double>(lanes.meets[lane]) * lanes.along(lane);
                 f.places.set(i, m, q);
                 f.depth[i] = static_cast<float>(depth_to_sun_at(m, q));
             }

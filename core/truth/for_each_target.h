@@ -1,12 +1,12 @@
-// Compiles the file that AWAN_LANES_FILE names, after lanes.h, once for each instruction set, in a namespace of its name
-// in awan::truth. Included where all that the file needs has been included; once in a source file.
+// Compiles the file that AWAN_LANES_FILE names, after lanes.h, once for each instruction set, in a namespace of the set's
+// name. Included where all that the file needs has been included; once in a source file.
 
 // What differs: how many lanes go at a time, square roots (correctly rounded in all), and the lanes of a mask, all bits
 // or none set in each, as bits.
-#define AWAN_LANE_TYPES(count)                                            \
-    constexpr int kLanes = count;                                         \
-    using Floats = float __attribute__((vector_size(4 * count)));         \
-    using Ints = std::int32_t __attribute__((vector_size(4 * count)));    \
+#define AWAN_LANE_TYPES(count)                                         \
+    constexpr int kLanes = count;                                      \
+    using Floats = float __attribute__((vector_size(4 * count)));      \
+    using Ints = std::int32_t __attribute__((vector_size(4 * count))); \
     using Bits = std::uint32_t __attribute__((vector_size(4 * count)));
 
 #if defined(__x86_64__)

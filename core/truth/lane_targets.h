@@ -17,17 +17,17 @@
 
 // Runs `call` of the widest set's namespace, and returns.
 #if defined(__x86_64__)
-#define AWAN_ON_TARGET(call)                \
-    switch (instruction_set()) {            \
-        case InstructionSet::kAvx512:       \
-            avx512::call;                   \
-            return;                         \
-        case InstructionSet::kAvx2:         \
-            avx2::call;                     \
-            return;                         \
-        case InstructionSet::kPlain:        \
-            break;                          \
-    }                                       \
+#define AWAN_ON_TARGET(call)          \
+    switch (instruction_set()) {      \
+        case InstructionSet::kAvx512: \
+            avx512::call;             \
+            return;                   \
+        case InstructionSet::kAvx2:   \
+            avx2::call;               \
+            return;                   \
+        case InstructionSet::kPlain:  \
+            break;                    \
+    }                                 \
     plain::call;
 #else
 #define AWAN_ON_TARGET(call) plain::call;

@@ -1,10 +1,9 @@
 // Lanes of floats, a path in each: random numbers and elementary functions.
 //
 // No header like others: it is included once for each instruction set, inside a namespace and a region that chooses the
-// set (for_each_target.h). For operators of vectors are taken apart, where
-// a processor has no instruction for them, before anything is inlined: code that was written outside of the region would
-// be for the plainest processor in all of them. The operations are the same IEEE ones in every set, however many lanes
-// go at a time, and so are the bytes.
+// set (for_each_target.h). For where a processor has no instruction for an operator of vectors, GCC takes it apart before
+// anything is inlined: code that was written outside of the region would be for the plainest processor in all of them.
+// The operations are the same IEEE ones in every set, however many lanes go at a time, and so are the bytes.
 //
 // Expected in the namespace: kLanes, Floats, Ints, Bits, sqrt, lanes_of (for_each_target.h).
 
@@ -33,10 +32,10 @@ AWAN_INLINE Floats max(const Floats& a, const Floats& b) {
     return a > b ? a : b;
 }
 AWAN_INLINE Bits bits(const Floats& x) {
-    return reinterpret_cast<const Bits&>(x);
+    return Bits(x);
 }
 AWAN_INLINE Floats floats(const Bits& x) {
-    return reinterpret_cast<const Floats&>(x);
+    return Floats(x);
 }
 AWAN_INLINE Floats abs(const Floats& x) {
     return floats(bits(x) & 0x7fffffffu);
@@ -51,8 +50,8 @@ AWAN_INLINE void each_lane(const Ints& mask, const Visit& visit) {
         visit(static_cast<std::size_t>(__builtin_ctz(left)));
 }
 
-// The state of xoshiro128+ (Blackman & Vigna 2021) of each lane's path: 128 bits, seeded by its key. Its lowest bits are
-// weak and not used.
+// The state of xoshiro128+ (Blackman & Vigna 2021) of each lane's path: 128 bits, seeded by its key. Its lowest bits
+// are weak and not used.
 struct RandomLanes {
     Bits state[4];
 };
@@ -70,7 +69,7 @@ AWAN_INLINE Bits next(RandomLanes& random) {
 }
 
 AWAN_INLINE RandomLanes chosen(const Ints& first, const RandomLanes& a, const RandomLanes& b) {
-    const Bits& mask = reinterpret_cast<const Bits&>(first);
+    const Bits mask = Bits(first);
     RandomLanes random;
     for (int word = 0; word < 4; ++word)
         random.state[word] = (mask & a.state[word]) | (~mask & b.state[word]);
@@ -80,8 +79,7 @@ AWAN_INLINE RandomLanes chosen(const Ints& first, const RandomLanes& a, const Ra
 // Uniform in (0, 1], 24 bits.
 AWAN_INLINE Floats unit(RandomLanes& random) {
     const Bits whole = next(random) >> 8;
-    return (__builtin_convertvector(reinterpret_cast<const Ints&>(whole), Floats) + 1.0f) *
-           0x1p-24f;
+    return (__builtin_convertvector(Ints(whole), Floats) + 1.0f) * 0x1p-24f;
 }
 
 // exp(x) for x <= 0, constant below -86; relative error < 4e-7. x = n ln 2 + r, |r| <= ln 2 / 2, ln 2 in two parts
@@ -102,7 +100,7 @@ AWAN_INLINE Floats exp_below(const Floats& at) {
 // (m + 1)) by its series.
 AWAN_INLINE Floats minus_log(const Floats& u) {
     const Bits b = bits(u) - 0x3f3504f3u;
-    const Floats n = __builtin_convertvector(reinterpret_cast<const Ints&>(b) >> 23, Floats);
+    const Floats n = __builtin_convertvector(Ints(b) >> 23, Floats);
     const Floats m = floats((b & 0x007fffffu) + 0x3f3504f3u);
     const Floats f = (m - 1.0f) / (m + 1.0f), ff = f * f;
     const Floats series =

@@ -40,14 +40,13 @@ AWAN_INLINE Directions turned(const Directions& d, const Turn& turn, RandomLanes
     const Bits word = next(random);
     // Within an eighth of a circle to both sides, then by quarters: two bits say how many.
     const Bits within = (word << 2) >> 8;
-    const Floats a =
-        (__builtin_convertvector(reinterpret_cast<const Ints&>(within), Floats) * 0x1p-24f - 0.5f) *
-        (std::numbers::pi_v<float> / 2);
+    const Floats a = (__builtin_convertvector(Ints(within), Floats) * 0x1p-24f - 0.5f) *
+                     (std::numbers::pi_v<float> / 2);
     const Floats aa = a * a;
     const Floats s = a * (1.0f - aa * ((1.0f / 6) - aa * ((1.0f / 120) - aa * (1.0f / 5040))));
     const Floats c =
         1.0f - aa * (0.5f - aa * ((1.0f / 24) - aa * ((1.0f / 720) - aa * (1.0f / 40320))));
-    const Ints quarter = reinterpret_cast<const Ints&>(word) < 0;
+    const Ints quarter = Ints(word) < 0;
     const Bits half = (word << 1) & 0x80000000u;
     const Floats cosine = floats(bits(quarter ? -s : c) ^ half);
     const Floats sine = floats(bits(quarter ? c : s) ^ half);

@@ -1,9 +1,5 @@
 #include "core/truth/matter_columns.h"
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -244,19 +240,6 @@ bool fill_slab(const Filling& f, const std::vector<std::uint32_t>& near, int bx,
     return true;
 }
 
-// Of memory that is not in use yet: walks go all about it, and the tables of small pages are as slow as memory itself. A
-// wish, no more.
-void ask_for_large_pages(void* memory, std::size_t bytes) {
-#if defined(__linux__)
-    constexpr std::uintptr_t kPage = 4096;
-    const auto first = (reinterpret_cast<std::uintptr_t>(memory) + kPage - 1) / kPage * kPage;
-    const auto end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / kPage * kPage;
-    if (first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
-#else
-    (void)memory, (void)bytes;
-#endif
-}
-
 Status sum_coarse(Filling& f, const OnLattice& wide, int threads, const Deadline& deadline) {
     if (wide.gaussians.empty()) return std::nullopt;
     f.coarse.nodes = f.nodes / 2 + 3;
@@ -320,7 +303,6 @@ Status fill_bricks(Matter& m, const OnLattice& matter, int threads, const Deadli
     std::size_t total = 0;
     for (const Slab& slab : made) total += slab.nodes.size();
     m.nodes.reserve(total);
-    ask_for_large_pages(m.nodes.data(), total * sizeof(Node));
     if (m.colored) m.tints.reserve(total);
     for (std::size_t i = 0; i < slabs; ++i) {
         const auto before = static_cast<std::uint32_t>(m.nodes.size() / kBrickStride);

@@ -98,9 +98,8 @@ struct Through {
 Through through_haze(const Picture& picture, const Sight& sight, double t, PathRandom& random) {
     if (!sight.haze) return {};
     const double end = t * picture.matter.cell;
-    return {sight.haze->transmittance(end),
-            haze_light(*picture.air, picture.setting, *sight.haze, sight.eye, sight.direction, end,
-                       random)};
+    return {sight.haze->transmittance(end), haze_light(*picture.air, picture.setting, *sight.haze,
+                                                       sight.eye, sight.direction, end, random)};
 }
 
 // Calls path(random, stratum, half, key) for each of samples / 2 paths of both halves; stratum is uniform in (0, 1) and
@@ -131,18 +130,19 @@ bool add_clouds(PixelPaths& all, std::array<CloudRays*, 2> rays, std::uint64_t k
     if (!(covered > 0)) return true;
     const std::uint32_t paths = worthwhile_paths(picture.samples, covered);
     pixel.paths = paths;
-    return each_path(key, paths, [&](PathRandom& random, double stratum, std::uint32_t half,
-                                     std::uint64_t walk_key) {
-        const double seen = rays[half]->covered() / (paths / 2);
-        if (!(seen > 0)) return true;
-        const CloudRays::Met met = rays[half]->meeting(stratum);
-        if (std::isnan(met.t)) return true;
-        const Sight& sight = met.sight;
-        const Through through = through_haze(picture, sight, met.t, random);
-        return all.add(
-            {sight.eye + met.t * sight.direction, sight.direction, walk_key, false},
-            {&pixel, half, glm::dvec3(seen * through.scale), seen * through.plus, true});
-    });
+    return each_path(
+        key, paths,
+        [&](PathRandom& random, double stratum, std::uint32_t half, std::uint64_t walk_key) {
+            const double seen = rays[half]->covered() / (paths / 2);
+            if (!(seen > 0)) return true;
+            const CloudRays::Met met = rays[half]->meeting(stratum);
+            if (std::isnan(met.t)) return true;
+            const Sight& sight = met.sight;
+            const Through through = through_haze(picture, sight, met.t, random);
+            return all.add(
+                {sight.eye + met.t * sight.direction, sight.direction, walk_key, false},
+                {&pixel, half, glm::dvec3(seen * through.scale), seen * through.plus, true});
+        });
 }
 
 // Light that comes through the clouds from the ground, which the ray meets. False: out of time.
@@ -151,15 +151,14 @@ bool add_ground(PixelPaths& all, const Sight& sight, std::uint64_t key, Pixel& p
     if (!(std::max(sight.through[0], sight.through[1]) > kDark)) return true;
     glm::dvec3 place = sight.eye + sight.ground * sight.direction;
     place.y = picture.setting.ground_height;
-    return each_path(
-        key, picture.samples,
-        [&](PathRandom& random, double, std::uint32_t half, std::uint64_t walk_key) {
-            const double seen = sight.through[half] / (picture.samples / 2);
-            const Through through = through_haze(picture, sight, sight.ground, random);
-            return all.add(
-                {place, sight.direction, walk_key, true},
-                {&pixel, half, glm::dvec3(seen * through.scale), seen * through.plus, false});
-        });
+    return each_path(key, picture.samples,
+                     [&](PathRandom& random, double, std::uint32_t half, std::uint64_t walk_key) {
+                         const double seen = sight.through[half] / (picture.samples / 2);
+                         const Through through = through_haze(picture, sight, sight.ground, random);
+                         return all.add({place, sight.direction, walk_key, true},
+                                        {&pixel, half, glm::dvec3(seen * through.scale),
+                                         seen * through.plus, false});
+                     });
 }
 
 // Light that comes through the clouds from the sky, or, where no sky is drawn, from the haze alone. False: out of time.
@@ -174,8 +173,8 @@ bool add_sky(const Picture& picture, const Sight& sight, std::uint64_t key, Pixe
     return each_path(
         key, picture.samples, [&](PathRandom& random, double, std::uint32_t half, std::uint64_t) {
             const Through through = through_haze(picture, sight, sight.ground, random);
-            pixel.half[half] += sight.through[half] / (picture.samples / 2) *
-                                (through.scale * sky + through.plus);
+            pixel.half[half] +=
+                sight.through[half] / (picture.samples / 2) * (through.scale * sky + through.plus);
             return true;
         });
 }

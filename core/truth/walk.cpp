@@ -197,7 +197,8 @@ class Walks {
     glm::dvec3 sky_from(const glm::dvec3& d) const { return sky_radiance(s_, d * m_.axes); }
 
     void sky_by_next_event() {
-        const auto which = those([&](std::size_t i) { return w_.in_matter[i] != 0 && w_.gone[i] == 0; });
+        const auto which =
+            those([&](std::size_t i) { return w_.in_matter[i] != 0 && w_.gone[i] == 0; });
         for (const std::uint32_t i : which) {
             PathRandom random = random_of(i);
             const glm::dvec3 d = scattered(s_.phase, w_.path.along(i), random);
@@ -262,7 +263,7 @@ class Walks {
         return true;
     }
 
-    // What paths that stand on the ground get there, and where they go on. flies: those that come into the matter's box.
+    // Light that paths on the ground see in a direction, if no matter stands there.
     template <typename Contribution>
     void look_up(const std::vector<std::uint32_t>& from, const Contribution& light) {
         std::size_t count = 0;
@@ -353,8 +354,8 @@ class Walks {
                 w_.other_light[i] += weight * sky_from(w_.path.along(i));
             return true;
         } else {
-            glm::dvec3 q = w_.path.places().at(i) +
-                           static_cast<double>(w_.ground[i]) * w_.path.along(i);
+            glm::dvec3 q =
+                w_.path.places().at(i) + static_cast<double>(w_.ground[i]) * w_.path.along(i);
             stand_on_ground(i, q + (ground_height_ - glm::dot(up_, q)) * up_);
         }
         if ((w_.in_matter[i] != 0 && w_.orders[i] == s_.max_orders) ||

@@ -16,7 +16,8 @@ AWAN_INLINE Ints ints(const OfWave<std::int32_t>& from, std::size_t at) {
 }
 AWAN_INLINE RandomLanes random_of(const Wave& wave, std::size_t at) {
     RandomLanes random;
-    for (int word = 0; word < 4; ++word) random.state[word] = load<Bits>(wave.random[word].data() + at);
+    for (int word = 0; word < 4; ++word)
+        random.state[word] = load<Bits>(wave.random[word].data() + at);
     return random;
 }
 AWAN_INLINE void keep_random(Wave& wave, std::size_t at, const Ints& where,
@@ -30,10 +31,11 @@ AWAN_INLINE Directions sun_of(const WaveSetting& s) {
 }
 
 // Chance of drawing directions from the sun at a place of that depth: there is little use of them where it does not
-// shine. Measured on table 4.4 of Sunar et al. 2005: wider costs more time than it saves noise.
-AWAN_INLINE Floats worth(const Floats& depth) {
+// shine, and less of them where the phase function is wide. Measured: more cost more time than they save noise.
+AWAN_INLINE Floats worth(const WaveSetting& s, const Floats& depth) {
+    const float most = static_cast<float>(s.from_sun) / static_cast<float>(kMaxFromSun);
     const Floats less = exp_below(min(0.2f * (6.0f - depth), all(0.0f)));
-    return depth > 40.0f ? all(0.0f) : less;
+    return depth > 40.0f ? all(0.0f) : most * less;
 }
 
 // What comes through of the sunlight to flights' ends; all with detail, where it is to be found out.
@@ -84,14 +86,14 @@ AWAN_INLINE void absorb(Wave& wave, std::size_t at, const Ints& here, const Dire
 AWAN_INLINE void branch_off(const WaveSetting& s, Wave& wave, std::size_t at, const Ints& here,
                             const Directions& d, const Directions& weight, RandomLanes& random) {
     const auto most = static_cast<float>(s.from_sun);
-    const Floats chance = worth(loaded(wave.path.depth.data() + at));
+    const Floats chance = worth(s, loaded(wave.path.depth.data() + at));
     store(wave.tried.data() + at, chance);
     const Ints begins = here & (unit(random) <= chance) & (chance > 0.0f);
     // 1..from_sun: unit() is never 0, and may be 1.
     Ints many = __builtin_convertvector(unit(random) * most, Ints) + 1;
     many = many > s.from_sun ? Ints{} + s.from_sun : many;
     const auto orders = load<Bits>(wave.orders.data() + at);
-    const Ints allowed = orders + reinterpret_cast<const Bits&>(many) <= Bits{} + s.max_orders;
+    const Ints allowed = orders + Bits(many) <= Bits{} + s.max_orders;
     many = begins & allowed & many;
     store(wave.branch_left.data() + at, many);
     if (!any(many)) return;
@@ -126,8 +128,9 @@ inline void scatter_waves(const WaveSetting& s, Wave& wave) {
         if (!any(here)) continue;
         RandomLanes random = random_of(wave, at);
         const auto orders = load<Bits>(wave.orders.data() + at);
-        store(wave.orders.data() + at, orders - reinterpret_cast<const Bits&>(here));
-        const Directions before = directions(wave.weight, at), d = directions(wave.path.direction, at);
+        store(wave.orders.data() + at, orders - Bits(here));
+        const Directions before = directions(wave.weight, at),
+                         d = directions(wave.path.direction, at);
         Directions weight{before.x * s.albedo, before.y * s.albedo, before.z * s.albedo};
         if (s.colored) {
             const Directions tint = directions(wave.tint, at);
@@ -168,7 +171,7 @@ inline void follow_branches(const WaveSetting& s, int left, Wave& wave) {
                                           directions(wave.from_sun[left - 1], at));
         const Floats sum = loaded(wave.branch_sum.data() + at);
         if (left > 1) {
-            const Floats share = worth(loaded(wave.branch.depth.data() + at)) /
+            const Floats share = worth(s, loaded(wave.branch.depth.data() + at)) /
                                  (static_cast<float>(s.from_sun) * phase);
             store(wave.branch_sum.data() + at, met ? sum + share : sum);
             set(wave.branch_weight, at, chosen(met, weight, before));
