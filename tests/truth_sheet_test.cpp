@@ -92,24 +92,60 @@ TEST(Sheet, OfAlmostNoAlbedoScattersOnce) {
     EXPECT_NEAR(found.mean / once, 1 + twice, 0.002);
 }
 
+// Of a picture as it is planned: with detail, and pixels as means over their area.
+TruthImage picture(const SceneDraft& draft, std::uint32_t samples, std::uint64_t seed) {
+    const Scene scene = test::valid(draft);
+    const Planned planned = plan_scene(scene, 1, {}).value();
+    TruthOptions options;
+    options.samples = samples;
+    options.seed = seed;
+    options.whole_pixels = true;
+    return trace_truth(scene, planned.particles, planned.survey.view, options, {}, {}).value();
+}
+
+// Stated and measured over pairs of seeds.
+void expect_true_noise(const char* name, SceneDraft draft, std::uint32_t samples, int width = 40) {
+    draft.image.width = width;
+    draft.image.height = width * 7 / 10;
+    double stated = 0, measured = 0;
+    for (std::uint64_t pair = 0; pair < 3; ++pair) {
+        const TruthImage one = picture(draft, samples, 2 * pair + 1),
+                         other = picture(draft, samples, 2 * pair + 2);
+        stated += std::pow(one.noise(), 2) + std::pow(other.noise(), 2);
+        // Two pictures' difference has the noise of both.
+        measured += 4 * std::pow(TruthImage{mean_of(one), mean_of(other), 0}.noise(), 2);
+    }
+    EXPECT_GT(std::sqrt(stated / measured), 0.8) << name;
+    EXPECT_LT(std::sqrt(stated / measured), 1.25) << name;
+}
+
 TEST(Noise, IsWhatItSays) {
     SceneDraft draft = test::table_4_4();
-    draft.image.width = 40;
-    draft.image.height = 28;
     draft.image.background = Background::kTransparent;
-    for (const double albedo : {1.0, 0.9}) {
-        draft.medium.albedo = albedo;
-        draft.medium.g = 0.5;
-        TruthOptions options;
-        options.samples = 32;
-        const Traced one = traced(draft, options);
-        options.seed = 2;
-        const Traced other = traced(draft, options);
-        // Two pictures' difference has the noise of both.
-        TruthImage both{mean_of(one.truth), mean_of(other.truth), 0};
-        const double measured = both.noise() * std::sqrt(2.0);
-        EXPECT_NEAR(one.truth.noise() / measured, 1, 0.2) << albedo;
-    }
+    draft.accuracy.rung = "truth";
+    draft.medium.g = 0.5;
+    expect_true_noise("smooth", draft, 32);
+    SceneDraft other = draft;
+    other.medium.albedo = 0.9;
+    expect_true_noise("absorbing", other, 32);
+    other = draft;
+    other.detail = Detail{0.8, 1.2};
+    expect_true_noise("with detail", other, 16, 24);
+    // Particles are narrower than pixels by far.
+    other = draft;
+    other.camera.automatic = false;
+    other.camera.eye = {0, 0, 2000};
+    other.camera.target = {0, 0, 0};
+    other.camera.fov = 20;
+    expect_true_noise("far away", other, 32, 20);
+    // Into the sun.
+    other = draft;
+    other.medium.g = 0.85;
+    other.sun.direction = glm::dvec3(0.1, 0.2, -1);
+    other.camera.automatic = false;
+    other.camera.eye = {0, 0, 25};
+    other.camera.target = {0, 0, 0};
+    expect_true_noise("backlit", other, 32);
 }
 
 TEST(Sky, WithoutCloudsStopsInTime) {

@@ -1,4 +1,4 @@
-// Compiles the file that AWAN_LANES_FILE names, after lanes.h, once for each instruction set, in a namespace of the set's
+// Compiles the file that AWAN_LANES_FILE names, after lanes.h, once for each instruction set, in a namespace of that
 // name. Included where all that the file needs has been included; once in a source file.
 
 // What differs: how many lanes go at a time, square roots (correctly rounded in all), and the lanes of a mask, all bits

@@ -1,9 +1,9 @@
 // Lanes of floats, a path in each: random numbers and elementary functions.
 //
 // No header like others: it is included once for each instruction set, inside a namespace and a region that chooses the
-// set (for_each_target.h). For where a processor has no instruction for an operator of vectors, GCC takes it apart before
-// anything is inlined: code that was written outside of the region would be for the plainest processor in all of them.
-// The operations are the same IEEE ones in every set, however many lanes go at a time, and so are the bytes.
+// set (for_each_target.h). For where a processor has no instruction for an operator of vectors, GCC takes it apart
+// before anything is inlined: code that was written outside of the region would be for the plainest processor in all of
+// them. The operations are the same IEEE ones in every set, however many lanes go at a time, and so are the bytes.
 //
 // Expected in the namespace: kLanes, Floats, Ints, Bits, sqrt, lanes_of (for_each_target.h).
 

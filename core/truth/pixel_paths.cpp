@@ -37,18 +37,26 @@ Sight sight_of(const Picture& picture, const glm::dvec3& eye, const glm::dvec3& 
     return sight;
 }
 
+// The rays that a pixel is seen by. primary: of each, where there is detail; else EMPTY.
+struct PixelRays {
+    AreaRays area;
+    std::vector<PrimaryRay> primary;
+};
+
 // The rays of a pixel that meet matter, for paths to be shared out among them by what they keep from the eye.
 class CloudRays {
   public:
-    CloudRays(const Picture& picture, const glm::dvec3& eye, const std::vector<AreaRay>& rays)
+    CloudRays(const Picture& picture, const glm::dvec3& eye, PixelRays rays)
         : picture_(picture), eye_(eye) {
-        for (const AreaRay& ray : rays) {
+        for (std::size_t i = 0; i < rays.area.rays.size(); ++i) {
+            const AreaRay& ray = rays.area.rays[i];
             const double covered = ray.share * -std::expm1(-ray.depth);
             through_ += ray.share * std::exp(-ray.depth);
             rest_ -= ray.share;
             if (!(covered > 0)) continue;
             covered_ += covered;
             rays_.push_back({ray.direction, covered_, covered, {}, {}});
+            if (!rays.primary.empty()) rays_.back().primary = std::move(rays.primary[i]);
         }
     }
 
@@ -67,10 +75,10 @@ class CloudRays {
             std::upper_bound(rays_.begin(), rays_.end() - 1, at,
                              [](double value, const Ray& ray) { return value < ray.up_to; });
         Ray& ray = *above;
-        if (!ray.primary) {
+        if (!ray.sight) {
             const double ground = ground_ahead(picture_.setting, eye_, ray.direction);
             ray.sight = sight_of(picture_, eye_, ray.direction, ground, {});
-            ray.primary.emplace(picture_.matter, eye_, ray.direction, ground);
+            if (!ray.primary) ray.primary.emplace(picture_.matter, eye_, ray.direction, ground);
         }
         const double own =
             std::clamp((at - (ray.up_to - ray.covered)) / ray.covered, 1e-12, 1 - 1e-12);
@@ -186,16 +194,17 @@ double alpha_of(const Picture& picture, const Sight& sight, double covered, doub
     return 1 - through * sight.haze->transmittance(sight.ground * picture.matter.cell);
 }
 
-// The rays that a pixel is seen by. Gaussians alone have their depth in closed form, their detail has not.
-AreaRays rays_of(const Picture& picture, const ParticleSet& near, int x, int y,
-                 const PixelRay& middle, const glm::dvec3& eye, std::uint64_t key) {
+// Gaussians alone have their depth in closed form, their detail has not.
+PixelRays rays_of(const Picture& picture, const ParticleSet& near, int x, int y,
+                  const PixelRay& middle, const glm::dvec3& eye, std::uint64_t key) {
     const Matter& matter = picture.matter;
     const auto end = [&](const glm::dvec3& d) {
         return ground_ahead(picture.setting, eye, d) * matter.cell;
     };
-    AreaRays area;
+    PixelRays found;
+    AreaRays& area = found.area;
     // Where no particle comes near the pixel there is nothing to look for.
-    if (near.size() == 0) return area;
+    if (near.size() == 0) return found;
     if (picture.whole_pixels) {
         // Bumps rise and fall as a Gaussian of about a quarter of their width does.
         const double smallest = matter.detail ? 0.25 * matter.detail->bump : INFINITY;
@@ -206,10 +215,12 @@ AreaRays rays_of(const Picture& picture, const ParticleSet& near, int x, int y,
         area.rays = {{d, 1, line_optical_depth(near, middle.origin, d, 0, end(d))}};
     }
     if (matter.detail)
-        for (AreaRay& ray : area.rays)
-            ray.depth =
-                PrimaryRay(matter, eye, ray.direction, end(ray.direction) / matter.cell).depth();
-    return area;
+        for (AreaRay& ray : area.rays) {
+            found.primary.emplace_back(matter, eye, ray.direction,
+                                       end(ray.direction) / matter.cell);
+            ray.depth = found.primary.back().depth();
+        }
+    return found;
 }
 
 }  // namespace
@@ -246,12 +257,12 @@ bool PixelPaths::begin(const ParticleSet& near, int x, int y, Pixel& pixel) {
     const PixelRay ray = pixel_ray(picture.view, picture.width, picture.height, x, y);
     const glm::dvec3 eye = (ray.origin - matter.origin) / matter.cell;
     const double ground = ground_ahead(picture.setting, eye, ray.direction);
-    const AreaRays area = rays_of(picture, near, x, y, ray, eye, keyed(key, 2));
-    CloudRays first(picture, eye, area.rays);
+    PixelRays rays = rays_of(picture, near, x, y, ray, eye, keyed(key, 2));
+    const bool random = rays.area.random;
+    CloudRays first(picture, eye, std::move(rays));
     // Rays at random are noise: the halves have their own.
     std::optional<CloudRays> second;
-    if (area.random)
-        second.emplace(picture, eye, rays_of(picture, near, x, y, ray, eye, keyed(key, 3)).rays);
+    if (random) second.emplace(picture, eye, rays_of(picture, near, x, y, ray, eye, keyed(key, 3)));
     const std::array<CloudRays*, 2> clouds{&first, second ? &*second : &first};
     const Sight sight =
         sight_of(picture, eye, ray.direction, ground, {clouds[0]->through(), clouds[1]->through()});
