@@ -108,10 +108,12 @@ Result<Matter> make_matter(const ParticleSet& particles, const glm::dvec3& to_su
 // Extinction on the lattice with its detail, from the smooth one, at q.
 inline double with_detail(const Matter& m, float smooth, const glm::dvec3& q) {
     if (!m.detail || !(smooth > 0)) return static_cast<double>(smooth);
-    const double per_unit = static_cast<double>(smooth) / m.cell;
-    const glm::dvec3 place = m.origin + m.cell * ((q - m.shift) * m.axes);
-    return m.cell * static_cast<double>(detailed(*m.detail, static_cast<float>(per_unit),
-                                                 bumps_at(*m.detail, place)));
+    const DetailField& field = *m.detail;
+    const auto per_unit = static_cast<float>(static_cast<double>(smooth) / m.cell);
+    // Within there are no bumps to look up.
+    const float bumps =
+        per_unit < field.edge ? bumps_at(field, m.origin + m.cell * ((q - m.shift) * m.axes)) : 1;
+    return m.cell * static_cast<double>(detailed(field, per_unit, bumps));
 }
 
 // Of all particles at p, per cell. 0 outside.
