@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/generate/generate.h"
+#include "core/truth/path_random.h"
 #include "core/truth/path_tracer.h"
 #include "tests/scenes.h"
 
@@ -92,25 +93,25 @@ TEST(Sheet, OfAlmostNoAlbedoScattersOnce) {
     EXPECT_NEAR(found.mean / once, 1 + twice, 0.002);
 }
 
-// Of a picture as it is planned: with detail, and pixels as means over their area.
-TruthImage picture(const SceneDraft& draft, std::uint32_t samples, std::uint64_t seed) {
+// Of a picture as it is planned, with its detail.
+TruthImage picture(const SceneDraft& draft, std::uint32_t samples, bool whole_pixels,
+                   std::uint64_t seed) {
     const Scene scene = test::valid(draft);
     const Planned planned = plan_scene(scene, 1, {}).value();
     TruthOptions options;
     options.samples = samples;
     options.seed = seed;
-    options.whole_pixels = true;
+    options.whole_pixels = whole_pixels;
     return trace_truth(scene, planned.particles, planned.survey.view, options, {}, {}).value();
 }
 
 // Stated and measured over pairs of seeds.
-void expect_true_noise(const char* name, SceneDraft draft, std::uint32_t samples, int width = 40) {
-    draft.image.width = width;
-    draft.image.height = width * 7 / 10;
+void expect_true_noise(const char* name, const SceneDraft& draft, std::uint32_t samples,
+                       bool whole_pixels = false) {
     double stated = 0, measured = 0;
     for (std::uint64_t pair = 0; pair < 3; ++pair) {
-        const TruthImage one = picture(draft, samples, 2 * pair + 1),
-                         other = picture(draft, samples, 2 * pair + 2);
+        const TruthImage one = picture(draft, samples, whole_pixels, 2 * pair + 1),
+                         other = picture(draft, samples, whole_pixels, 2 * pair + 2);
         stated += std::pow(one.noise(), 2) + std::pow(other.noise(), 2);
         // Two pictures' difference has the noise of both.
         measured += 4 * std::pow(TruthImage{mean_of(one), mean_of(other), 0}.noise(), 2);
@@ -121,6 +122,8 @@ void expect_true_noise(const char* name, SceneDraft draft, std::uint32_t samples
 
 TEST(Noise, IsWhatItSays) {
     SceneDraft draft = test::table_4_4();
+    draft.image.width = 40;
+    draft.image.height = 28;
     draft.image.background = Background::kTransparent;
     draft.accuracy.rung = "truth";
     draft.medium.g = 0.5;
@@ -130,14 +133,19 @@ TEST(Noise, IsWhatItSays) {
     expect_true_noise("absorbing", other, 32);
     other = draft;
     other.detail = Detail{0.8, 1.2};
-    expect_true_noise("with detail", other, 16, 24);
+    expect_true_noise("with detail", other, 16);
     // Particles are narrower than pixels by far.
-    other = draft;
-    other.camera.automatic = false;
-    other.camera.eye = {0, 0, 2000};
-    other.camera.target = {0, 0, 0};
-    other.camera.fov = 20;
-    expect_true_noise("far away", other, 32, 20);
+    std::vector<test::Ball> dust;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+        truth::PathRandom random(i + 1);
+        const glm::dvec3 place(random.unit(), random.unit(), random.unit());
+        dust.push_back({8.0 * (place - 0.5), 0.2, 20});
+    }
+    other = test::balls(dust);
+    other.image.width = other.image.height = 16;
+    other.image.background = Background::kTransparent;
+    other.accuracy.rung = "truth";
+    expect_true_noise("dust", other, 32, true);
     // Into the sun.
     other = draft;
     other.medium.g = 0.85;

@@ -31,6 +31,6 @@ inline constexpr TimeModel kHarrisLightTime = {{2.48227, 0, 0.00850872, 0, 0, 0,
 inline constexpr TimeModel kHarrisDrawTime = {{0.00991303, 0, 0.00201153, 1.7639e-06, 3.98729e-05, 0, 0, 0, 0, 2.6592e-05, 0}};
 inline constexpr TimeModel kMarchLightTime = {{3.70278, 0, 0.00187245, 0, 0, 0.0054285, 1.01929e-06, 0, 0, 0, 237.517}};
 inline constexpr TimeModel kMarchDrawTime = {{39.3468, 0, 0.00314015, 5.88942e-06, 0.000239217, 0, 0, 0, 0.000161516, 0.00123181, 0}};
-inline constexpr TimeModel kPathTime = {{0, 0, 0.818912, 0, 0.00606168, 0, 0, 0.00470154, 0, 0.0101256, 0}};
+inline constexpr TimeModel kPathTime = {{0, 0, 0.275, 0, 0.01, 0, 0, 0.00035, 0, 0.0101256, 0}};
 
 }  // namespace awan
