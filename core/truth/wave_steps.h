@@ -33,7 +33,7 @@ AWAN_INLINE Directions sun_of(const WaveSetting& s) {
 // Chance of drawing directions from the sun at a place of that depth: there is little use of them where it does not
 // shine, and less of them where the phase function is wide. Measured: more cost more time than they save noise.
 AWAN_INLINE Floats worth(const WaveSetting& s, const Floats& depth) {
-    const float most = static_cast<float>(s.from_sun) / static_cast<float>(kMaxFromSun);
+    const float most = std::min(static_cast<float>(s.from_sun) / 8, 1.0f);
     const Floats less = exp_below(min(0.2f * (6.0f - depth), all(0.0f)));
     return depth > 40.0f ? all(0.0f) : most * less;
 }
