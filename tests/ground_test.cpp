@@ -206,7 +206,7 @@ TEST(Ground, CloudAndGroundAreThoseOfThePathTracer) {
         SCOPED_TRACE(albedo);
         SceneDraft draft = test::over_ground(albedo);
         draft.sun.elevation = 50;
-        const TruthImage truth = test::ground_truth(draft, 128);
+        const TruthImage truth = test::ground_truth(draft, 512);
         const auto made = ground_picture(draft, 32);
         const auto sees = [&](int x, int y) {
             return test::sight(made.planned, draft, made.image, x, y);

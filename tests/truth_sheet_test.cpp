@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/generate/generate.h"
+#include "core/truth/path_random.h"
 #include "core/truth/path_tracer.h"
 #include "tests/scenes.h"
 
@@ -92,24 +93,67 @@ TEST(Sheet, OfAlmostNoAlbedoScattersOnce) {
     EXPECT_NEAR(found.mean / once, 1 + twice, 0.002);
 }
 
+// Of a picture as it is planned, with its detail.
+TruthImage picture(const SceneDraft& draft, std::uint32_t samples, bool whole_pixels,
+                   std::uint64_t seed) {
+    const Scene scene = test::valid(draft);
+    const Planned planned = plan_scene(scene, 1, {}).value();
+    TruthOptions options;
+    options.samples = samples;
+    options.seed = seed;
+    options.whole_pixels = whole_pixels;
+    return trace_truth(scene, planned.particles, planned.survey.view, options, {}, {}).value();
+}
+
+// Stated and measured over pairs of seeds.
+void expect_true_noise(const char* name, const SceneDraft& draft, std::uint32_t samples,
+                       bool whole_pixels = false) {
+    double stated = 0, measured = 0;
+    for (std::uint64_t pair = 0; pair < 3; ++pair) {
+        const TruthImage one = picture(draft, samples, whole_pixels, 2 * pair + 1),
+                         other = picture(draft, samples, whole_pixels, 2 * pair + 2);
+        stated += std::pow(one.noise(), 2) + std::pow(other.noise(), 2);
+        // Two pictures' difference has the noise of both.
+        measured += 4 * std::pow(TruthImage{mean_of(one), mean_of(other), 0}.noise(), 2);
+    }
+    EXPECT_GT(std::sqrt(stated / measured), 0.8) << name;
+    EXPECT_LT(std::sqrt(stated / measured), 1.25) << name;
+}
+
 TEST(Noise, IsWhatItSays) {
     SceneDraft draft = test::table_4_4();
     draft.image.width = 40;
     draft.image.height = 28;
     draft.image.background = Background::kTransparent;
-    for (const double albedo : {1.0, 0.9}) {
-        draft.medium.albedo = albedo;
-        draft.medium.g = 0.5;
-        TruthOptions options;
-        options.samples = 32;
-        const Traced one = traced(draft, options);
-        options.seed = 2;
-        const Traced other = traced(draft, options);
-        // Two pictures' difference has the noise of both.
-        TruthImage both{mean_of(one.truth), mean_of(other.truth), 0};
-        const double measured = both.noise() * std::sqrt(2.0);
-        EXPECT_NEAR(one.truth.noise() / measured, 1, 0.2) << albedo;
+    draft.accuracy.rung = "truth";
+    draft.medium.g = 0.5;
+    expect_true_noise("smooth", draft, 32);
+    SceneDraft other = draft;
+    other.medium.albedo = 0.9;
+    expect_true_noise("absorbing", other, 32);
+    other = draft;
+    other.detail = Detail{0.8, 1.2};
+    expect_true_noise("with detail", other, 16);
+    // Particles are narrower than pixels by far.
+    std::vector<test::Ball> dust;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+        truth::PathRandom random(i + 1);
+        const glm::dvec3 place(random.unit(), random.unit(), random.unit());
+        dust.push_back({8.0 * (place - 0.5), 0.2, 20});
     }
+    other = test::balls(dust);
+    other.image.width = other.image.height = 16;
+    other.image.background = Background::kTransparent;
+    other.accuracy.rung = "truth";
+    expect_true_noise("dust", other, 32, true);
+    // Into the sun.
+    other = draft;
+    other.medium.g = 0.85;
+    other.sun.direction = glm::dvec3(0.1, 0.2, -1);
+    other.camera.automatic = false;
+    other.camera.eye = {0, 0, 25};
+    other.camera.target = {0, 0, 0};
+    expect_true_noise("backlit", other, 32);
 }
 
 TEST(Sky, WithoutCloudsStopsInTime) {

@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "core/generate/generate.h"
+#include "core/generate/keyed_random.h"
+#include "core/truth/flight.h"
 #include "core/truth/oracles.h"
 #include "core/truth/path_tracer.h"
 #include "core/truth/primary_ray.h"
@@ -52,6 +54,25 @@ double simpson(double a, double b, int n, const std::function<double(double)>& f
     double sum = f(a) + f(b);
     for (int i = 1; i < n; ++i) sum += (i % 2 == 0 ? 2 : 4) * f(a + (b - a) * i / n);
     return sum * (b - a) / n / 3;
+}
+
+// What n paths from one start bring, each with a key of its own.
+std::vector<truth::Brought> walks(const truth::Setting& setting, truth::Start start, int n,
+                                  std::uint64_t seed, truth::Tally& tally) {
+    std::vector<truth::Start> starts;
+    for (int i = 0; i < n; ++i) {
+        start.key = keyed(seed, static_cast<std::uint64_t>(i));
+        starts.push_back(start);
+    }
+    std::vector<truth::Brought> brought(starts.size());
+    EXPECT_TRUE(truth::walk(setting, starts, brought, tally, {}));
+    return brought;
+}
+
+glm::dvec3 sum_of(const std::vector<truth::Brought>& brought) {
+    glm::dvec3 sum(0);
+    for (const truth::Brought& one : brought) sum += one.radiance;
+    return sum;
 }
 
 glm::dvec3 any_direction(PathRandom& random) {
@@ -253,9 +274,11 @@ TEST(Matter, FreeFlightsLeaveTheTransmittance) {
         int left = 0;
         double before = 0;
         for (int i = 0; i < n; ++i) {
-            const truth::Flight flight = truth::free_flight(matter, start, d, 0, kInfinite, random);
-            left += !flight.collided;
-            before += flight.collided && (flight.t * matter.cell < 1e3);
+            double t = 0;
+            const bool met = truth::fly(matter, matter.axes * start + matter.shift, matter.axes * d,
+                                        kInfinite, random, t);
+            left += !met;
+            before += met && (t * matter.cell < 1e3);
         }
         EXPECT_NEAR(left / static_cast<double>(n), exact, 4.5 * std::sqrt(0.25 / n) + 0.001);
         const double half = 1 - std::exp(-line_optical_depth(particles, o, d, 0, 1e3));
@@ -319,9 +342,7 @@ TEST(Walk, AbsorbedAndEscapedIsAll) {
         setting.phase.g = 0.6;
         truth::Tally tally;
         const int n = 20'000;
-        PathRandom random(5);
-        for (int i = 0; i < n; ++i)
-            walk_from_matter(setting, 0.5 * matter.top, {0, 0, 1}, random, tally);
+        walks(setting, {0.5 * matter.top, {0, 0, 1}}, n, 5, tally);
         EXPECT_NEAR((tally.absorbed + tally.escaped) / n, 1, albedo == 1 ? 1e-12 : 0.01);
         EXPECT_EQ(tally.cut_off, 0);
         // By hand for weak scattering: of what leaves the middle, e^-tau escapes unscattered.
@@ -422,14 +443,12 @@ TEST(Light, DrawnFromTheSunsSideIsTheSame) {
                 setting.max_orders = orders;
                 setting.from_sun = choices[c];
                 truth::Tally tally;
-                PathRandom random(static_cast<std::uint64_t>(c));
                 const int n = 40'000;
                 double sum = 0, square = 0;
-                for (int i = 0; i < n; ++i) {
-                    const double v =
-                        walk_from_matter(setting, 0.4 * matter.top, {0, 0, -1}, random, tally).x;
-                    sum += v;
-                    square += v * v;
+                for (const truth::Brought& one : walks(setting, {0.4 * matter.top, {0, 0, -1}}, n,
+                                                       static_cast<std::uint64_t>(c), tally)) {
+                    sum += one.radiance.x;
+                    square += one.radiance.x * one.radiance.x;
                 }
                 mean[c] = sum / n;
                 noise[c] = std::sqrt((square / n - mean[c] * mean[c]) / n);
@@ -464,14 +483,12 @@ TEST(Light, DrawnFromTheSunsSideIsAbsorbedAsFromTheEyes) {
         setting.sun_irradiance = wanted;
         setting.from_sun = from_sun;
         truth::Tally tally;
-        PathRandom random(static_cast<std::uint64_t>(3 + from_sun));
         const int n = 30'000;
         glm::dvec3 sum(0), square(0);
-        for (int i = 0; i < n; ++i) {
-            const glm::dvec3 v =
-                walk_from_matter(setting, 0.4 * matter.top, {0, 0, -1}, random, tally);
-            sum += v;
-            square += v * v;
+        for (const truth::Brought& one : walks(setting, {0.4 * matter.top, {0, 0, -1}}, n,
+                                               static_cast<std::uint64_t>(3 + from_sun), tally)) {
+            sum += one.radiance;
+            square += one.radiance * one.radiance;
         }
         const glm::dvec3 value = sum / (1.0 * n);
         return Mean{value,
@@ -510,18 +527,20 @@ TEST(Ground, AloneIsLambertian) {
     setting.dome.zenith = setting.dome.horizon = glm::dvec3(0.7);
     for (const SkySampling sky : {SkySampling::kEscape, SkySampling::kNextEvent}) {
         setting.sky = sky;
-        PathRandom random(1);
         truth::Tally tally;
-        glm::dvec3 sum(0);
-        for (int i = 0; i < 2000; ++i) sum += walk_from_ground(setting, {0, 0, 0}, random, tally);
+        truth::Start start;
+        start.on_ground = true;
+        const glm::dvec3 sum = sum_of(walks(setting, start, 2000, 1, tally));
         const double white = 3 * std::sqrt(0.5) / pi + 0.7;
-        EXPECT_NEAR(sum.x / 2000, 0.2 * white, 1e-9);
-        EXPECT_NEAR(sum.z / 2000, white, 1e-9);
+        // Weights are floats.
+        EXPECT_NEAR(sum.x / 2000, 0.2 * white, 1e-7);
+        EXPECT_NEAR(sum.z / 2000, white, 1e-7);
     }
     setting.to_sun = {0.6, -0.8, 0};  // a sun below: no light of it
-    PathRandom random(1);
     truth::Tally tally;
-    EXPECT_NEAR(walk_from_ground(setting, {0, 0, 0}, random, tally).z, 0.7, 1e-9);
+    truth::Start start;
+    start.on_ground = true;
+    EXPECT_NEAR(sum_of(walks(setting, start, 1, 1, tally)).z, 0.7, 1e-7);
 }
 
 TEST(Ground, HasTheCloudsShadow) {
@@ -535,16 +554,15 @@ TEST(Ground, HasTheCloudsShadow) {
     setting.sun_irradiance = glm::dvec3(1);
     setting.albedo = 0;  // nothing scattered: only what comes straight through
     for (const double x : {-8.0, -7.3, -6.0, 3.0}) {
-        PathRandom random(1);
         truth::Tally tally;
         const glm::dvec3 p(x, -3, 0.2);
         const double through = std::exp(-line_optical_depth(one, p, to_sun, 0, kInfinite));
         // Each path gets through to a point of the sun's disc or not: of the mean, 3.4 standard errors are allowed at
         // worst.
         constexpr int kPaths = 40000;
-        double sum = 0;
-        for (int i = 0; i < kPaths; ++i)
-            sum += walk_from_ground(setting, cells(p), random, tally).x;
+        truth::Start start{cells(p)};
+        start.on_ground = true;
+        const double sum = sum_of(walks(setting, start, kPaths, 1, tally)).x;
         EXPECT_NEAR(sum / kPaths, 0.5 / pi * to_sun.y * through, 0.003 / pi);
     }
 }
@@ -557,17 +575,13 @@ TEST(Ground, OfAWhiteFurnaceIsWhite) {
     setting.ground_albedo = setting.dome.horizon = setting.dome.zenith = glm::dvec3(1);
     for (const SkySampling sky : {SkySampling::kEscape, SkySampling::kNextEvent}) {
         setting.sky = sky;
-        PathRandom random(1);
         truth::Tally tally;
-        double sum = 0;
         const int n = 40'000;
-        for (int i = 0; i < n; ++i)
-            sum +=
-                i % 2 == 0
-                    ? walk_from_ground(setting, {0.4 * matter.top.x, setting.ground_height, 20},
-                                       random, tally)
-                          .x
-                    : walk_from_matter(setting, 0.5 * matter.top, {0, 0.6, 0.8}, random, tally).x;
+        truth::Start below{{0.4 * matter.top.x, setting.ground_height, 20}};
+        below.on_ground = true;
+        const double sum =
+            sum_of(walks(setting, below, n / 2, 1, tally)).x +
+            sum_of(walks(setting, {0.5 * matter.top, {0, 0.6, 0.8}}, n / 2, 2, tally)).x;
         EXPECT_NEAR(sum / n, 1, sky == SkySampling::kEscape ? 1e-9 : 0.02);
         EXPECT_NEAR(tally.escaped / n, 1, 1e-9);
     }

@@ -243,7 +243,9 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
         const double depth = std::clamp(survey.mean_depth_eye, 0.0, 1e4);
         const double absorbed = 1 - scene->medium.albedo;
         const double orders = depth / (1 + absorbed * depth * depth);
-        figures[7] = covered * samples * (1 + orders);
+        // Its beginning, from the eye to the first of them, costs as much as some more.
+        constexpr double kBeginning = 4;
+        figures[7] = covered * samples * (kBeginning + orders);
     }
     return figures;
 }

@@ -58,7 +58,7 @@ using TimeFigures = std::array<double, kTimeFigureCount>;
 //   particles, pairs     all; pairs of a pixel and a particle that it sees
 //   unknowns             cells x bands x harmonics of the transport grid, times the sweeps through it
 //   updates              of cells, where particles are summed on lattices
-//   scatterings          paths x (1 + scatterings of a path); rung truth
+//   scatterings          paths x (4 + scatterings of a path); rung truth
 //   lumps                samples of detail along the rays that meet cloud
 //   air                  pixels that are seen through haze
 //   detail               1 where there is detail

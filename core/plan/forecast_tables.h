@@ -31,6 +31,6 @@ inline constexpr TimeModel kHarrisLightTime = {{2.69117, 0, 0.00648709, 0, 0, 0,
 inline constexpr TimeModel kHarrisDrawTime = {{0, 0, 0.00295753, 1.08264e-06, 2.82601e-05, 0, 0, 0, 0, 4.18864e-05, 0, 0, 0, 0}};
 inline constexpr TimeModel kMarchLightTime = {{0.996115, 0, 0.000669329, 0, 0, 0.0010281, 2.34041e-07, 0, 0, 0, 0, 0, 0.00148587, 0.062998}};
 inline constexpr TimeModel kMarchDrawTime = {{4.57377, 0, 0.00157544, 5.83424e-07, 0.00011699, 0, 0, 0, 7.43522e-05, 0.000231353, 0, 4.55681e-05, 0, 0.013981}};
-inline constexpr TimeModel kPathTime = {{0, 0, 0.818912, 0, 0.00606168, 0, 0, 0.00470154, 0, 0.0101256, 0}};
+inline constexpr TimeModel kPathTime = {{0, 0, 0.275, 0, 0.01, 0, 0, 0.00035, 0, 0.0101256, 0}};
 
 }  // namespace awan

@@ -1,8 +1,10 @@
-// Free flights through matter: delta tracking (Woodcock et al. 1965) through bricks with majorants of their own.
-// Places and directions are those of the lattice (q in matter.h).
+// Free flights through matter: delta tracking (Woodcock et al. 1965) through blocks with majorants of their own, many
+// flights at a time. Places and directions are those of the lattice (q in matter.h).
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 
 #include "core/truth/matter.h"
 #include "core/truth/path_random.h"
@@ -11,26 +13,36 @@ namespace awan::truth {
 
 // Flights that meet more than this many points to look at end as if nothing stood there; only a walk along a steep edge
 // of optical depth > 1e6 comes near it.
-inline constexpr std::uint32_t kMaxTentative = 1u << 20;
+inline constexpr std::int32_t kMaxTentative = 1 << 20;
 
-struct Meeting {
-    glm::dvec3 at{0};
-    // To the sun from there; with detail about.
-    double depth = 0;
+// Places in matter: the brick, and cells from its first node, 0..kBrick. So no digits are lost in a wide lattice.
+struct Places {
+    std::int32_t* brick[3];
+    float* local[3];
+
+    void set(std::size_t i, const Matter& m, const glm::dvec3& q) const;
+    glm::dvec3 at(std::size_t i) const;
+    void copy(std::size_t i, const Places& from, std::size_t j) const;
 };
 
-// One free flight from o, in the box, along d (unit) as far as `to` cells (may be infinite). True: it met matter.
-// Unbiased.
+// What many flights begin with and end with, each at its own index.
+struct Flights {
+    Places places;              // in; out where matter was met
+    const float* direction[3];  // unit
+    const float* to;            // cells ahead, may be infinite; null: all are
+    std::uint32_t* random[4];   // in, out: RandomLanes (lanes.h)
+    float* depth;               // out: to the sun from where matter was met; with detail about
+    std::int32_t* met;          // out: 1 or 0
+};
+
+// The flights with these indices. Unbiased. Bytes do not depend on which go together.
+void fly_all(const Matter& matter, const Flights& flights, std::span<const std::uint32_t> which);
+
+// One flight from anywhere along o + t d, d unit, t in [0, to] (may be infinite). True: it met matter, at t.
 bool fly(const Matter& matter, const glm::dvec3& o, const glm::dvec3& d, double to,
-         PathRandom& random, Meeting& meeting);
+         PathRandom& random, double& t);
 
-// The same from anywhere, t in [from, to]. t: where it was met.
-bool fly_from(const Matter& matter, const glm::dvec3& o, const glm::dvec3& d, double from,
-              double to, PathRandom& random, Meeting& meeting, double& t);
-
-// Of the sunlight on its way to a meeting, what comes through: exact, or, with detail, by a flight towards the sun
-// (unit): 0 or 1, right on average.
-double sun_through(const Matter& matter, const Meeting& meeting, const glm::dvec3& to_sun,
-                   PathRandom& random);
+// The state of a path's own random numbers at their beginning.
+void seed(std::uint64_t key, std::uint32_t* const (&random)[4], std::size_t i);
 
 }  // namespace awan::truth

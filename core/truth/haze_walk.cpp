@@ -20,11 +20,8 @@ constexpr double kThinnest = 600;
 double sun_through_from(const Setting& setting, const glm::dvec3& p, PathRandom& random) {
     const Matter& m = *setting.matter;
     if (!m.detail) return std::exp(-depth_to_sun(m, p));
-    Meeting met;
-    double t;
-    return fly_from(m, m.axes * p + m.shift, m.axes * setting.to_sun, 0, kInfinity, random, met, t)
-               ? 0
-               : 1;
+    double unused;
+    return fly(m, m.axes * p + m.shift, m.axes * setting.to_sun, kInfinity, random, unused) ? 0 : 1;
 }
 
 }  // namespace

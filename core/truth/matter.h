@@ -37,20 +37,24 @@ inline constexpr int kBrick = 4;
 inline constexpr int kBrickNodes = kBrick + 1;
 // Nodes from one brick to the next in `nodes`: 125 and 3 of padding, 1 kB.
 inline constexpr std::size_t kBrickStride = 128;
-inline constexpr std::uint32_t kNoNodes = 0x7fffffffu;
+inline constexpr std::uint32_t kNoNodes = 0x7ffffffu;
+inline constexpr int kMostLevels = 6;
 
 struct Node {
     // Per cell, and gathered from the sun's side.
     float extinction, depth;
 };
 
-// A brick, whether there is matter or not.
+// A brick, whether there is matter or not. Where there is little of it, flights take many bricks at a time: blocks of
+// kBrick 2^level cells a side, at multiples of that, with one majorant.
 struct Brick {
-    // No lattice extinction in the brick, detail and all, is above it.
+    // No lattice extinction in the block that the brick belongs to, detail and all, is above it.
     float most = 0;
     // Of its first node, over kBrickStride; kNoNodes: all are 0.
-    std::uint32_t nodes : 31 = kNoNodes;
-    // Whether there are listed particles.
+    std::uint32_t nodes : 27 = kNoNodes;
+    // Of its block, 0..kMostLevels.
+    std::uint32_t level : 4 = 0;
+    // Whether there are listed particles; then it is a block of its own.
     std::uint32_t listed : 1 = 0;
 };
 
@@ -104,10 +108,12 @@ Result<Matter> make_matter(const ParticleSet& particles, const glm::dvec3& to_su
 // Extinction on the lattice with its detail, from the smooth one, at q.
 inline double with_detail(const Matter& m, float smooth, const glm::dvec3& q) {
     if (!m.detail || !(smooth > 0)) return static_cast<double>(smooth);
-    const double per_unit = static_cast<double>(smooth) / m.cell;
-    const glm::dvec3 place = m.origin + m.cell * ((q - m.shift) * m.axes);
-    return m.cell * static_cast<double>(detailed(*m.detail, static_cast<float>(per_unit),
-                                                 bumps_at(*m.detail, place)));
+    const DetailField& field = *m.detail;
+    const auto per_unit = static_cast<float>(static_cast<double>(smooth) / m.cell);
+    // Within there are no bumps to look up.
+    const float bumps =
+        per_unit < field.edge ? bumps_at(field, m.origin + m.cell * ((q - m.shift) * m.axes)) : 1;
+    return m.cell * static_cast<double>(detailed(field, per_unit, bumps));
 }
 
 // Of all particles at p, per cell. 0 outside.

@@ -217,6 +217,42 @@ void list_by_brick(Matter& m) {
                });
 }
 
+// Joins bricks to blocks (matter.h) as long as a flight across one would look at no more than kLooksPerBlock points, on
+// average.
+void join_bricks(Matter& m) {
+    constexpr float kLooksPerBlock = 0.5f;
+    for (int level = 1; level <= kMostLevels; ++level) {
+        const int side = 1 << level, half = side / 2;
+        const float most_allowed = kLooksPerBlock / static_cast<float>(kBrick * side);
+        // Whole ones only: none reaches out of the lattice.
+        for (int x = 0; x + side <= m.bricks.x; x += side)
+            for (int y = 0; y + side <= m.bricks.y; y += side)
+                for (int z = 0; z + side <= m.bricks.z; z += side) {
+                    const glm::ivec3 high = glm::ivec3(x, y, z) + side;
+                    float most = 0;
+                    bool joins = true;
+                    // The eight of the level below.
+                    for (int bx = x; bx < high.x && joins; bx += half)
+                        for (int by = y; by < high.y && joins; by += half)
+                            for (int bz = z; bz < high.z && joins; bz += half) {
+                                const Brick& part = m.brick[m.brick_at({bx, by, bz})];
+                                most = std::max(most, part.most);
+                                joins = part.listed == 0 &&
+                                        static_cast<int>(part.level) == level - 1 &&
+                                        most <= most_allowed;
+                            }
+                    if (!joins) continue;
+                    for (int bx = x; bx < high.x; ++bx)
+                        for (int by = y; by < high.y; ++by)
+                            for (int bz = z; bz < high.z; ++bz) {
+                                Brick& brick = m.brick[m.brick_at({bx, by, bz})];
+                                brick.most = most;
+                                brick.level = static_cast<std::uint32_t>(level) & 15u;
+                            }
+                }
+    }
+}
+
 // Rows: two axes across the sun's rays, and the way its light goes.
 glm::dmat3 axes_along(const glm::dvec3& to_sun) {
     const glm::dvec3 w = -to_sun;
@@ -289,7 +325,10 @@ Result<Matter> make_matter(const ParticleSet& particles, const glm::dvec3& to_su
     }
     sources = {};
     if (auto error = fill_bricks(m, on_lattice, threads, deadline)) return *error;
+    // There is always a brick of nodes to read, if only of zeros.
+    if (m.nodes.empty()) m.nodes.assign(kBrickStride, Node{0, 0});
     if (!m.listed.empty()) list_by_brick(m);
+    join_bricks(m);
     return m;
 }
 

@@ -17,6 +17,9 @@ class PathRandom {
     // Uniform in (0, 1], 32 bits in a float.
     float unit_float() { return (static_cast<float>(bits() >> 32) + 1.0f) * 0x1p-32f; }
 
+    // Of random numbers of another kind.
+    std::uint64_t key() { return bits(); }
+
     struct Pair {
         double a, b;
     };

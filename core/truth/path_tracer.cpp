@@ -1,6 +1,7 @@
 #include "core/truth/path_tracer.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <mutex>
@@ -20,6 +21,7 @@ namespace {
 using truth::Matter;
 using truth::Picture;
 using truth::Pixel;
+using truth::PixelPaths;
 using truth::Setting;
 
 // Pixels; particles are looked up by tile, of those of a block of tiles.
@@ -89,14 +91,21 @@ PathCount trace_tile(const Tile& tile, const ParticleSet& particles, const Pictu
                      TruthImage& truth) {
     if (picture.over()) return {};
     const ParticleSet near = particles_before(tile, particles, picture);
+    std::array<Pixel, kTile * kTile> pixels;
+    PixelPaths paths(picture);
+    std::size_t next = 0;
+    for (int y = tile.top; y < tile.bottom; ++y)
+        for (int x = tile.left; x < tile.right; ++x)
+            if (!paths.begin(near, x, y, pixels[next++])) return {};
+    if (!paths.finish()) return {};
     PathCount count;
+    next = 0;
     for (int y = tile.top; y < tile.bottom; ++y)
         for (int x = tile.left; x < tile.right; ++x) {
-            const std::optional<Pixel> pixel = trace_pixel(picture, near, x, y);
-            if (!pixel) return count;
-            store(truth.half_a, x, y, pixel->half[0], pixel->alpha[0]);
-            store(truth.half_b, x, y, pixel->half[1], pixel->alpha[1]);
-            count.add(pixel->paths, pixel->scatterings);
+            const Pixel& pixel = pixels[next++];
+            store(truth.half_a, x, y, pixel.half[0], pixel.alpha[0]);
+            store(truth.half_b, x, y, pixel.half[1], pixel.alpha[1]);
+            count.add(pixel.paths, pixel.scatterings);
         }
     return count;
 }

@@ -11,8 +11,10 @@
 namespace awan::truth {
 namespace {
 
-// Paths between two looks at the deadline.
-constexpr std::uint32_t kLook = 32;
+// Paths that are walked together: the last of them leave lanes idle, so that there should be many.
+constexpr std::size_t kTogether = 4096;
+// Of a path's key: what its walk is keyed by.
+constexpr std::uint64_t kWalk = 0x3a1c;
 // Of the light behind the clouds: below, it is not traced.
 constexpr double kDark = 1e-9;
 
@@ -35,18 +37,26 @@ Sight sight_of(const Picture& picture, const glm::dvec3& eye, const glm::dvec3& 
     return sight;
 }
 
+// The rays that a pixel is seen by. primary: of each, where there is detail; else EMPTY.
+struct PixelRays {
+    AreaRays area;
+    std::vector<PrimaryRay> primary;
+};
+
 // The rays of a pixel that meet matter, for paths to be shared out among them by what they keep from the eye.
 class CloudRays {
   public:
-    CloudRays(const Picture& picture, const glm::dvec3& eye, const std::vector<AreaRay>& rays)
+    CloudRays(const Picture& picture, const glm::dvec3& eye, PixelRays rays)
         : picture_(picture), eye_(eye) {
-        for (const AreaRay& ray : rays) {
+        for (std::size_t i = 0; i < rays.area.rays.size(); ++i) {
+            const AreaRay& ray = rays.area.rays[i];
             const double covered = ray.share * -std::expm1(-ray.depth);
             through_ += ray.share * std::exp(-ray.depth);
             rest_ -= ray.share;
             if (!(covered > 0)) continue;
             covered_ += covered;
             rays_.push_back({ray.direction, covered_, covered, {}, {}});
+            if (!rays.primary.empty()) rays_.back().primary = std::move(rays.primary[i]);
         }
     }
 
@@ -65,10 +75,10 @@ class CloudRays {
             std::upper_bound(rays_.begin(), rays_.end() - 1, at,
                              [](double value, const Ray& ray) { return value < ray.up_to; });
         Ray& ray = *above;
-        if (!ray.primary) {
+        if (!ray.sight) {
             const double ground = ground_ahead(picture_.setting, eye_, ray.direction);
             ray.sight = sight_of(picture_, eye_, ray.direction, ground, {});
-            ray.primary.emplace(picture_.matter, eye_, ray.direction, ground);
+            if (!ray.primary) ray.primary.emplace(picture_.matter, eye_, ray.direction, ground);
         }
         const double own =
             std::clamp((at - (ray.up_to - ray.covered)) / ray.covered, 1e-12, 1 - 1e-12);
@@ -89,30 +99,28 @@ class CloudRays {
 };
 
 // Light from distance t as the eye gets it: dimmed by the haze before it, with that haze's own light.
-glm::dvec3 through_haze(const Picture& picture, const Sight& sight, const glm::dvec3& light,
-                        double t, PathRandom& random) {
-    if (!sight.haze) return light;
+struct Through {
+    double scale = 1;
+    glm::dvec3 plus{0};
+};
+Through through_haze(const Picture& picture, const Sight& sight, double t, PathRandom& random) {
+    if (!sight.haze) return {};
     const double end = t * picture.matter.cell;
-    return light * sight.haze->transmittance(end) + haze_light(*picture.air, picture.setting,
-                                                               *sight.haze, sight.eye,
-                                                               sight.direction, end, random);
+    return {sight.haze->transmittance(end), haze_light(*picture.air, picture.setting, *sight.haze,
+                                                       sight.eye, sight.direction, end, random)};
 }
 
-// Adds the mean of samples / 2 paths to each half of a pixel. path(random, stratum, half): the radiance of one; stratum
-// is uniform in (0, 1) and spread evenly over them. False: out of time.
+// Calls path(random, stratum, half, key) for each of samples / 2 paths of both halves; stratum is uniform in (0, 1) and
+// spread evenly over them. False: out of time.
 template <typename Path>
-bool add_mean(const Picture& picture, std::uint64_t key, std::uint32_t samples, Pixel& pixel,
-              const Path& path) {
+bool each_path(std::uint64_t key, std::uint32_t samples, const Path& path) {
     const std::uint32_t each = samples / 2;
-    for (std::uint32_t half = 0; half < 2; ++half) {
-        glm::dvec3 sum(0);
+    for (std::uint32_t half = 0; half < 2; ++half)
         for (std::uint32_t i = 0; i < each; ++i) {
-            if (i % kLook == 0 && picture.over()) return false;
-            PathRandom random(keyed(keyed(key, half), i));
-            sum += path(random, (i + random.unit()) / each, half);
+            const std::uint64_t own = keyed(keyed(key, half), i);
+            PathRandom random(own);
+            if (!path(random, (i + random.unit()) / each, half, keyed(own, kWalk))) return false;
         }
-        pixel.half[half] += sum / static_cast<double>(each);
-    }
     return true;
 }
 
@@ -124,38 +132,41 @@ std::uint32_t worthwhile_paths(std::uint32_t samples, double covered) {
 }
 
 // Light from the clouds. rays: of each half. False: out of time.
-bool add_clouds(const Picture& picture, std::array<CloudRays*, 2> rays, std::uint64_t key,
-                Pixel& pixel) {
+bool add_clouds(PixelPaths& all, std::array<CloudRays*, 2> rays, std::uint64_t key, Pixel& pixel) {
+    const Picture& picture = all.picture();
     const double covered = 0.5 * (rays[0]->covered() + rays[1]->covered());
     if (!(covered > 0)) return true;
-    Tally tally;
     const std::uint32_t paths = worthwhile_paths(picture.samples, covered);
-    const auto path = [&](PathRandom& random, double stratum, std::uint32_t half) {
-        if (!(rays[half]->covered() > 0)) return glm::dvec3(0);
-        const CloudRays::Met met = rays[half]->meeting(stratum);
-        if (std::isnan(met.t)) return glm::dvec3(0);
-        const Sight& sight = met.sight;
-        const glm::dvec3 light = walk_from_matter(
-            picture.setting, sight.eye + met.t * sight.direction, sight.direction, random, tally);
-        return rays[half]->covered() * through_haze(picture, sight, light, met.t, random);
-    };
-    if (!add_mean(picture, key, paths, pixel, path)) return false;
     pixel.paths = paths;
-    pixel.scatterings = tally.scatterings;
-    return true;
+    return each_path(
+        key, paths,
+        [&](PathRandom& random, double stratum, std::uint32_t half, std::uint64_t walk_key) {
+            const double seen = rays[half]->covered() / (paths / 2);
+            if (!(seen > 0)) return true;
+            const CloudRays::Met met = rays[half]->meeting(stratum);
+            if (std::isnan(met.t)) return true;
+            const Sight& sight = met.sight;
+            const Through through = through_haze(picture, sight, met.t, random);
+            return all.add(
+                {sight.eye + met.t * sight.direction, sight.direction, walk_key, false},
+                {&pixel, half, glm::dvec3(seen * through.scale), seen * through.plus, true});
+        });
 }
 
 // Light that comes through the clouds from the ground, which the ray meets. False: out of time.
-bool add_ground(const Picture& picture, const Sight& sight, std::uint64_t key, Pixel& pixel) {
+bool add_ground(PixelPaths& all, const Sight& sight, std::uint64_t key, Pixel& pixel) {
+    const Picture& picture = all.picture();
     if (!(std::max(sight.through[0], sight.through[1]) > kDark)) return true;
     glm::dvec3 place = sight.eye + sight.ground * sight.direction;
     place.y = picture.setting.ground_height;
-    Tally unused;
-    const auto path = [&](PathRandom& random, double, std::uint32_t half) {
-        const glm::dvec3 light = walk_from_ground(picture.setting, place, random, unused);
-        return sight.through[half] * through_haze(picture, sight, light, sight.ground, random);
-    };
-    return add_mean(picture, key, picture.samples, pixel, path);
+    return each_path(key, picture.samples,
+                     [&](PathRandom& random, double, std::uint32_t half, std::uint64_t walk_key) {
+                         const double seen = sight.through[half] / (picture.samples / 2);
+                         const Through through = through_haze(picture, sight, sight.ground, random);
+                         return all.add({place, sight.direction, walk_key, true},
+                                        {&pixel, half, glm::dvec3(seen * through.scale),
+                                         seen * through.plus, false});
+                     });
 }
 
 // Light that comes through the clouds from the sky, or, where no sky is drawn, from the haze alone. False: out of time.
@@ -167,10 +178,13 @@ bool add_sky(const Picture& picture, const Sight& sight, std::uint64_t key, Pixe
         for (std::size_t half = 0; half < 2; ++half) pixel.half[half] += sight.through[half] * sky;
         return true;
     }
-    const auto path = [&](PathRandom& random, double, std::uint32_t half) {
-        return sight.through[half] * through_haze(picture, sight, sky, sight.ground, random);
-    };
-    return add_mean(picture, key, picture.samples, pixel, path);
+    return each_path(
+        key, picture.samples, [&](PathRandom& random, double, std::uint32_t half, std::uint64_t) {
+            const Through through = through_haze(picture, sight, sight.ground, random);
+            pixel.half[half] +=
+                sight.through[half] / (picture.samples / 2) * (through.scale * sky + through.plus);
+            return true;
+        });
 }
 
 // covered: by the clouds.
@@ -180,16 +194,17 @@ double alpha_of(const Picture& picture, const Sight& sight, double covered, doub
     return 1 - through * sight.haze->transmittance(sight.ground * picture.matter.cell);
 }
 
-// The rays that a pixel is seen by. Gaussians alone have their depth in closed form, their detail has not.
-AreaRays rays_of(const Picture& picture, const ParticleSet& near, int x, int y,
-                 const PixelRay& middle, const glm::dvec3& eye, std::uint64_t key) {
+// Gaussians alone have their depth in closed form, their detail has not.
+PixelRays rays_of(const Picture& picture, const ParticleSet& near, int x, int y,
+                  const PixelRay& middle, const glm::dvec3& eye, std::uint64_t key) {
     const Matter& matter = picture.matter;
     const auto end = [&](const glm::dvec3& d) {
         return ground_ahead(picture.setting, eye, d) * matter.cell;
     };
-    AreaRays area;
+    PixelRays found;
+    AreaRays& area = found.area;
     // Where no particle comes near the pixel there is nothing to look for.
-    if (near.size() == 0) return area;
+    if (near.size() == 0) return found;
     if (picture.whole_pixels) {
         // Bumps rise and fall as a Gaussian of about a quarter of their width does.
         const double smallest = matter.detail ? 0.25 * matter.detail->bump : INFINITY;
@@ -200,16 +215,41 @@ AreaRays rays_of(const Picture& picture, const ParticleSet& near, int x, int y,
         area.rays = {{d, 1, line_optical_depth(near, middle.origin, d, 0, end(d))}};
     }
     if (matter.detail)
-        for (AreaRay& ray : area.rays)
-            ray.depth =
-                PrimaryRay(matter, eye, ray.direction, end(ray.direction) / matter.cell).depth();
-    return area;
+        for (AreaRay& ray : area.rays) {
+            found.primary.emplace_back(matter, eye, ray.direction,
+                                       end(ray.direction) / matter.cell);
+            ray.depth = found.primary.back().depth();
+        }
+    return found;
 }
 
 }  // namespace
 
-std::optional<Pixel> trace_pixel(const Picture& picture, const ParticleSet& near, int x, int y) {
-    if (picture.over()) return std::nullopt;
+bool PixelPaths::add(const Start& start, const Path& path) {
+    starts_.push_back(start);
+    paths_.push_back(path);
+    return starts_.size() < kTogether || finish();
+}
+
+bool PixelPaths::finish() {
+    brought_.assign(starts_.size(), {});
+    Tally unused;
+    if (!walk(picture_.setting, starts_, brought_, unused, [&] { return picture_.over(); }))
+        return false;
+    // In the order in which they began, so that sums have the same bytes.
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+        const Path& path = paths_[i];
+        path.pixel->half[path.half] += path.scale * brought_[i].radiance + path.plus;
+        if (path.met_cloud) path.pixel->scatterings += brought_[i].scatterings;
+    }
+    starts_.clear();
+    paths_.clear();
+    return true;
+}
+
+bool PixelPaths::begin(const ParticleSet& near, int x, int y, Pixel& pixel) {
+    if (picture_.over()) return false;
+    const Picture& picture = picture_;
     const Matter& matter = picture.matter;
     const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
                            static_cast<std::size_t>(x);
@@ -217,26 +257,23 @@ std::optional<Pixel> trace_pixel(const Picture& picture, const ParticleSet& near
     const PixelRay ray = pixel_ray(picture.view, picture.width, picture.height, x, y);
     const glm::dvec3 eye = (ray.origin - matter.origin) / matter.cell;
     const double ground = ground_ahead(picture.setting, eye, ray.direction);
-    const AreaRays area = rays_of(picture, near, x, y, ray, eye, keyed(key, 2));
-    CloudRays first(picture, eye, area.rays);
+    PixelRays rays = rays_of(picture, near, x, y, ray, eye, keyed(key, 2));
+    const bool random = rays.area.random;
+    CloudRays first(picture, eye, std::move(rays));
     // Rays at random are noise: the halves have their own.
     std::optional<CloudRays> second;
-    if (area.random)
-        second.emplace(picture, eye, rays_of(picture, near, x, y, ray, eye, keyed(key, 3)).rays);
+    if (random) second.emplace(picture, eye, rays_of(picture, near, x, y, ray, eye, keyed(key, 3)));
     const std::array<CloudRays*, 2> clouds{&first, second ? &*second : &first};
     const Sight sight =
         sight_of(picture, eye, ray.direction, ground, {clouds[0]->through(), clouds[1]->through()});
-    Pixel pixel;
-    if (!add_clouds(picture, clouds, key, pixel)) return std::nullopt;
-    // A picture without a background shows no ground.
-    const bool in_time = picture.opaque && std::isfinite(ground)
-                             ? add_ground(picture, sight, keyed(key, 1), pixel)
-                             : add_sky(picture, sight, keyed(key, 1), pixel);
-    if (!in_time) return std::nullopt;
     for (std::size_t half = 0; half < 2; ++half)
         pixel.alpha[half] =
             alpha_of(picture, sight, clouds[half]->covered(), clouds[half]->through());
-    return pixel;
+    // A picture without a background shows no ground.
+    const std::uint64_t behind = keyed(key, 1);
+    return add_clouds(*this, clouds, key, pixel) &&
+           (picture.opaque && std::isfinite(ground) ? add_ground(*this, sight, behind, pixel)
+                                                    : add_sky(picture, sight, behind, pixel));
 }
 
 }  // namespace awan::truth

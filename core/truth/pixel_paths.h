@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <vector>
 
 #include "core/base/deadline.h"
 #include "core/generate/particle_set.h"
@@ -51,7 +52,36 @@ struct Pixel {
     double paths = 0, scatterings = 0;
 };
 
-// near: the particles that its ray may meet. None: out of time. Depends on the picture's seed and on x and y alone.
-std::optional<Pixel> trace_pixel(const Picture& picture, const ParticleSet& near, int x, int y);
+// Paths of pixels, walked together as soon as there are enough of them.
+class PixelPaths {
+  public:
+    explicit PixelPaths(const Picture& picture) : picture_(picture) {}
+
+    // Gives the pixel what is known without paths, and lets its paths begin; the pixel has their light after the next
+    // finish(). near: the particles that its rays may meet. False: out of time. Depends on the picture's seed and on x
+    // and y alone.
+    bool begin(const ParticleSet& near, int x, int y, Pixel& pixel);
+
+    // Walks all that have begun. False: out of time.
+    bool finish();
+
+    // A path that has begun: what it brings back is multiplied by `scale`, then `plus` is added, and all that to a half
+    // of a pixel.
+    struct Path {
+        Pixel* pixel;
+        std::size_t half;
+        glm::dvec3 scale, plus;
+        bool met_cloud;
+    };
+    bool add(const Start& start, const Path& path);
+
+    const Picture& picture() const { return picture_; }
+
+  private:
+    const Picture& picture_;
+    std::vector<Start> starts_;
+    std::vector<Path> paths_;
+    std::vector<Brought> brought_;
+};
 
 }  // namespace awan::truth

@@ -1,22 +1,16 @@
-// Free flights (flight.h), next-event estimation of the sun, and, against the noise of a narrow phase function,
-// directions drawn from the sun's side.
-//
-// The last of these is bidirectional path tracing (Veach 1997) in directions only: since the sun's rays are parallel
-// and the phase function is the same everywhere, a path's directions d_0 (from the eye), ..., d_(n-1), sun can be
-// drawn from either end, while its free flights are always drawn from the eye's. Technique m draws the last m
-// directions backwards from the sun, e_1 about it, e_2 about e_1, ...; the one scattering whose two directions were
-// drawn from different ends, number n - m, is weighted by its phase value p_(n-m). Its density is the product of all
-// p_i but that one, so the balance heuristic gives a path that any of the techniques drew, each tried with
-// probability q, the weight
-//     transmittance / sum_m (q_m / p_(n-m)).
-// Plain next-event estimation (m = 0) alone weights it by p_n, whose relative variance in diffuse light is
-// 2 g^2 / (1 - g)^2 or so; a sum over a few m has that of a phase function of mean cosine g^(m+1).
+// Paths from scattering to scattering, as many side by side as a wave holds: whenever one ends, the next begins in its
+// place. What happens at scatterings is in wave.cpp, flights are in flight.cpp; the ground is here.
 #include "core/truth/walk.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <numbers>
+#include <vector>
+
+#include "core/truth/brick_walk.h"
+#include "core/truth/wave.h"
 
 namespace awan::truth {
 namespace {
@@ -24,236 +18,415 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-// Weight below which paths are absorbed at random.
-constexpr double kLight = 0.3;
 constexpr double kSunDisc = 0.2665 * pi / 180;  // angular radius
+// Scatterings of a wave between two looks at the time.
+constexpr std::uint32_t kLook = 32;
 
-}  // namespace
-
-Flight free_flight(const Matter& m, const glm::dvec3& o, const glm::dvec3& d, double from,
-                   double to, PathRandom& random) {
-    Flight flight;
-    Meeting unused;
-    flight.collided = !m.empty && fly_from(m, m.axes * o + m.shift, m.axes * d, from, to, random,
-                                           unused, flight.t);
-    return flight;
+WaveSetting wave_setting(const Setting& s, const glm::dvec3& to_sun, const glm::dvec3& up,
+                         double ground) {
+    WaveSetting w;
+    w.phase = s.phase;
+    w.albedo = static_cast<float>(s.albedo);
+    w.from_sun = std::clamp(s.from_sun, 0, kMaxFromSun);
+    w.max_orders = s.max_orders;
+    w.colored = s.matter->colored;
+    w.sun_shines = s.sun_irradiance != glm::dvec3(0);
+    w.detail = s.matter->detail != nullptr;
+    w.sun_is_below = s.has_ground && s.to_sun.y < 0;
+    w.ground = static_cast<float>(ground);
+    for (int a = 0; a < 3; ++a) {
+        w.to_sun[a] = static_cast<float>(to_sun[a]);
+        w.up[a] = static_cast<float>(up[a]);
+    }
+    return w;
 }
 
-namespace {
+class Walks {
+  public:
+    Walks(const Setting& setting, std::span<const Start> starts, std::span<Brought> brought,
+          Tally& tally)
+        : s_(setting),
+          m_(*setting.matter),
+          starts_(starts),
+          brought_(brought),
+          tally_(tally),
+          to_sun_(m_.axes * s_.to_sun),
+          up_(m_.axes * glm::dvec3(0, 1, 0)),
+          ground_height_(s_.ground_height + glm::dot(up_, m_.shift)),
+          lanes_(wave_setting(s_, to_sun_, up_, ground_height_)) {}
 
-struct Walk {
-    const Setting& s;
-    const Matter& matter;
-    PathRandom& random;
-    Tally& tally;
-    // As the lattice has them.
-    glm::dvec3 to_sun, up;
-    double ground_height;
-    bool sun_shines, sun_is_below;
-    glm::dvec3 radiance{0};
-    // Of scattering k since the start or the ground, at k mod kRing: its phase value, and the chance that each number
-    // of directions was tried from it.
-    static constexpr std::uint32_t kRing = 32;
-    std::array<double, kRing> phase{}, tried{};
+    bool run(const std::function<bool()>& over) {
+        while (w_.count < kWave && begun_ < starts_.size()) begin(w_.count++);
+        for (std::uint32_t step = 0; w_.count > 0; ++step) {
+            if (over && step % kLook == 0 && over()) return false;
+            if (lanes_.colored) tint(w_.path);
+            scatter_waves(lanes_, w_);
+            if (lanes_.sun_shines) sun();
+            if (s_.dome.shines && s_.sky == SkySampling::kNextEvent) sky_by_next_event();
+            turn_waves(lanes_, w_);
+            fly_on();
+            settle();
+        }
+        return true;
+    }
 
-    Walk(const Setting& setting, PathRandom& numbers, Tally& all)
-        : s(setting),
-          matter(*setting.matter),
-          random(numbers),
-          tally(all),
-          to_sun(matter.axes * s.to_sun),
-          up(matter.axes * glm::dvec3(0, 1, 0)),
-          ground_height(s.ground_height + glm::dot(up, matter.shift)),
-          sun_shines(s.sun_irradiance != glm::dvec3(0)),
-          sun_is_below(s.has_ground && s.to_sun.y < 0) {}
+  private:
+    static double mean(const glm::dvec3& weight) { return (weight.x + weight.y + weight.z) / 3; }
+    glm::dvec3 three(const OfWave<float> (&from)[3], std::size_t i) const {
+        return {static_cast<double>(from[0][i]), static_cast<double>(from[1][i]),
+                static_cast<double>(from[2][i])};
+    }
+    void set_weight(std::size_t i, const glm::dvec3& weight) {
+        for (int a = 0; a < 3; ++a) w_.weight[a][i] = static_cast<float>(weight[a]);
+    }
+    // Numbers for what paths do one by one.
+    PathRandom random_of(std::size_t i) {
+        const std::uint64_t key =
+            std::uint64_t{w_.random[0][i]} << 32 | (w_.random[3][i] ^ w_.random[1][i]);
+        PathRandom random(key);
+        seed(random.key(), randoms(), i);
+        return random;
+    }
+    using Randoms = std::uint32_t* [4];
+    const Randoms& randoms() const { return randoms_; }
 
-    // t of the ground ahead, as ground_ahead.
+    // In matter, or anywhere else the flights begin.
+    Flights flights(WaveFlights& of, const OfWave<float> (&direction)[3], const float* to) {
+        return {of.places(),
+                {direction[0].data(), direction[1].data(), direction[2].data()},
+                to,
+                {randoms_[0], randoms_[1], randoms_[2], randoms_[3]},
+                of.depth.data(),
+                of.met.data()};
+    }
+
+    void begin(std::size_t i) {
+        const Start& start = starts_[begun_];
+        w_.start[i] = begun_++;
+        seed(start.key, randoms_, i);
+        for (int a = 0; a < 3; ++a) {
+            w_.weight[a][i] = 1;
+            w_.sunlight[a][i] = 0;
+        }
+        w_.absorbed[i] = 0;
+        w_.orders[i] = w_.events[i] = 0;
+        w_.other_light[i] = glm::dvec3(0);
+        const glm::dvec3 q = m_.axes * start.p + m_.shift;
+        w_.path.turn_to(i, m_.axes * start.d);
+        if (start.on_ground)
+            stand_on_ground(i, q);
+        else {
+            for (auto& share : w_.shares) share[i] = 0;
+            w_.in_matter[i] = -1;
+            w_.path.places().set(i, m_, q);
+            w_.path.depth[i] = static_cast<float>(depth_to_sun_at(m_, w_.path.places().at(i)));
+        }
+    }
+
+    // The places before that it has no directions from the sun's side any more: the ground scatters otherwise.
+    void stand_on_ground(std::size_t i, const glm::dvec3& q) {
+        for (auto& share : w_.shares) share[i] = 0;
+        w_.in_matter[i] = 0;
+        w_.on_ground[i] = q;
+    }
+
+    // Cells to the ground ahead, as ground_ahead.
     double ground_from(const glm::dvec3& q, const glm::dvec3& d) const {
-        if (!s.has_ground) return kFar;
-        const double down = -glm::dot(up, d), above = glm::dot(up, q) - ground_height;
+        if (!s_.has_ground) return kFar;
+        const double down = -glm::dot(up_, d), above = glm::dot(up_, q) - ground_height_;
         return down > 0 && above > 0 ? above / down : kFar;
     }
 
-    bool sun_up(const glm::dvec3& q) const {
-        return !(sun_is_below && glm::dot(up, q) > ground_height);
+    // The colours of matter where those flights have ended.
+    void tint(WaveFlights& of) {
+        for (std::size_t i = 0; i < w_.count; ++i) {
+            const glm::dvec3 color = color_in_lattice(m_, of.places().at(i));
+            for (int a = 0; a < 3; ++a) w_.tint[a][i] = static_cast<float>(color[a]);
+        }
     }
 
-    // Chance of drawing directions from the sun at a place of that depth: there is little use of them where it does not
-    // shine. Measured on table 4.4 of Sunar et al. 2005: wider costs more time than it saves noise.
-    static double worth(double depth) {
-        return depth < 6 ? 1.0 : depth > 40 ? 0.0 : std::exp(0.2 * (6 - depth));
+    template <typename Wanted>
+    std::span<const std::uint32_t> those(const Wanted& wanted) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < w_.count; ++i) {
+            which_[count] = static_cast<std::uint32_t>(i);
+            count += wanted(i) ? 1 : 0;
+        }
+        return {which_.data(), count};
     }
 
-    static double mean(const glm::dvec3& weight) { return (weight.x + weight.y + weight.z) / 3; }
+    // Branches towards the sun, and, with detail, whether sunlight reaches what it would light.
+    void sun() {
+        if (lanes_.detail) {
+            shine(w_.path, w_.lit, those([&](std::size_t i) {
+                      return w_.in_matter[i] != 0 && w_.lit[0][i] + w_.lit[1][i] + w_.lit[2][i] > 0;
+                  }));
+        }
+        for (int left = lanes_.from_sun; left > 0; --left) {
+            const auto which = those([&](std::size_t i) { return w_.branch_left[i] >= left; });
+            if (which.empty()) continue;
+            const auto& direction = w_.from_sun[left];
+            if (s_.has_ground)
+                for (const std::uint32_t i : which) {
+                    glm::dvec3 d = three(direction, i);
+                    w_.ground[i] = static_cast<float>(ground_from(w_.branch.places().at(i), d));
+                }
+            fly_all(m_, flights(w_.branch, direction, s_.has_ground ? w_.ground.data() : nullptr),
+                    which);
+            if (lanes_.colored) tint(w_.branch);
+            follow_branches(lanes_, left, w_);
+        }
+        if (lanes_.detail && lanes_.from_sun > 0)
+            shine(w_.branch, w_.branch_weight,
+                  those([&](std::size_t i) { return w_.branch_left[i] > 0; }));
+    }
 
-    // Absorption: first by weight, which costs no noise. From kLight on at random, with the chance that matter or
-    // ground take, so that weights stay where they are: a rarer and heavier path would bring noise in single bright
-    // pixels. False: it was absorbed.
-    bool survives(const glm::dvec3& before, glm::dvec3& after) {
+    // Adds that light of paths whose way from there to the sun is free.
+    void shine(WaveFlights& from, const OfWave<float> (&light)[3],
+               std::span<const std::uint32_t> which) {
+        for (const std::uint32_t i : which) {
+            apart_.places().copy(i, from.places(), i);
+            apart_.turn_to(i, to_sun_);
+        }
+        fly_all(m_, flights(apart_, apart_.direction, nullptr), which);
+        for (const std::uint32_t i : which)
+            if (apart_.met[i] == 0)
+                for (int a = 0; a < 3; ++a) w_.sunlight[a][i] += light[a][i];
+    }
+
+    glm::dvec3 sky_from(const glm::dvec3& d) const { return sky_radiance(s_, d * m_.axes); }
+
+    void sky_by_next_event() {
+        const auto which =
+            those([&](std::size_t i) { return w_.in_matter[i] != 0 && w_.gone[i] == 0; });
+        for (const std::uint32_t i : which) {
+            PathRandom random = random_of(i);
+            const glm::dvec3 d = scattered(s_.phase, w_.path.along(i), random);
+            apart_.places().copy(i, w_.path.places(), i);
+            apart_.turn_to(i, d);
+        }
+        fly_all(m_, flights(apart_, apart_.direction, nullptr), which);
+        for (const std::uint32_t i : which) {
+            const glm::dvec3 d = apart_.along(i);
+            if (apart_.met[i] == 0 && std::isinf(ground_from(w_.path.places().at(i), d)))
+                w_.other_light[i] += three(w_.weight, i) * sky_from(d);
+        }
+    }
+
+    // Puts a flight from the ground to where it comes into the matter's box. False: it does not.
+    bool enters(std::size_t i, const glm::dvec3& d, WaveFlights& of) {
+        if (m_.empty) return false;
+        const glm::dvec3& q = w_.on_ground[i];
+        const BrickWalk box(m_, q, d, 0, kFar);
+        if (!box.inside()) return false;
+        of.places().set(i, m_, q + box.enter() * d);
+        of.turn_to(i, d);
+        return true;
+    }
+
+    // A direction within the sun's disc, even over it; to the sun where those below the ground would be tried for ever.
+    glm::dvec3 in_sun_disc(PathRandom& random) const {
+        for (int draw = 0; draw < 128; ++draw) {
+            const PathRandom::Pair q = random.signed_pair();
+            if (!(q.a * q.a + q.b * q.b < 1)) continue;
+            const glm::dvec3 d =
+                glm::normalize(s_.to_sun + kSunDisc * (q.a * s_.sun_u + q.b * s_.sun_v));
+            if (d.y > 0) return m_.axes * d;
+        }
+        return to_sun_;
+    }
+
+    glm::dvec3 off_ground(PathRandom& random) const {
+        // Lambert's cosine: uniform in the disc, raised to the hemisphere (Malley).
+        for (int draw = 0; draw < 128; ++draw) {
+            const PathRandom::Pair q = random.signed_pair();
+            const double r2 = q.a * q.a + q.b * q.b;
+            if (r2 < 1) return m_.axes * glm::dvec3(q.a, std::sqrt(1 - r2), q.b);
+        }
+        return up_;
+    }
+
+    // As matter absorbs (wave.cpp).
+    bool survives(std::size_t i, const glm::dvec3& before, glm::dvec3& after, PathRandom& random) {
+        constexpr double kLight = 0.3;
         if (after == before) return true;
         const double most = std::max({after.x, after.y, after.z});
         if (most < kLight) {
             const double chance = std::min(most / std::max({before.x, before.y, before.z}), 1.0);
             if (!(random.unit() < chance)) {
-                tally.absorbed += mean(before);
+                w_.absorbed[i] += static_cast<float>(mean(before));
                 return false;
             }
             after /= chance;
         }
-        tally.absorbed += mean(before) - mean(after);
+        w_.absorbed[i] += static_cast<float>(mean(before) - mean(after));
         return true;
     }
 
-    // Directions from the sun's side, from scattering k (ring entry `k`, order `order`) at q, reached along d.
-    void from_sun_side(std::uint32_t k, std::uint32_t order, const glm::dvec3& q,
-                       const glm::dvec3& d, glm::dvec3 weight, double worth_here, int m) {
-        if (order + static_cast<std::uint32_t>(m) > s.max_orders) return;
-        std::array<glm::dvec3, kMaxFromSun + 1> e;
-        // The phase functions are even in the angle: drawn backwards, a direction has the same density.
-        e[0] = to_sun;
-        for (int i = 1; i <= m; ++i)
-            e[static_cast<std::size_t>(i)] =
-                scattered(s.phase, e[static_cast<std::size_t>(i - 1)], random);
-        const auto at = [&](std::uint32_t i) { return i % kRing; };
-        phase[at(k)] = phase_value(s.phase, glm::dot(d, e[static_cast<std::size_t>(m)]));
-        tried[at(k)] = worth_here;
-        Meeting here;
-        here.at = q;
-        for (int i = m; i >= 1; --i) {
-            const glm::dvec3& along = e[static_cast<std::size_t>(i)];
-            if (!fly(matter, here.at, along, ground_from(here.at, along), random, here)) return;
-            weight *= s.albedo;
-            if (matter.colored) weight *= color_in_lattice(matter, here.at);
-            ++k;
-            phase[at(k)] =
-                phase_value(s.phase, glm::dot(along, e[static_cast<std::size_t>(i - 1)]));
-            tried[at(k)] = worth(here.depth);
+    // Light that paths on the ground see in a direction, if no matter stands there.
+    template <typename Contribution>
+    void look_up(const std::vector<std::uint32_t>& from, const Contribution& light) {
+        std::size_t count = 0;
+        for (const std::uint32_t i : from) {
+            const glm::dvec3 d = light.direction(i);
+            apart_.met[i] = 0;
+            apart_.turn_to(i, d);
+            if (enters(i, d, apart_)) which_[count++] = i;
         }
-        if (sun_up(here.at)) add_sun(k, weight, here);
+        fly_all(m_, flights(apart_, apart_.direction, nullptr), {which_.data(), count});
+        for (const std::uint32_t i : from)
+            if (apart_.met[i] == 0) w_.other_light[i] += light.value(i);
     }
 
-    // The path's last scattering is number k, of which phase[k] is the value towards the sun.
-    void add_sun(std::uint32_t k, const glm::dvec3& weight, const Meeting& met) {
-        const double through = sun_through(matter, met, to_sun, random);
-        if (!(through > 0)) return;
-        if (s.from_sun == 0) {
-            radiance += weight * (through * phase[k % kRing] / (4 * pi)) * s.sun_irradiance;
-            return;
+    struct SunOnGround {
+        Walks& w;
+        glm::dvec3 direction(std::size_t i) const {
+            PathRandom random = w.random_of(i);
+            return w.in_sun_disc(random);
         }
-        double sum = 1 / phase[k % kRing];
-        const auto most = std::min(static_cast<std::uint32_t>(s.from_sun), k);
-        for (std::uint32_t m = 1; m <= most; ++m)
-            sum += tried[(k - m) % kRing] / (s.from_sun * phase[(k - m) % kRing]);
-        radiance += weight * (through / (4 * pi * sum)) * s.sun_irradiance;
-    }
-
-    // From the ground, which may lie outside the box, or from matter.
-    bool flies(const glm::dvec3& q, const glm::dvec3& d, bool on_ground, double to, Meeting& met) {
-        double unused;
-        return on_ground ? fly_from(matter, q, d, 0, to, random, met, unused)
-                         : fly(matter, q, d, to, random, met);
-    }
-
-    glm::dvec3 sky_from(const glm::dvec3& d) const { return sky_radiance(s, d * matter.axes); }
-
-    void sky_by_next_event(const glm::dvec3& q, bool on_ground, const glm::dvec3& along,
-                           const glm::dvec3& weight) {
-        Meeting unused;
-        if (std::isinf(ground_from(q, along)) && !flies(q, along, on_ground, kFar, unused))
-            radiance += weight * sky_from(along);
-    }
-
-    // A direction within the sun's disc, even over it; to the sun where those below the ground would be tried for ever.
-    glm::dvec3 in_sun_disc() {
-        for (int draw = 0; draw < 128; ++draw) {
-            const PathRandom::Pair q = random.signed_pair();
-            if (!(q.a * q.a + q.b * q.b < 1)) continue;
-            const glm::dvec3 d =
-                glm::normalize(s.to_sun + kSunDisc * (q.a * s.sun_u + q.b * s.sun_v));
-            if (d.y > 0) return matter.axes * d;
+        glm::dvec3 value(std::size_t i) const {
+            const glm::dvec3 weight = w.three(w.w_.weight, i);
+            const Setting& s = w.s_;
+            return weight * (s.to_sun.y / pi) * s.sun_irradiance;
         }
-        return to_sun;
-    }
-
-    glm::dvec3 off_ground() {
-        // Lambert's cosine: uniform in the disc, raised to the hemisphere (Malley).
-        for (int draw = 0; draw < 128; ++draw) {
-            const PathRandom::Pair q = random.signed_pair();
-            const double r2 = q.a * q.a + q.b * q.b;
-            if (r2 < 1) return matter.axes * glm::dvec3(q.a, std::sqrt(1 - r2), q.b);
+    };
+    struct SkyOnGround {
+        Walks& w;
+        glm::dvec3 direction(std::size_t i) const {
+            PathRandom random = w.random_of(i);
+            return w.off_ground(random);
         }
-        return up;
-    }
-
-    void sun_on_ground(const glm::dvec3& q, const glm::dvec3& weight) {
-        Meeting unused;
-        if (sun_shines && s.to_sun.y > 0 && !flies(q, in_sun_disc(), true, kFar, unused))
-            radiance += weight * (s.to_sun.y / pi) * s.sun_irradiance;
-    }
-
-    // Sunlight at scattering k of the path.
-    void sun_on_matter(std::uint32_t k, std::uint32_t orders, const Meeting& here,
-                       const glm::dvec3& d, const glm::dvec3& weight) {
-        if (sun_up(here.at)) {
-            phase[k % kRing] = phase_value(s.phase, glm::dot(d, to_sun));
-            add_sun(k, weight, here);
+        glm::dvec3 value(std::size_t i) const {
+            return w.three(w.w_.weight, i) * w.sky_from(w.apart_.along(i));
         }
-        if (s.from_sun == 0) return;
-        const double chance = worth(here.depth);
-        if (chance > 0 && random.unit() < chance)
-            from_sun_side(k, orders, here.at, d, weight, chance,
-                          std::min(static_cast<int>(random.unit() * s.from_sun) + 1, s.from_sun));
-        tried[k % kRing] = chance;
+    };
+
+    // Paths on the ground: those that are left have a new direction.
+    void scatter_on_ground() {
+        standing_.clear();
+        for (std::size_t i = 0; i < w_.count; ++i)
+            if (w_.in_matter[i] == 0) standing_.push_back(static_cast<std::uint32_t>(i));
+        if (standing_.empty()) return;
+        for (const std::uint32_t i : standing_) {
+            before_[i] = three(w_.weight, i);
+            set_weight(i, before_[i] * s_.ground_albedo);
+        }
+        if (lanes_.sun_shines && s_.to_sun.y > 0) look_up(standing_, SunOnGround{*this});
+        if (s_.dome.shines && s_.sky == SkySampling::kNextEvent)
+            look_up(standing_, SkyOnGround{*this});
+        for (const std::uint32_t i : standing_) {
+            PathRandom random = random_of(i);
+            glm::dvec3 weight = three(w_.weight, i);
+            w_.gone[i] = survives(i, before_[i], weight, random) ? 0 : -1;
+            set_weight(i, weight);
+            w_.path.turn_to(i, off_ground(random));
+        }
     }
 
-    // here, d: in the lattice.
-    void run(bool on_ground, Meeting here, glm::dvec3 d) {
-        glm::dvec3 weight(1);
-        const bool sky = s.dome.shines;
-        std::uint32_t orders = 0, since_start = 0;
-        for (std::uint32_t event = 0;; ++event) {
-            const glm::dvec3 before = weight;
-            glm::dvec3 on;
-            if (on_ground) {
-                weight *= s.ground_albedo;
-                sun_on_ground(here.at, weight);
-                since_start = 0;
-                if (sky && s.sky == SkySampling::kNextEvent)
-                    sky_by_next_event(here.at, true, off_ground(), weight);
-                if (!survives(before, weight)) return;
-                on = off_ground();
-            } else {
-                ++orders;
-                tally.scatterings += 1;
-                weight *= s.albedo;
-                if (matter.colored) weight *= color_in_lattice(matter, here.at);
-                const std::uint32_t k = since_start++;
-                if (sun_shines) sun_on_matter(k, orders, here, d, weight);
-                if (sky && s.sky == SkySampling::kNextEvent)
-                    sky_by_next_event(here.at, false, scattered(s.phase, d, random), weight);
-                if (!survives(before, weight)) return;
-                on = scattered(s.phase, d, random);
-                if (s.from_sun > 0) phase[k % kRing] = phase_value(s.phase, glm::dot(d, on));
+    void fly_on() {
+        scatter_on_ground();
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < w_.count; ++i) {
+            if (w_.gone[i] != 0) continue;
+            const glm::dvec3 d = w_.path.along(i);
+            w_.path.met[i] = 0;
+            w_.ground[i] = std::numeric_limits<float>::infinity();
+            if (w_.in_matter[i] == 0) {
+                if (!enters(i, d, w_.path)) continue;
+            } else if (s_.has_ground) {
+                w_.ground[i] = static_cast<float>(ground_from(w_.path.places().at(i), d));
             }
-            d = on;
-            const double ground = ground_from(here.at, d);
-            if (flies(here.at, d, on_ground, ground, here)) {
-                on_ground = false;
-            } else if (std::isinf(ground)) {
-                tally.escaped += mean(weight);
-                if (sky && s.sky == SkySampling::kEscape) radiance += weight * sky_from(d);
-                return;
-            } else {
-                here.at += ground * d;
-                here.at += (ground_height - glm::dot(up, here.at)) * up;
-                on_ground = true;
+            which_[count++] = static_cast<std::uint32_t>(i);
+        }
+        fly_all(m_, flights(w_.path, w_.path.direction, s_.has_ground ? w_.ground.data() : nullptr),
+                {which_.data(), count});
+    }
+
+    // After its flight: whether the path is over.
+    bool ends(std::size_t i) {
+        if (w_.gone[i] != 0) return true;
+        const glm::dvec3 weight = three(w_.weight, i);
+        if (w_.path.met[i] != 0) {
+            w_.in_matter[i] = -1;
+        } else if (std::isinf(w_.ground[i])) {
+            tally_.escaped += mean(weight);
+            if (s_.dome.shines && s_.sky == SkySampling::kEscape)
+                w_.other_light[i] += weight * sky_from(w_.path.along(i));
+            return true;
+        } else {
+            glm::dvec3 q =
+                w_.path.places().at(i) + static_cast<double>(w_.ground[i]) * w_.path.along(i);
+            stand_on_ground(i, q + (ground_height_ - glm::dot(up_, q)) * up_);
+        }
+        if ((w_.in_matter[i] != 0 && w_.orders[i] == s_.max_orders) ||
+            w_.events[i]++ == kMaxOrders) {
+            tally_.cut_off += mean(weight);
+            return true;
+        }
+        return false;
+    }
+
+    void settle() {
+        for (std::size_t i = 0; i < w_.count;) {
+            if (!ends(i)) {
+                ++i;
+                continue;
             }
-            if ((!on_ground && orders == s.max_orders) || event == kMaxOrders) {
-                tally.cut_off += mean(weight);
-                return;
-            }
+            tally_.absorbed += static_cast<double>(w_.absorbed[i]);
+            tally_.scatterings += w_.orders[i];
+            brought_[w_.start[i]] = {
+                w_.other_light[i] + three(w_.sunlight, i) * s_.sun_irradiance / (4 * pi),
+                w_.orders[i]};
+            if (begun_ < starts_.size())
+                begin(i++);
+            else
+                replace(i);
         }
     }
+
+    // By the last of the wave.
+    void replace(std::size_t i) {
+        const std::size_t last = --w_.count;
+        const auto move = [&](auto& of) { of[i] = of[last]; };
+        w_.path.places().copy(i, w_.path.places(), last);
+        for (int a = 0; a < 3; ++a) {
+            move(w_.path.direction[a]);
+            move(w_.weight[a]);
+            move(w_.sunlight[a]);
+        }
+        for (auto& word : w_.random) move(word);
+        for (auto& share : w_.shares) move(share);
+        move(w_.path.depth);
+        move(w_.path.met);
+        move(w_.ground);
+        move(w_.absorbed);
+        move(w_.orders);
+        move(w_.in_matter);
+        move(w_.gone);
+        move(w_.other_light);
+        move(w_.on_ground);
+        move(w_.events);
+        move(w_.start);
+    }
+
+    const Setting& s_;
+    const Matter& m_;
+    std::span<const Start> starts_;
+    std::span<Brought> brought_;
+    Tally& tally_;
+    // As the lattice has them.
+    glm::dvec3 to_sun_, up_;
+    double ground_height_;
+    WaveSetting lanes_;
+    std::size_t begun_ = 0;
+    Wave w_;
+    Randoms randoms_{w_.random[0].data(), w_.random[1].data(), w_.random[2].data(),
+                     w_.random[3].data()};
+    // For flights beside the path's.
+    WaveFlights apart_{};
+    OfWave<std::uint32_t> which_{};
+    std::vector<std::uint32_t> standing_;
+    OfWave<glm::dvec3> before_{};
 };
 
 }  // namespace
@@ -295,25 +468,11 @@ Setting setting_of(const Scene& scene, const Matter& matter, const TruthOptions&
     return s;
 }
 
-glm::dvec3 walk_from_matter(const Setting& setting, const glm::dvec3& p, const glm::dvec3& d,
-                            PathRandom& random, Tally& tally) {
-    Walk walk(setting, random, tally);
-    const Matter& m = *setting.matter;
-    Meeting here;
-    here.at = m.axes * p + m.shift;
-    here.depth = depth_to_sun_at(m, here.at);
-    walk.run(false, here, m.axes * d);
-    return walk.radiance;
-}
-
-glm::dvec3 walk_from_ground(const Setting& setting, const glm::dvec3& p, PathRandom& random,
-                            Tally& tally) {
-    Walk walk(setting, random, tally);
-    const Matter& m = *setting.matter;
-    Meeting here;
-    here.at = m.axes * p + m.shift;
-    walk.run(true, here, -(m.axes * glm::dvec3(0, 1, 0)));
-    return walk.radiance;
+bool walk(const Setting& setting, std::span<const Start> starts, std::span<Brought> brought,
+          Tally& tally, const std::function<bool()>& over) {
+    // Too large for a stack.
+    const auto walks = std::make_unique<Walks>(setting, starts, brought, tally);
+    return walks->run(over);
 }
 
 }  // namespace awan::truth

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <span>
 
 #include "core/scene/outside.h"
-#include "core/truth/flight.h"
 #include "core/truth/matter.h"
 #include "core/truth/path_random.h"
 #include "core/truth/path_tracer.h"
@@ -38,24 +39,16 @@ Setting setting_of(const Scene& scene, const Matter& matter, const TruthOptions&
 // How many directions from the sun's side are worth their time.
 int worthwhile_from_sun(double g);
 
-// What became of a path, for laws that tests hold it to. Weights, mean over r g b.
+// What became of paths, for laws that tests hold them to. Weights, mean over r g b.
 struct Tally {
     double scatterings = 0;
-    // Cut off: by max_orders or kMaxTentative.
+    // Cut off: by max_orders or kMaxOrders.
     double absorbed = 0, escaped = 0, cut_off = 0;
 };
 
 // The sky's radiance from a direction (unit). A gradient, by a second opinion on core/shaders/sky.glsl: zenith and
 // horizon mixed by 1.09 u^2 / (u^2 + .09), u the sine of its elevation; the horizon's colour below it.
 glm::dvec3 sky_radiance(const Setting& setting, const glm::dvec3& direction);
-
-struct Flight {
-    bool collided = false;
-    double t = 0;  // cells from o, when it did
-};
-// One free flight along o + t d, t in (from, to); d unit. Unbiased. `to` may be infinite.
-Flight free_flight(const Matter& matter, const glm::dvec3& o, const glm::dvec3& d, double from,
-                   double to, PathRandom& random);
 
 // t of the ground ahead, infinite when there is none: it is there from above only.
 inline double ground_ahead(const Setting& setting, const glm::dvec3& o, const glm::dvec3& d) {
@@ -64,13 +57,23 @@ inline double ground_ahead(const Setting& setting, const glm::dvec3& o, const gl
     return (setting.ground_height - o.y) / d.y;
 }
 
-// Radiance that a path brings back which meets matter at p, coming along d (the way the path goes, away
-// from the eye).
-glm::dvec3 walk_from_matter(const Setting& setting, const glm::dvec3& p, const glm::dvec3& d,
-                            PathRandom& random, Tally& tally);
+// Where a path begins: it has met matter at p, or the ground, coming along d (the way the path goes, away from the eye;
+// of no account on the ground). key: of its random numbers.
+struct Start {
+    glm::dvec3 p, d{0, -1, 0};
+    std::uint64_t key = 0;
+    bool on_ground = false;
+};
 
-// The same for a path that meets the ground at p.
-glm::dvec3 walk_from_ground(const Setting& setting, const glm::dvec3& p, PathRandom& random,
-                            Tally& tally);
+// What a path brings back.
+struct Brought {
+    glm::dvec3 radiance{0};
+    std::uint32_t scatterings = 0;
+};
+
+// Walks a path from every start; brought: as many. A path's light depends on its start and key alone. over: asked now
+// and then, ends everything when true. False: it was.
+bool walk(const Setting& setting, std::span<const Start> starts, std::span<Brought> brought,
+          Tally& tally, const std::function<bool()>& over);
 
 }  // namespace awan::truth
