@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "core/base/parallel.h"
 #include "core/scene/limits.h"
@@ -57,19 +58,20 @@ LatticeField lattice_over(const ImplicitField& field, std::uint64_t resolution) 
     if (box.empty()) return lattice;
     const glm::dvec3 size = box.max - box.min;
     const double longest = std::max({size.x, size.y, size.z});
-    // In units of the longest side, so that the product of three can be formed whatever they are.
-    const glm::dvec3 shape = size / longest;
-    const double least =
-        std::cbrt(shape.x * shape.y * shape.z / static_cast<double>(limits::kMaxImplicitCells));
-    lattice.cell = std::clamp(longest * std::max(1 / static_cast<double>(resolution), least),
-                              limits::kMinRadius / (2 * kLatticeS) * 1.001,
-                              limits::kMaxRadius / (2 * kLatticeS) * 0.999);
-    const auto cells = [&](double length) {
+    const auto counts = [&](double cell) {
         // A longest side of exactly so many cells must not become one more by rounding.
-        const double count = std::ceil(length / lattice.cell - 1e-6);
-        return static_cast<int>(std::clamp(count, 1.0, static_cast<double>(resolution)));
+        const glm::dvec3 n = glm::ceil(size / cell - 1e-6);
+        return glm::clamp(n, 1.0, static_cast<double>(resolution));
     };
-    lattice.nx = cells(size.x), lattice.ny = cells(size.y), lattice.nz = cells(size.z);
+    lattice.cell = longest / static_cast<double>(resolution);
+    glm::dvec3 n = counts(lattice.cell);
+    while (n.x * n.y * n.z > static_cast<double>(limits::kMaxImplicitCells))
+        lattice.cell *= 1.01, n = counts(lattice.cell);
+    lattice.cell = std::clamp(lattice.cell, limits::kMinRadius / (2 * kLatticeS) * 1.001,
+                              limits::kMaxRadius / (2 * kLatticeS) * 0.999);
+    n = counts(lattice.cell);
+    lattice.nx = static_cast<int>(n.x), lattice.ny = static_cast<int>(n.y);
+    lattice.nz = static_cast<int>(n.z);
     lattice.origin =
         (box.min + box.max) / 2.0 -
         lattice.cell * 0.5 * glm::dvec3(lattice.nx - 1, lattice.ny - 1, lattice.nz - 1);

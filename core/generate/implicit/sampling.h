@@ -25,7 +25,7 @@ Status sample(const ImplicitField& field, int threads, const Deadline& deadline,
 void take_means(const LatticeField& fine, int threads, LatticeField& lattice);
 
 // What pictures of the Gaussians that lattice_particles() makes of `lattice`, sharpened, are wrong by, root mean square
-// over root mean square, estimated from what they lose of `fine`. density: extinction of the value 1, 1/unit.
+// over mean, estimated from what they lose of `fine`. density: extinction of the value 1, 1/unit.
 double sampling_error(const LatticeField& lattice, const LatticeField& fine, double density);
 
 }  // namespace awan::implicit
