@@ -101,7 +101,7 @@ double sampling_error(const LatticeField& lattice, const LatticeField& fine, dou
         // Lines of 5% of the largest opacity are cloud, as pixels are (core/accuracy/error_measures.h).
         const double most = -std::expm1(-*std::max_element(exact[axis].begin(), exact[axis].end()));
         for (std::size_t i = 0; i < exact[axis].size(); ++i) {
-            // By the library's exponential: the error is a figure for people, so its last bit does not matter.
+            // By the library's exponential: a figure for people, whose last bit does not matter.
             const double opacity = -std::expm1(-exact[axis][i]);
             if (!(opacity > 0) || opacity < 0.05 * most) continue;
             const double off = -std::expm1(-cells[axis][i]) - opacity;

@@ -8,8 +8,8 @@
 namespace awan::spheres {
 namespace {
 
-// The area that a Gaussian of this depth through its middle covers, over 2 pi s^2: the integral of (1 - e^-t) / t over t
-// from 0 to the depth. Simpson's rule in the logarithm, within 1e-4.
+// The area that a Gaussian of this depth through its middle covers, over 2 pi s^2: the integral of (1 - e^-t) / t from
+// t = 0 to the depth. Simpson's rule in the logarithm, within 1e-4.
 double covered(double depth) {
     constexpr int kSteps = 64;
     constexpr double kFrom = 1e-6;
