@@ -15,9 +15,9 @@ LatticeField lattice_over(const ImplicitField& field, std::uint64_t resolution);
 // The same place with cells half as large, each an eighth of one.
 LatticeField finer(const LatticeField& lattice);
 
-// Fills in the values, by the field at the middles of cells. where: of which the lattice is finer(); what has no density
-// there, nor near it, is left at 0 and not looked at. Null: all is. The same for every number of threads. Errors:
-// kOverDeadline, kCancelled.
+// Fills in the values, by the field at the middles of cells. where: of which the lattice is finer(); what has no
+// density there, nor near it, is left at 0 and not looked at. Null: all is. The same for every number of threads.
+// Errors: kOverDeadline, kCancelled.
 Status sample(const ImplicitField& field, int threads, const Deadline& deadline,
               LatticeField& lattice, const LatticeField* where = nullptr);
 

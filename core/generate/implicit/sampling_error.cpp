@@ -81,8 +81,8 @@ std::array<std::vector<double>, 3> slanted_depths(const LatticeField& lattice,
 }  // namespace
 
 // A picture of the opacities is what shows most of what is lost: silhouettes, and of thin clouds all. Against lit
-// pictures of clouds three times as fine, of five kinds, thin and deep, 40 cells long, this is 1.4 times what is measured
-// in the middle and .6 to 2.7 in all (implicit_particles_test).
+// pictures of clouds three times as fine, of five kinds, thin and deep, 40 cells long, this is 1.4 times what is
+// measured in the middle and .6 to 2.7 in all (implicit_particles_test).
 double sampling_error(const LatticeField& lattice, const LatticeField& fine, double density) {
     std::vector<float> made(lattice.values.size());
     for (int k = 0; k < lattice.nz; ++k)
