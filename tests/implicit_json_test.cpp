@@ -148,8 +148,8 @@ TEST(ImplicitJson, EveryRangeIsQuoted) {
     refuse(R"("ripple_depth": 2)", "/ripple_depth");
     refuse(R"("ripple_turbulence": 101)", "/ripple_turbulence");
     refuse(R"("swirl": 1001)", "/swirl");
-    refuse(R"("resolution": 15)", "/resolution", {"16", "160"});
-    refuse(R"("resolution": 161)", "/resolution");
+    refuse(R"("resolution": 15)", "/resolution", {"16", "400"});
+    refuse(R"("resolution": 401)", "/resolution");
     refuse(R"("threshold": 0.6)", "/threshold");
     refuse(R"("base": 1e7)", "/base");
     refuse(R"("attractors": [{"strength": -1, "reach": 1}])", "/attractors/0/strength", {"-0.9"});

@@ -125,9 +125,7 @@ TEST(SpheresCut, PicturesAreAsNearAsStated) {
             const double off = difference(seen(cut), seen(whole));
             std::printf("cut at %zu of 15625: stated %.4f, measured %.4f\n",
                         cut.particles.positions.size(), cut.error, off);
-            // What the formula does not cover (spheres.cpp): a flat cloud, nearly all of it below a pixel.
-            const bool flat_and_far = &cloud != &clouds[0] && distance > 2000;
-            EXPECT_LE(off, flat_and_far ? 0.11 : cut.error) << distance;
+            EXPECT_LE(off, cut.error) << distance;
         }
 }
 

@@ -28,24 +28,13 @@ class Cells {
             for (int i = 0; i < field_.nx; ++i) {
                 const float plain = field_.values[field_.index(i, j, k)];
                 if (!(plain > options_.threshold)) continue;
-                const double value = options_.sharpen ? sharpened(i, j, k, plain) : double{plain};
+                const double value =
+                    options_.sharpen ? sharpened_at(field_, i, j, k) : double{plain};
                 if (value > 0) keep(i, j, value);
             }
     }
 
   private:
-    double at(int i, int j, int k) const {
-        const bool inside =
-            i >= 0 && j >= 0 && k >= 0 && i < field_.nx && j < field_.ny && k < field_.nz;
-        return inside ? static_cast<double>(field_.values[field_.index(i, j, k)]) : 0.0;
-    }
-    double sharpened(int i, int j, int k, double plain) const {
-        const double around =
-            ((at(i - 1, j, k) + at(i + 1, j, k)) + (at(i, j - 1, k) + at(i, j + 1, k))) +
-            (at(i, j, k - 1) + at(i, j, k + 1));
-        return plain - kLatticeS * kLatticeS / 2 * (around - 6 * plain);
-    }
-
     const LatticeField& field_;
     const LatticeOptions& options_;
 };
@@ -59,6 +48,19 @@ double layer_sum(const LatticeField& field, int k) {
 }
 
 }  // namespace
+
+double sharpened_at(const LatticeField& field, int i, int j, int k) {
+    const auto at = [&](int x, int y, int z) {
+        const bool inside =
+            x >= 0 && y >= 0 && z >= 0 && x < field.nx && y < field.ny && z < field.nz;
+        return inside ? static_cast<double>(field.values[field.index(x, y, z)]) : 0.0;
+    };
+    const double around =
+        ((at(i - 1, j, k) + at(i + 1, j, k)) + (at(i, j - 1, k) + at(i, j + 1, k))) +
+        (at(i, j, k - 1) + at(i, j, k + 1));
+    const double plain = at(i, j, k);
+    return plain - kLatticeS * kLatticeS / 2 * (around - 6 * plain);
+}
 
 double lattice_mass(const LatticeField& field) {
     double sum = 0;

@@ -43,6 +43,9 @@ struct LatticeOptions {
     bool sharpen = false;
 };
 
+// f - (s^2 / 2) laplace(f) at a cell, which may be < 0; s in cells.
+double sharpened_at(const LatticeField& field, int i, int j, int k);
+
 // Particles in the order of the samples, one for each cell that stays; their radii are 2 s = 1.3 cells, as float32.
 // The integral of the Gaussians is that of the field, lattice_mass(), but for the rounding of floats (relative 1e-7),
 // unless every cell is left out. The same for every number of threads (>= 1).

@@ -32,7 +32,7 @@ ImplicitCloud spelled_out(const ImplicitCloud& cloud) {
 
 std::uint64_t most_particles(const ImplicitCloud& cloud) {
     const std::uint64_t n = std::min(cloud.resolution, limits::kMaxImplicitResolution);
-    return n * n * n;
+    return std::min(n * n * n, limits::kMaxImplicitCells);
 }
 
 }  // namespace awan

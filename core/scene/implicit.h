@@ -599,9 +599,11 @@ inline constexpr Field kImplicitFields[] = {
                                    .says = "A particle system whose particles are primitives."}),
     field<&ImplicitCloud::resolution>(
         {.name = "resolution",
-         .wanted = "an integer from 16 to 160 (cells along the longest side)",
+         .wanted = "an integer from 16 to 400 (cells along the longest side)",
          .counts = count_from_to(limits::kMinImplicitResolution, limits::kMaxImplicitResolution),
-         .says = "Cells along the longest side; each with any density becomes a particle."}),
+         .says = "Cells along the longest side; each with any density becomes a particle. Never "
+                 "more than 160^3 in "
+                 "all."}),
     field<&ImplicitCloud::threshold>({.name = "threshold",
                                       .wanted = "a number from 0 to 0.5 (of the largest density)",
                                       .range = from_to(0, 0.5),

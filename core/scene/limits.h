@@ -54,9 +54,11 @@ inline constexpr std::uint64_t kMaxImplicitKeys = 1'000;
 inline constexpr std::uint64_t kMaxImplicitWarps = 64;
 // Vectors in a table of flow, 16^3. Such a table is drawn by hand, or thinned from a simulation.
 inline constexpr std::uint64_t kMaxFlowVectors = 4'096;
-// Cells along the longest side of the lattice. 160^3 cells, all full, are 4,096,000 particles: just within
-// kMaxParticles. Under 16 nothing is left of a shape.
-inline constexpr std::uint64_t kMinImplicitResolution = 16, kMaxImplicitResolution = 160;
+// Cells along the longest side of the lattice: under 16 nothing is left of a shape, over 400 they are finer than
+// pixels. And cells in all, which a lattice over flat clouds only keeps to: 160^3 cells, all full, are just within
+// kMaxParticles.
+inline constexpr std::uint64_t kMinImplicitResolution = 16, kMaxImplicitResolution = 400;
+inline constexpr std::uint64_t kMaxImplicitCells = 4'096'000;
 // |coordinate| and radii of primitives, scene units. With these and the limits on warps and resolution, a particle's
 // radius stays within kMinRadius and kMaxRadius.
 inline constexpr double kMaxImplicitCoordinate = 1e6;

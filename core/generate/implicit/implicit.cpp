@@ -14,17 +14,18 @@ Result<ModelParticles> make_particles(const ImplicitCloud& cloud, const ModelReq
         request.coarse ? limits::kMinImplicitResolution : cloud.resolution;
     ModelParticles made;
     ImplicitField field = prepare_field(cloud, request.key, request.time);
-    LatticeField lattice = lattice_over(field, resolution), half = coarser(lattice);
+    LatticeField lattice = lattice_over(field, resolution);
     if (lattice.nx == 0) return made;
-    const auto fill = [&](LatticeField& one) {
-        limit_octaves(cloud, request.key, request.time, one.cell, field);
-        return sample(field, request.threads, deadline, one);
-    };
-    if (Status late = fill(lattice)) return *late;
+    limit_octaves(cloud, request.key, request.time, lattice.cell, field);
+    if (Status late = sample(field, request.threads, deadline, lattice)) return *late;
     if (!request.coarse) {
-        if (Status late = fill(half)) return *late;
-        limit_octaves(cloud, request.key, request.time, lattice.cell, field);
-        made.error = sampling_error(lattice, half, field);
+        // A particle has the mean over its cell, with octaves that the cell itself cannot show: density is far from
+        // linear in turbulence, so its value where turbulence is smooth is not its mean.
+        LatticeField fine = finer(lattice);
+        limit_octaves(cloud, request.key, request.time, fine.cell, field);
+        if (Status late = sample(field, request.threads, deadline, fine, &lattice)) return *late;
+        take_means(fine, request.threads, lattice);
+        made.error = sampling_error(lattice, fine, request.density);
     }
     const float largest = *std::max_element(lattice.values.begin(), lattice.values.end());
     LatticeOptions options;

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/base/deadline.h"
+#include "core/generate/spheres/cluster.h"
 #include "core/generate/spheres/subdivision.h"
 
 namespace awan::spheres {
@@ -33,5 +35,11 @@ struct SphereCut {
 Result<SphereCut> choose_cut(const SphereTree& tree, const std::optional<glm::dvec3>& eye,
                              double pixel_angle, std::uint64_t most, int threads,
                              const Deadline& deadline);
+
+// What a sphere's leaves hide less than the one Gaussian that stands for them, over what that hides: matter in lumps
+// leaves gaps. moments: cluster_moments() of the tree; radius: of the sphere; below: levels below it, >= 1; sigma: the
+// leaves' extinction, 1/unit. 0..1.
+double lost_in_lumps(const SphereTree& tree, const std::vector<ClusterMoments>& moments,
+                     double radius, int below, double sigma);
 
 }  // namespace awan::spheres
