@@ -4,8 +4,13 @@
 // independently of each other may be widened for that, their area kept (survey/narrow.h). Those of one cloud do not:
 // they are all where the cloud is, behind and beside each other, and a cloud of many that is drawn as if they were
 // spread over a pixel hides much more of it than the cloud covers. So the rectangle in which there is such matter is
-// drawn on pixels that divide the picture's, fine enough for the particles' own size, and averaged. Where that is more
-// work than is allowed, the pixels are as fine as it allows, and what is narrower still is widened there.
+// drawn on pixels that divide the picture's, fine enough for the particles' own size, and averaged. Then alpha is
+// within 1% of the exact mean at any distance (sub_pixel_test).
+//
+// Where that is more work than is allowed, the pixels are as fine as it allows, and what is narrower still is widened
+// there, as if it stood independently within them. That holds for particles that are strewn evenly: a picture full of
+// them, a twelfth of a pixel wide, has its alpha within .1% in the mean. It fails for clumps far below a pixel that are
+// strewn over a whole picture: of 1,500, each of 60 dense particles, 200 x 150 pixels show 1.9 times too much.
 #pragma once
 
 #include "core/base/image.h"
