@@ -202,6 +202,9 @@ TEST(SubPixelSplats, TheEdgeOfAPictureIsAsFineAsItsMiddle) {
     draft.camera.eye = {0, 0, distance};
     const double sum = sums_of(test::render(draft).image, pixel).alpha;
     const ParticleSet particles = plan_scene(test::valid(draft), 1, {})->particles;
+    // By the other program, too, which counts the half line before the eye.
+    test::effect(draft, Effect::kInterior) = Switch::kOn;
+    EXPECT_NEAR(sums_of(test::render(draft).image, pixel).alpha / sum, 1, 1e-3);
     // Rays around the line to the cloud, and the area of the image plane that their solid angle is.
     const glm::dvec3 to_cloud(aside, -0.7 * aside, -distance);
     const SideAxes side = side_axes(glm::normalize(to_cloud));
