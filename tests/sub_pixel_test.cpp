@@ -132,6 +132,105 @@ TEST(SubPixel, ManyAreStillSeen) {
     }
 }
 
+// By splats. A view that is narrower than a scene may ask for is taken from nearer.
+Sums splat_sums(const std::vector<Ball>& list, double distance, double pixel, int pixels,
+                const char* rung = "harris") {
+    distance = std::min(distance, 5000 * pixel * pixels);
+    SceneDraft draft = test::balls(list);
+    draft.accuracy.rung = rung;
+    draft.image.background = Background::kTransparent;
+    draft.image.width = draft.image.height = pixels;
+    draft.camera.eye = {0, 0, distance};
+    draft.camera.target = pixel * glm::dvec3(0.13, 0.37, 0);
+    draft.camera.fov = 2 * 180 / std::numbers::pi * std::atan(0.5 * pixel * pixels / distance);
+    return sums_of(test::render(draft).image, pixel);
+}
+
+TEST(SubPixelSplats, OneParticleCoversItsArea) {
+    for (const double density : {0.01, 1.0, 30.0, 1e5})
+        for (const double pixel : {0.26, 0.52, 0.91, 1.56, 2.6, 20.0, 300.0, 6.5e3}) {
+            const double s = 0.325;
+            const double exact = 2 * std::numbers::pi * s * s *
+                                 covered_area(density * s * std::sqrt(2 * std::numbers::pi));
+            const int pixels = std::max(12, static_cast<int>(6 / pixel));
+            const Sums sums = splat_sums({{{0, 0, 0}, 2 * s, density}}, 1e5, pixel, pixels);
+            EXPECT_NEAR(sums.alpha / exact, 1, 0.02) << density << " " << pixel;
+        }
+}
+
+// Heaps of 600, thin to dense, out to pixels of 10,000 radii.
+TEST(SubPixelSplats, HeapsAreTheSameFromAnyDistance) {
+    for (const double density : {0.003, 0.3, 30.0}) {
+        const auto list = cloud_of(600, density);
+        const double exact = exact_area(list, 1e5, 0.1);
+        const double radius = 0.65;
+        for (const double radii : {0.4, 0.8, 1.4, 2.4, 4.0, 15.0, 80.0, 5e3, 1e4}) {
+            const double pixel = radii * radius;
+            const int pixels = pixel < 5 ? static_cast<int>(25 / pixel) : 8;
+            for (const char* rung : {"harris", "additive"}) {
+                const Sums sums = splat_sums(list, 1e5, pixel, pixels, rung);
+                EXPECT_NEAR(sums.alpha / exact, 1, 0.01) << rung << " " << density << " " << radii;
+            }
+        }
+    }
+}
+
+// Denser and finer, against paths.
+TEST(SubPixelSplats, ManySmallOnesAreAsTruthSeesThem) {
+    const auto list = cloud_of(20'000, 8);
+    for (const double pixel : {0.5, 3.0, 40.0}) {
+        const int pixels = pixel < 5 ? static_cast<int>(24 / pixel) : 8;
+        const test::Stage stage = far_stage(list, 1e5, pixel, pixels);
+        TruthOptions options;
+        options.samples = 2;
+        options.whole_pixels = true;
+        const auto truth = trace_truth(stage.scene, stage.particles, stage.view, options, {}, {});
+        ASSERT_TRUE(truth.ok());
+        const Sums sums = splat_sums(list, 1e5, pixel, pixels);
+        EXPECT_NEAR(sums.alpha / sums_of(truth->half_a, pixel).alpha, 1, 0.02) << pixel;
+    }
+}
+
+// Away from the picture's middle, where single floats do not tell a cloud's particles from each other.
+TEST(SubPixelSplats, TheEdgeOfAPictureIsAsFineAsItsMiddle) {
+    const double pixel = 6500, distance = 100 * pixel / (2 * std::tan(20 * std::numbers::pi / 180));
+    const double aside = 40.3 * pixel;
+    const auto list = cloud_of(600, 3, {aside, -0.7 * aside, 0});
+    SceneDraft draft = test::balls(list);
+    draft.image.background = Background::kTransparent;
+    draft.image.width = draft.image.height = 100;
+    draft.camera.eye = {0, 0, distance};
+    const double sum = sums_of(test::render(draft).image, pixel).alpha;
+    const ParticleSet particles = plan_scene(test::valid(draft), 1, {})->particles;
+    // By the other program, too, which counts the half line before the eye.
+    test::effect(draft, Effect::kInterior) = Switch::kOn;
+    EXPECT_NEAR(sums_of(test::render(draft).image, pixel).alpha / sum, 1, 1e-3);
+    // Rays around the line to the cloud, and the area of the image plane that their solid angle is.
+    const glm::dvec3 to_cloud(aside, -0.7 * aside, -distance);
+    const SideAxes side = side_axes(glm::normalize(to_cloud));
+    double solid = 0;
+    const double gap = 0.1, far = glm::length(to_cloud);
+    for (double y = -1.2 * kSize; y < 1.2 * kSize; y += gap)
+        for (double x = -1.2 * kSize; x < 1.2 * kSize; x += gap) {
+            const glm::dvec3 d = glm::normalize(to_cloud + x * side.u + y * side.v);
+            const double depth = test::line_depth(particles, {0, 0, distance}, d);
+            solid -= std::expm1(-depth) * gap * gap / (far * far);
+        }
+    const double cosine = distance / far;
+    EXPECT_NEAR(sum / (solid * distance * distance / (cosine * cosine * cosine)), 1, 0.01);
+}
+
+// A wide ball of optical depth 1 before a cloud within a pixel.
+TEST(SubPixelSplats, NearMatterHidesWhatIsFar) {
+    auto list = cloud_of(200, 3);
+    const double alone = splat_sums(list, 1e5, 100, 4).alpha;
+    const Ball ball{{0, 0, 99'000}, 200, 1 / (100 * std::sqrt(2 * std::numbers::pi))};
+    list.push_back(ball);
+    const double both = splat_sums(list, 1e5, 100, 4).alpha;
+    const double before = splat_sums({ball}, 1e5, 100, 4).alpha;
+    EXPECT_NEAR((both - before) / alone, std::exp(-1.0), 0.01);
+}
+
 // Clouds far below a pixel in one picture with a ball that is not.
 TEST(SubPixel, NearMatterHidesWhatIsFar) {
     auto list = cloud_of(200, 3, {0, 0, 1000});

@@ -7,7 +7,7 @@
 
 #include "core/draw/air_image.h"
 #include "core/draw/backdrop.h"
-#include "core/draw/splats.h"
+#include "core/draw/splat_parts.h"
 #include "core/gl/programs.h"
 #include "core/light/sun_depth.h"
 #include "core/scene/outside.h"
@@ -20,7 +20,19 @@ constexpr std::uint64_t kMaxEntries = 1u << 20;
 constexpr int kShadowCells = 32;  // along the clouds' longest side, of their shadows in haze
 constexpr std::uint64_t kMaxTiles = 1u << 14;  // 4 Mi pixels, 64 MiB of them in GL at a time
 
-void set_uniforms(const Scene& scene, const View& view, const Plan& plan) {
+// What is the same for the picture and its finer parts.
+struct Drawing {
+    const Scene& scene;
+    const Plan& plan;
+    const SplatSetting& splats;
+    Device& device;
+    const Deadline& deadline;
+    bool sky;  // the program draws the sky behind
+};
+
+void set_uniforms(const Drawing& drawing, const SplatWindow& window) {
+    const Scene& scene = drawing.scene;
+    const View& view = drawing.splats.view;
     const auto set3 = [](GLint location, glm::dvec3 v) {
         const glm::vec3 f(v);
         glUniform3f(location, f.x, f.y, f.z);
@@ -29,9 +41,9 @@ void set_uniforms(const Scene& scene, const View& view, const Plan& plan) {
         return glm::normalize(
             glm::dvec3(glm::dot(v, view.right), glm::dot(v, view.up), glm::dot(v, view.forward)));
     };
-    glUniform2i(1, scene->image.width, scene->image.height);
-    glUniform2f(2, static_cast<float>(view.tan_half_fov * view.aspect),
-                static_cast<float>(view.tan_half_fov));
+    glUniform2i(1, window.width, window.height);
+    glUniform2f(2, static_cast<float>(window.tangent.x), static_cast<float>(window.tangent.y));
+    glUniform2f(12, static_cast<float>(window.middle.x), static_cast<float>(window.middle.y));
     const Outside outside = outside_of(scene);
     set3(3, in_frame(outside.to_sun));
     set3(4, in_frame({0, 1, 0}));
@@ -40,8 +52,8 @@ void set_uniforms(const Scene& scene, const View& view, const Plan& plan) {
     set3(6, outside.sky.horizon);
     glUniform1f(7, static_cast<float>(scene->medium.g));
     glUniform1i(8, scene->medium.phase == PhaseFunction::kCornetteShanks ? 1 : 0);
-    glUniform1i(9, plan.on(Effect::kViewExtinction) ? 1 : 0);
-    glUniform1i(10, scene->image.background == Background::kSky ? 1 : 0);
+    glUniform1i(9, drawing.splats.sorted ? 1 : 0);
+    glUniform1i(10, drawing.sky ? 1 : 0);
 }
 
 // Takes a region's pixels from GL. `spare` is room for those regions that do not fit the picture's rows.
@@ -105,6 +117,51 @@ Status draw_region(const gl::TileRegion& region, const Deadline& deadline,
     return gl::gl_status("the eye pass");
 }
 
+// Draws the given particles on a window's pixels.
+Result<Image> draw_splats(const Drawing& drawing, const SplatWindow& window,
+                          std::span<const std::uint32_t> order) {
+    Image image{
+        window.width, window.height, drawing.scene->image.background == Background::kSky, {}};
+    image.pixels.resize(4 * image.pixel_count());
+    const SplatList list = make_splats(drawing.splats, window, order);
+    const gl::TexelBuffer splats{std::span<const Splat>(list.splats)};
+    const Device::Programs& programs = drawing.device.programs();
+    // A deep particle reaches farther than the 4 s within which the plan takes the eye to be inside: one behind the eye
+    // would be seen in front of it.
+    const bool half_lines =
+        drawing.plan.on(Effect::kInterior) ||
+        (list.reaches_eye &&
+         drawing.scene->effects[static_cast<int>(Effect::kInterior)] != Switch::kOff);
+    (half_lines ? programs.splat_interior : programs.splat).use();
+    set_uniforms(drawing, window);
+    std::vector<float> spare;
+    const auto status = gl::for_each_region(
+        list.tiles, (image.width + kTileWidth - 1) / kTileWidth,
+        (image.height + kTileHeight - 1) / kTileHeight, 1, kMaxEntries, kMaxTiles, drawing.deadline,
+        [&](const gl::TileRegion& region) -> Status {
+            splats.bind(0);
+            return draw_region(region, drawing.deadline, spare, image);
+        });
+    if (status) return *status;
+    return image;
+}
+
+// Draws a window, those parts of it on finer pixels that have matter below its own.
+Result<Image> draw_window(const Drawing& drawing, const SplatWindow& window,
+                          std::vector<std::uint32_t> order, const SplatBudget& budget) {
+    SplatParts divided =
+        divide(drawing.splats.particles, drawing.splats.view, window, std::move(order), budget);
+    auto image = draw_splats(drawing, window, divided.rest);
+    if (!image.ok()) return image;
+    for (SplatPart& part : divided.parts) {
+        auto fine =
+            draw_window(drawing, window_of(part, window), std::move(part.order), part.left_over);
+        if (!fine.ok()) return fine;
+        put_mean(*fine, part, *image);
+    }
+    return image;
+}
+
 // Puts what stands behind the clouds under them: through the haze, or as it is.
 void put_behind(const Scene& scene, const View& view, const GroundLight& ground, const Air* air,
                 EffectTimes& took, Image& image) {
@@ -125,37 +182,22 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
                    const Plan& plan, const Lighting& lighting, Device& device,
                    const Deadline& deadline, EffectTimes* times) {
     EffectTimes took;
-    Image image{
-        scene->image.width, scene->image.height, scene->image.background == Background::kSky, {}};
-    image.pixels.resize(4 * image.pixel_count());
     const std::optional<Air> air = air_of(scene, particles, view, plan, took);
     const Air* const haze = air ? &*air : nullptr;
-    const SplatList list = make_splats(scene, particles, view, plan, lighting, haze);
-    const gl::TexelBuffer splats{std::span<const Splat>(list.splats)};
-
-    const Device::Programs& programs = device.programs();
-    // A deep particle reaches farther than the 4 s within which the plan takes the eye to be inside: one behind the eye
-    // would be seen in front of it.
-    const bool half_lines =
-        plan.on(Effect::kInterior) ||
-        (list.reaches_eye && scene->effects[static_cast<int>(Effect::kInterior)] != Switch::kOff);
-    (half_lines ? programs.splat_interior : programs.splat).use();
-    set_uniforms(scene, view, plan);
+    const SplatSetting splats = splat_setting(scene, particles, view, plan, lighting, haze);
+    const bool opaque = scene->image.background == Background::kSky;
     // The program draws no sky where something else is put behind the clouds below.
-    const bool backdrop = image.opaque && wants_backdrop(scene, view);
-    if (backdrop || haze != nullptr) glUniform1i(10, 0);
-    std::vector<float> spare;
-    const auto status =
-        gl::for_each_region(list.tiles, (image.width + kTileWidth - 1) / kTileWidth,
-                            (image.height + kTileHeight - 1) / kTileHeight, 1, kMaxEntries,
-                            kMaxTiles, deadline, [&](const gl::TileRegion& region) -> Status {
-                                splats.bind(0);
-                                return draw_region(region, deadline, spare, image);
-                            });
-    if (status) return *status;
+    const bool backdrop = opaque && wants_backdrop(scene, view);
+    const Drawing drawing{scene,  plan,     splats,
+                          device, deadline, opaque && !backdrop && haze == nullptr};
+    auto drawn = draw_window(drawing, whole_picture(view, scene->image),
+                             drawing_order(scene, particles, view, plan),
+                             splat_budget(scene->image, particles.size()));
+    if (!drawn.ok()) return drawn;
+    Image& image = *drawn;
     if (backdrop || haze != nullptr) put_behind(scene, view, lighting.ground, haze, took, image);
     if (times != nullptr) times->add(took);
-    return image;
+    return drawn;
 }
 
 }  // namespace awan

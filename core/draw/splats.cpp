@@ -22,14 +22,6 @@ namespace {
 constexpr double kMinReach = 3.5;
 constexpr double kFaintDepth = 5e-4;  // optical depth at which a particle is cut
 
-// Radiance that a white, opaque particle in full light scatters, by where the light comes from.
-struct LightSources {
-    glm::dvec3 sun;    // sun irradiance / 4 pi
-    glm::dvec3 above;  // upper half of the sky: its share of the mean radiance
-    glm::dvec3 below;  // lower half
-    double albedo;
-};
-
 LightSources light_sources(const Scene& scene, const Plan& plan) {
     const Outside outside = outside_of(scene);
     const SkyDome& sky = outside.sky;
@@ -92,11 +84,13 @@ Along tiles_along(Interval slopes, double tangent, int pixels, int tile, bool up
 // seen as an ellipse whose longer axis points away from the picture's middle and is e = 1 / cos(angle to the ball's far
 // side) times as long as the other, at most. It need not be the upright ellipse of the rectangle; but no ellipse in the
 // rectangle with such axes reaches beyond that one enlarged by sqrt(2 / (1 + 1 / e^2)).
-gl::TileBox tiles_of(const Seen& seen, const View& view, const ImageSettings& image) {
-    const Along x = tiles_along(disc_slopes(seen.q.x, seen.q.z, seen.reach),
-                                view.tan_half_fov * view.aspect, image.width, kTileWidth, false);
-    const Along y = tiles_along(disc_slopes(seen.q.y, seen.q.z, seen.reach), view.tan_half_fov,
-                                image.height, kTileHeight, true);
+gl::TileBox tiles_of(const Seen& seen, const SplatWindow& window) {
+    const Interval right = disc_slopes(seen.q.x, seen.q.z, seen.reach);
+    const Interval up = disc_slopes(seen.q.y, seen.q.z, seen.reach);
+    const Along x = tiles_along({right.low - window.middle.x, right.high - window.middle.x},
+                                window.tangent.x, window.width, kTileWidth, false);
+    const Along y = tiles_along({up.low - window.middle.y, up.high - window.middle.y},
+                                window.tangent.y, window.height, kTileHeight, true);
     gl::TileBox box{x.first, y.first, x.last, y.last};
     if (seen.distance <= seen.reach) return box;
     // cos(a + b): a is the angle to the centre, b from there to the far side.
@@ -114,25 +108,26 @@ gl::TileBox tiles_of(const Seen& seen, const View& view, const ImageSettings& im
     return box;
 }
 
-Seen see(const Scene& scene, const ParticleSet& particles, std::size_t i, const View& view) {
+double reach_of(double tau) {
+    return std::max(kMinReach, std::sqrt(2 * std::log(std::max(1.0, tau / kFaintDepth))));
+}
+
+Seen see(const ParticleSet& particles, std::size_t i, const View& view, const SplatWindow& window) {
+    const Footprint own = footprint_of(particles, i, view);
     Seen seen{};
-    const glm::dvec3 p = particles.center[i] - view.eye;
-    seen.q = {glm::dot(p, view.right), glm::dot(p, view.up), glm::dot(p, view.forward)};
-    seen.distance = glm::length(seen.q);
-    const double own_s = gaussian_s(particles, i);
-    const double pixel = 2 * view.tan_half_fov / scene->image.height;
-    const double own_tau = central_depth(particles, i);
-    seen.s = std::max({own_s, kLeastWidth * pixel * std::max(0.0, seen.q.z), 1e-12});
-    seen.widened = seen.s > own_s;
-    if (!(own_s > 0) || !(own_tau > 0)) return seen;
-    seen.tau = widened_depth(own_tau, seen.s / own_s);
+    seen.q = own.q;
+    seen.distance = own.distance;
+    const double along = std::max(0.0, seen.q.z);
+    seen.s = std::max({own.s, kLeastWidth * window.gap() * along, 1e-12});
+    seen.widened = std::max({own.s, kLeastWidth * window.picture_gap * along, 1e-12}) > own.s;
+    if (!own.seen) return seen;
+    seen.tau = widened_depth(own.tau, seen.s / own.s);
     if (!(seen.tau > 0)) return seen;
-    const double cut =
-        std::max(kMinReach, std::sqrt(2 * std::log(std::max(1.0, seen.tau / kFaintDepth))));
+    const double cut = reach_of(seen.tau);
     seen.reach = seen.s * cut;
     // In the picture's plane exp(-cut^2 / 2) of a Gaussian lies beyond the cut.
     seen.tau /= -std::expm1(-cut * cut / 2);
-    seen.tiles = tiles_of(seen, view, scene->image);
+    seen.tiles = tiles_of(seen, window);
     return seen;
 }
 
@@ -145,21 +140,25 @@ glm::vec4 from_eye(glm::dvec4 f, const View& view, glm::dvec3 q) {
     return glm::vec4(glm::dvec4(turned, f.w - glm::dot(turned, q)));
 }
 
-// A particle's light as its splat has it. One that is drawn wider than it is has the same light all over: its gradient
-// would reach too far.
+// A particle's light as its splat has it. One that is narrower than the picture's pixels has the same light all over:
+// where it is drawn wider than it is, its gradient would reach too far, and in a finer window it is lit as it is there.
 glm::dvec4 over(glm::vec4 light, const Seen& seen) {
     return seen.widened ? glm::dvec4(0, 0, 0, light.w) : glm::dvec4(light);
 }
 
 Splat make_splat(const Seen& seen, glm::dvec3 color, const ParticleLight* lit, const View& view,
-                 const LightSources& sources) {
+                 const SplatWindow& window, const LightSources& sources) {
     Splat splat{};
     // splat.glsl looks for the row of a column of pixels that is nearest to the particle. Straight above or below the
     // eye there is none: the particle is moved a hair to the side.
     const bool vertical = seen.q.x * seen.q.x + seen.q.z * seen.q.z < 1e-10 * seen.q.y * seen.q.y;
     const glm::dvec3 place =
         vertical ? seen.q + glm::dvec3(1e-5 * std::abs(seen.q.y), 0, 0) : seen.q;
-    splat.place = glm::vec4(glm::dvec4(place, 0.5 / (seen.s * seen.s)));
+    // Beside the line from the eye through the window's middle, which floats would not resolve in a window far below a
+    // pixel that lies away from the picture's middle.
+    splat.place = glm::vec4(glm::dvec4(place.x - place.z * window.middle.x,
+                                       place.y - place.z * window.middle.y, place.z,
+                                       0.5 / (seen.s * seen.s)));
     const glm::dvec3 albedo = sources.albedo * color;
     splat.matter = glm::vec4(glm::dvec4(albedo * sources.sun, seen.tau));
 
@@ -209,40 +208,69 @@ void radix_sort(std::vector<std::uint64_t>& keys) {
 
 }  // namespace
 
-SplatList make_splats(const Scene& scene, const ParticleSet& particles, const View& view,
-                      const Plan& plan, const Lighting& lighting, const Air* air) {
-    LightSources sources = light_sources(scene, plan);
-    light_from_ground(scene, particles, lighting.ground, sources);
+SplatWindow whole_picture(const View& view, const ImageSettings& image) {
+    const glm::dvec2 tangent(view.tan_half_fov * view.aspect, view.tan_half_fov);
+    return {glm::dvec2(0), tangent, image.width, image.height, 2 * tangent.y / image.height};
+}
+
+Footprint footprint_of(const ParticleSet& particles, std::size_t i, const View& view) {
+    Footprint own{};
+    const glm::dvec3 p = particles.center[i] - view.eye;
+    own.q = {glm::dot(p, view.right), glm::dot(p, view.up), glm::dot(p, view.forward)};
+    own.distance = glm::length(own.q);
+    own.s = gaussian_s(particles, i);
+    own.tau = central_depth(particles, i);
+    own.seen = own.s > 0 && own.tau > 0;
+    own.reach = own.s * reach_of(own.tau);
+    return own;
+}
+
+std::vector<std::uint32_t> drawing_order(const Scene& scene, const ParticleSet& particles,
+                                         const View& view, const Plan& plan) {
     // A splat cannot end at the ground: of what the ground hides, whole particles are left out.
     const bool cut = scene->ground && view.eye.y > scene->ground->height;
-    SplatList list;
-    std::vector<Seen> seen(particles.size());
-    std::vector<std::uint64_t> order;
-    order.reserve(particles.size());
+    std::vector<std::uint64_t> keys;
+    keys.reserve(particles.size());
     for (std::size_t i = 0; i < particles.size(); ++i) {
         if (cut && particles.center[i].y < scene->ground->height) continue;
-        seen[i] = see(scene, particles, i, view);
-        const gl::TileBox& tiles = seen[i].tiles;
-        if (tiles.last_x < tiles.first_x || tiles.last_y < tiles.first_y) continue;
-        if (seen[i].distance <= seen[i].reach) list.reaches_eye = true;
+        const glm::dvec3 p = particles.center[i] - view.eye;
+        const glm::dvec3 q(glm::dot(p, view.right), glm::dot(p, view.up),
+                           glm::dot(p, view.forward));
         // Bits of a positive float sort as the float does.
-        const std::uint64_t key =
-            std::bit_cast<std::uint32_t>(static_cast<float>(seen[i].distance));
-        order.push_back(key << 32 | i);
+        const std::uint64_t key = std::bit_cast<std::uint32_t>(static_cast<float>(glm::length(q)));
+        keys.push_back(key << 32 | i);
     }
-    const bool sorted = plan.on(Effect::kViewExtinction);
-    if (sorted) radix_sort(order);
+    if (plan.on(Effect::kViewExtinction)) radix_sort(keys);
+    std::vector<std::uint32_t> order(keys.size());
+    for (std::size_t n = 0; n < keys.size(); ++n)
+        order[n] = static_cast<std::uint32_t>(keys[n] & 0xffffffffu);
+    return order;
+}
 
+SplatSetting splat_setting(const Scene& scene, const ParticleSet& particles, const View& view,
+                           const Plan& plan, const Lighting& lighting, const Air* air) {
+    LightSources sources = light_sources(scene, plan);
+    light_from_ground(scene, particles, lighting.ground, sources);
+    return {particles, view, lighting, air, plan.on(Effect::kViewExtinction), sources};
+}
+
+SplatList make_splats(const SplatSetting& setting, const SplatWindow& window,
+                      std::span<const std::uint32_t> order) {
+    const auto& [particles, view, lighting, air, sorted, sources] = setting;
+    SplatList list;
     list.splats.reserve(order.size());
     list.tiles.reserve(order.size());
     std::size_t previous = particles.size();  // none
-    for (const std::uint64_t key : order) {
-        const auto i = static_cast<std::size_t>(key & 0xffffffffu);
+    for (const std::uint32_t i : order) {
+        const Seen seen = see(particles, i, view, window);
+        const gl::TileBox& tiles = seen.tiles;
+        if (tiles.last_x < tiles.first_x || tiles.last_y < tiles.first_y) continue;
+        if (seen.distance <= seen.reach) list.reaches_eye = true;
         const glm::dvec3 color =
             particles.color.empty() ? glm::dvec3(1) : glm::dvec3(particles.color[i]);
         const ParticleLight* lit = lighting.particles.empty() ? nullptr : &lighting.particles[i];
-        Splat splat = make_splat(seen[i], color, lit, view, sources);
-        if (air != nullptr) see_through_air(*air, view, seen[i].q, splat);
+        Splat splat = make_splat(seen, color, lit, view, window, sources);
+        if (air != nullptr) see_through_air(*air, view, seen.q, splat);
         if (sorted && previous < particles.size() &&
             particles.center[i] == particles.center[previous] &&
             particles.radius[i] == particles.radius[previous]) {
@@ -250,7 +278,7 @@ SplatList make_splats(const Scene& scene, const ParticleSet& particles, const Vi
             continue;
         }
         list.splats.push_back(splat);
-        list.tiles.push_back(seen[i].tiles);
+        list.tiles.push_back(tiles);
         previous = i;
     }
     return list;

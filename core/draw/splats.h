@@ -1,7 +1,10 @@
 // Particles as the eye sees them, front to back: the records that splat.glsl draws. Geometry only, no GL.
 #pragma once
 
+#include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 #include <vector>
 
 #include "core/draw/air.h"
@@ -22,15 +25,58 @@ struct SplatList {
 };
 inline constexpr int kTileWidth = 8, kTileHeight = 16;  // as in splat.glsl
 
-// All particles in the picture. A Gaussian is cut off where the optical depth of lines through it falls below 5e-4, but
-// not within 3.5 s, and scaled so that its mass stays whole. One whose s is below 0.6 pixels is widened to that, the
-// area that it covers kept (survey/narrow.h): exact where such particles stand independently of each other, too much
-// where they overlap, as in a cloud that is small beside a pixel.
-// With effect view_extinction they are sorted by distance from the eye, ties by index.
-// Neighbours in that order with the same centre and radius are merged into one, so that it does not matter which of
-// them is drawn over which: optical depths add, light and colour are weighted by them. air: the haze that they are seen
-// through (air_image.h); null: none.
-SplatList make_splats(const Scene& scene, const ParticleSet& particles, const View& view,
-                      const Plan& plan, const Lighting& lighting, const Air* air = nullptr);
+// A rectangle of the image plane at distance 1 and the pixels that it is divided into: the picture, or a part of it
+// whose pixels stand closer (splat_parts.h).
+struct SplatWindow {
+    glm::dvec2 middle;   // to the right and up
+    glm::dvec2 tangent;  // half its width and height
+    int width, height;   // pixels
+    // Sides of pixels: of this window in the image plane, and of the picture's.
+    double gap() const { return 2 * tangent.y / height; }
+    double picture_gap;
+};
+SplatWindow whole_picture(const View& view, const ImageSettings& image);
+
+// Radiance that a white, opaque particle in full light scatters, by where the light comes from.
+struct LightSources {
+    glm::dvec3 sun;    // sun irradiance / 4 pi
+    glm::dvec3 above;  // upper half of the sky: its share of the mean radiance
+    glm::dvec3 below;  // lower half
+    double albedo;
+};
+
+// What the splats of all windows are made of. It refers to its arguments.
+struct SplatSetting {
+    const ParticleSet& particles;
+    const View& view;
+    const Lighting& lighting;
+    const Air* air;  // the haze that they are seen through (air_image.h); null: none
+    bool sorted;     // nearest first: effect view_extinction
+    LightSources sources;
+};
+SplatSetting splat_setting(const Scene& scene, const ParticleSet& particles, const View& view,
+                           const Plan& plan, const Lighting& lighting, const Air* air = nullptr);
+
+// Indices of the particles in the order in which they are drawn: with effect view_extinction by distance from the eye,
+// ties by index. Those that the ground hides are left out.
+std::vector<std::uint32_t> drawing_order(const Scene& scene, const ParticleSet& particles,
+                                         const View& view, const Plan& plan);
+
+// The given particles, as far as they are in the window. A Gaussian is cut off where the optical depth of lines through
+// it falls below 5e-4, but not within 3.5 s, and scaled so that its mass stays whole. One whose s is below 0.6 of the
+// window's pixels is widened to that, the area that it covers kept (survey/narrow.h): exact where such particles stand
+// independently of each other, too much where they overlap. That is why draw() draws such matter in finer windows.
+// With effect view_extinction, neighbours in the order with the same centre and radius are merged into one, so that it
+// does not matter which of them is drawn over which: optical depths add, light and colour are weighted by them.
+SplatList make_splats(const SplatSetting& setting, const SplatWindow& window,
+                      std::span<const std::uint32_t> order);
+
+// Slopes, distances and optical depth of a particle as its splat has them before any widening.
+struct Footprint {
+    glm::dvec3 q;  // in the eye's frame: right, up, forward
+    double distance, s, tau, reach;
+    bool seen;  // it has matter
+};
+Footprint footprint_of(const ParticleSet& particles, std::size_t i, const View& view);
 
 }  // namespace awan

@@ -19,7 +19,8 @@ layout(local_size_x = 8) in;
 // A particle: five vec4s. In a buffer texture, since llvmpipe fetches a vec4 of it in a tenth of the time that four
 // words of a storage buffer take.
 struct Splat {
-    // Its centre in the eye's frame (right, up, forward), and 1 / (2 s^2).
+    // Its centre in the eye's frame (right, up, forward), and 1 / (2 s^2). Right and up count from the line through the
+    // eye and the window's middle.
     vec4 place;
     // Albedo * colour * the sun's irradiance / 4 pi, and the optical depth through the centre.
     vec4 matter;
@@ -38,9 +39,9 @@ layout(std430, binding = 3) buffer Picture { vec4 picture[]; };
 
 // The tiles of this dispatch: first x, first y, count along x, count along y.
 layout(location = 0) uniform ivec4 region;
-// Width and height of the whole picture, pixels.
+// Width and height of the window (draw/splats.h), pixels: of the whole picture, or of a part with finer pixels.
 layout(location = 1) uniform ivec2 size;
-// Half width and half height of the image plane at distance 1.
+// Half its width and half its height in the image plane at distance 1.
 layout(location = 2) uniform vec2 tangent;
 // Towards the sun: unit, in the eye's frame.
 layout(location = 3) uniform vec3 to_sun;
@@ -57,6 +58,10 @@ layout(location = 9) uniform bool extinguish;
 layout(location = 10) uniform bool opaque;
 // The first entry of the lists to blend now, how many, and 1 where they are the last.
 layout(location = 11) uniform ivec3 run;
+// The window's middle in the image plane; 0 for the whole picture. In a fine window far from the picture's middle, the
+// small distances between rays and particles are lost in differences of coordinates that count from the picture's
+// middle. So they count from the window's; where X and Y below do, they are called local.
+layout(location = 12) uniform vec2 middle;
 
 // Below this transmittance the rest of the list is skipped: what is behind adds no more than a thousandth of itself, a
 // quarter of an 8-bit step.
@@ -64,8 +69,8 @@ const float kOpaque = 1e-3;
 
 // Four pixels of a column. Never in an array, since one that a loop indexes lives in memory on llvmpipe.
 struct Pixels {
-    // Of the rays d = (X, Y, 1): Y, 1 / |d|^2, and the phase function.
-    vec4 Y, per_d2, phase;
+    // Of the rays d = (X, Y, 1): Y, local and not, 1 / |d|^2, and the phase function.
+    vec4 local, Y, per_d2, phase;
     // Transmittance and radiance so far.
     vec4 left, red, green, blue;
 };
@@ -73,7 +78,7 @@ struct Pixels {
 // What is the same of a particle for a whole column: the terms that do not depend on Y. Its light is linear in the
 // scene and almost linear in Y along a column, so it is expanded about the row nearest to the centre.
 struct Column {
-    float X, aside, y0, a, m, along;
+    float X, local, aside, y0, a, m, along;
     // Two linear functions of Y, x + y Y: direct sunlight, and the factor on the other light.
     vec2 direct, change;
 };
@@ -91,33 +96,39 @@ vec2 on_column(vec4 f, float X, float y, float t, float slope) {
     return vec2(f.w + t * along - change * y, change);
 }
 
-Column on_column(Splat p, float X, float low, float high) {
+// The row nearest to the centre q is Y0 = q.y (q.x X + q.z) / (q.x^2 + q.z^2). From the window's middle it is written
+// with q.y less q.z times that middle, by q.z (q.x X + q.z) - q.x^2 - q.z^2 = q.x (q.z X - q.x).
+Column on_column(Splat p, float local, float low, float high) {
     Column k;
-    float c = p.place.x * p.place.x + p.place.z * p.place.z;
-    float ratio = p.place.y / max(c, 1e-30);
-    k.X = X;
-    k.aside = p.place.z * X - p.place.x;
-    k.along = p.place.x * X + p.place.z;
-    k.y0 = ratio * k.along;
+    vec2 q = p.place.xy + p.place.z * middle;
+    float c = q.x * q.x + p.place.z * p.place.z;
+    float per_c = 1.0 / max(c, 1e-30);
+    float ratio = q.y / max(c, 1e-30);
+    k.local = local;
+    k.X = middle.x + local;
+    k.aside = p.place.z * local - p.place.x;
+    k.along = q.x * k.X + p.place.z;
+    k.y0 = p.place.y / max(c, 1e-30) * k.along + middle.y * q.x * per_c * k.aside;
     k.a = c * p.place.w;
-    k.m = k.aside * k.aside * (1.0 + p.place.y * ratio) * p.place.w;
-    float y = clamp(k.y0, low, high);
-    float per_d2 = 1.0 / (1.0 + X * X + y * y);
-    float t = (k.along + p.place.y * y) * per_d2;
-    float slope = (p.place.y - 2.0 * y * t) * per_d2;
+    k.m = k.aside * k.aside * (1.0 + q.y * ratio) * p.place.w;
+    float y = clamp(middle.y + k.y0, low, high);
+    float per_d2 = 1.0 / (1.0 + k.X * k.X + y * y);
+    float t = (k.along + q.y * y) * per_d2;
+    float slope = (q.y - 2.0 * y * t) * per_d2;
 #ifdef INTERIOR
     slope = t > 0.0 ? slope : 0.0;
     t = max(t, 0.0);
 #endif
-    k.direct = on_column(p.direct, X, y, t, slope);
-    k.change = on_column(p.change, X, y, t, slope);
+    k.direct = on_column(p.direct, k.X, y, t, slope);
+    k.change = on_column(p.change, k.X, y, t, slope);
     return k;
 }
 
 Pixels look(float X, float first_row) {
     Pixels px;
     vec4 row = vec4(first_row) + vec4(0.5, 1.5, 2.5, 3.5);
-    px.Y = (1.0 - row / float(size.y) * 2.0) * tangent.y;
+    px.local = (1.0 - row / float(size.y) * 2.0) * tangent.y;
+    px.Y = middle.y + px.local;
     px.per_d2 = 1.0 / (1.0 + X * X + px.Y * px.Y);
     vec4 per_d = sqrt(px.per_d2);
     vec3 a = vec3(X, px.Y.x, 1.0) * per_d.x, b = vec3(X, px.Y.y, 1.0) * per_d.y;
@@ -134,13 +145,14 @@ Pixels look(float X, float first_row) {
 void blend(Splat p, Column k, inout Pixels px) {
 #ifdef INTERIOR
     // How far along its ray each pixel's closest point lies, in units of d.
-    vec4 t = (k.along + p.place.y * px.Y) * px.per_d2;
-    vec4 up = p.place.y - p.place.z * px.Y, over = p.place.x * px.Y - p.place.y * k.X;
+    vec4 t = (k.along + (p.place.y + p.place.z * middle.y) * px.Y) * px.per_d2;
+    vec4 up = p.place.y - p.place.z * px.local;
+    vec4 over = p.place.x * px.local - p.place.y * k.local - middle.x * up - middle.y * k.aside;
     vec4 miss = (up * up + k.aside * k.aside + over * over) * p.place.w;
     vec4 tau = p.matter.w * exp(-miss * px.per_d2) *
                normal_cdf(t * inversesqrt(px.per_d2) * sqrt(2.0 * p.place.w));
 #else
-    vec4 off = px.Y - k.y0;
+    vec4 off = px.local - k.y0;
     vec4 tau = p.matter.w * exp(-(k.a * off * off + k.m) * px.per_d2);
 #endif
     vec4 alpha = one_minus_exp(tau);
@@ -186,7 +198,8 @@ void resume(int at, int stride, inout Pixels px) {
 void main() {
     ivec2 tile = ivec2(gl_WorkGroupID.xy);
     ivec2 pixel = (region.xy + tile) * ivec2(8, 16) + ivec2(int(gl_LocalInvocationID.x), 0);
-    float X = ((float(pixel.x) + 0.5) / float(size.x) * 2.0 - 1.0) * tangent.x;
+    float local = ((float(pixel.x) + 0.5) / float(size.x) * 2.0 - 1.0) * tangent.x;
+    float X = middle.x + local;
     Pixels p0 = look(X, float(pixel.y)), p1 = look(X, float(pixel.y + 4));
     Pixels p2 = look(X, float(pixel.y + 8)), p3 = look(X, float(pixel.y + 12));
 
@@ -204,7 +217,7 @@ void main() {
     uint end = min(tile_begin[list + 1], first + uint(run.y));
     for (uint i = first; i < end; ++i) {
         Splat p = fetch(int(tile_items[i]) * 5);
-        Column k = on_column(p, X, p3.Y.w, p0.Y.x);
+        Column k = on_column(p, local, p3.Y.w, p0.Y.x);
         blend(p, k, p0);
         blend(p, k, p1);
         blend(p, k, p2);

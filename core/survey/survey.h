@@ -89,7 +89,7 @@ struct Survey {
     // Share of the particles that rays a pixel apart would miss the shape of (survey/narrow.h), by about the area
     // that they cover. The march sees them by rays that stand closer. What is left of their error is below 1% of alpha
     // and of light: 0.7% where there are more than some ten thousand of them, 0.2% otherwise (sub_pixel_test). Splats
-    // show too much of such matter where it overlaps.
+    // draw it on finer pixels (draw/splat_parts.h).
     double sub_pixel = 0;
     DetailFigures detail;  // what detail would be made for
     // The eye is within 4 s of a particle.

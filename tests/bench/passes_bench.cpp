@@ -47,9 +47,11 @@ Setting set_up(std::uint64_t count) {
     Scene scene = test::valid(cloud_of(count));
     Planned planned = *plan_scene(scene, 2, {});
     Lighting lighting = *light(scene, planned.particles, planned.plan, test::device(), {});
-    SplatList splats =
-        make_splats(scene, planned.particles, planned.survey.view, planned.plan, lighting);
     const View& view = planned.survey.view;
+    SplatList splats =
+        make_splats(splat_setting(scene, planned.particles, view, planned.plan, lighting),
+                    whole_picture(view, scene->image),
+                    drawing_order(scene, planned.particles, view, planned.plan));
     const glm::dvec3 sun = sun_direction(scene->sun);
     const glm::dvec3 in_frame(glm::dot(sun, view.right), glm::dot(sun, view.up),
                               glm::dot(sun, view.forward));
