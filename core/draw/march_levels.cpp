@@ -13,9 +13,11 @@ namespace {
 
 // Tiles of 4 x 4 rays that narrow matter may ask for beside the picture's own: in the whole picture, and a block in
 // which there is such matter.
-constexpr double kMostTiles = 8192, kTilesOfBlock = 8;
-// The most of them for one group of blocks that touch: a cloud of thousands of particles has some hundred.
-constexpr double kMostOfGroup = 2048;
+constexpr double kMostTiles = 32768, kTilesOfBlock = 16;
+// The most of them for one group of blocks that touch: a cloud of thousands of particles has some hundred; one of small
+// spheres that fills a picture of 200 pixels some thousand.
+constexpr double kMostOfGroup = 8192;
+
 // Blocks that touch, by the particles that lie in several: a forest, each tree's root its group.
 class Groups {
   public:

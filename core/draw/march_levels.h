@@ -26,8 +26,8 @@ struct NarrowParticle {
     BlockBox blocks;     // that it touches, widened for rays a pixel apart
 };
 
-// The level that each gets. Particles whose blocks touch get levels up to one limit: the highest for which the picture
-// has no more than about as many tiles of rays again as it has without.
+// The level that each gets. Particles whose blocks touch get levels up to one limit: the highest for which they have no
+// more than a bounded number of tiles of rays, about what a picture of 800 x 600 pixels has without.
 std::vector<std::uint8_t> affordable_levels(const std::vector<NarrowParticle>& narrow,
                                             const View& view, int width, int height);
 
