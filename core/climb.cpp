@@ -27,10 +27,11 @@ constexpr double kOrder = 1.3;
 constexpr double kEyeError = 0.018;
 // what 128 directions leave of the angles of forward scattered light, times g squared;
 constexpr double kAngularError = 0.045;
-// what lumps of detail that are smaller than steps, cells and the gaps between rays leave, times the detail's amount;
-// more of it in deep matter, times log10(1 + depth), and where the sun shines through their edges, times the cosine
-// squared between it and the view.
-constexpr double kDetailError = 0.03, kDeepDetailError = 0.07, kBacklitDetailError = 0.075;
+// what lumps of detail that are smaller than steps, cells and the gaps between rays leave, times the detail's amount; more
+// of it in deep matter, where a cell of the sun's lattice is several mean free paths, in proportion to the depth up to
+// kDeep, and where the sun shines through their edges, times the cosine squared between it and the view.
+constexpr double kDetailError = 0.05, kDeepDetailError = 0.4, kDeep = 800,
+                 kBacklitDetailError = 0.075;
 // Of what is far below a pixel, times its share of the matter (Survey::sub_pixel).
 constexpr double kSubPixelError = 0.01;
 
@@ -142,9 +143,10 @@ double stated_error(double difference, const Climb& climb) {
     double floor = std::hypot(kEyeError, kAngularError * g * g) * depth / (1 + depth);
     if (climb.planned.particles.detail != nullptr) {
         const double into_sun = std::max(survey.sun_cosine, 0.0);
-        floor = std::hypot(floor, climb.scene->detail->amount *
-                                      (kDetailError + kDeepDetailError * std::log10(1 + depth) +
-                                       kBacklitDetailError * into_sun * into_sun));
+        floor =
+            std::hypot(floor, climb.scene->detail->amount *
+                                  (kDetailError + kDeepDetailError * std::min(depth / kDeep, 1.0) +
+                                   kBacklitDetailError * into_sun * into_sun));
     }
     return std::hypot(kErrorOfDifference * difference,
                       std::hypot(floor, kSubPixelError * survey.sub_pixel), survey.model_error);
