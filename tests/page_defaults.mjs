@@ -232,7 +232,7 @@ export const defaultsTests = {
     };
     const own = group(page, "Implicit functions");
     await said(group(page, "Sun").getByLabel("Elevation, °"), 200, /must be from -90 to 90$/);
-    await said(own.getByLabel("Resolution, number"), 15, /must be from 16 to 160$/);
+    await said(own.getByLabel("Resolution, number"), 15, /must be from 16 to 400$/);
     await said(own.getByLabel("Resolution, number"), 20.5, /must be a whole number$/);
     await said(own.getByLabel("Ripples, y"), 0.001, /must be 0 or from 0.01 to 1000$/);
     await said(own.getByLabel("primitive 1, radius", { exact: true }), -1, /must be from /);

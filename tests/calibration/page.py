@@ -55,6 +55,8 @@ def summary(rows, column):
     print("|---|---|---|---|---|---|---|---|---|")
     for rung in RUNGS + ["all"]:
         mine = [r for r in rows if rung in ("all", r["rung"])]
+        if not mine:  # --only-grids
+            continue
         loose = [looseness(r, column) for r in mine if seen(r)]
         errors = [number(r, "error") for r in mine]
         print(f"| {rung} | {len(mine)} | {percent(sum(strictly_under(r, column) for r in mine) / len(mine))} "
