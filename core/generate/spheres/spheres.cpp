@@ -44,7 +44,7 @@ double error_of_cut(const Span& ratios, double pixels, double mass_share) {
     const double met =
         5 * (ratios.low * ratios.low + ratios.low * ratios.high + ratios.high * ratios.high) / 3;
     const double porous = std::clamp((1.1 - met) / (1.1 - 0.72), 0.0, 1.0);
-    return std::cbrt(mass_share) * std::min(0.013 * (1 + porous) * pixels * std::sqrt(pixels), 0.7);
+    return std::cbrt(mass_share) * std::min(0.014 * (1 + porous) * pixels * std::sqrt(pixels), 0.7);
 }
 // The angle of a pixel where a request names none, radians: of a picture 1080 pixels high and 40 degrees.
 constexpr double kUsualPixel = 0.00067;
