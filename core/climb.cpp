@@ -28,8 +28,8 @@ constexpr double kEyeError = 0.018;
 // what 128 directions leave of the angles of forward scattered light, times g squared;
 constexpr double kAngularError = 0.045;
 // what lumps of detail that are smaller than steps, cells and the gaps between rays leave, times the detail's amount;
-// more of it in deep matter, where a cell of the sun's lattice is several mean free paths, in proportion to the depth up
-// to kDeep, and where the sun shines through their edges, times the cosine squared between it and the view.
+// more of it in deep matter, where a cell of the sun's lattice is several mean free paths, in proportion to depths
+// up to kDeep, and where the sun shines through their edges, times the cosine squared between it and the view.
 constexpr double kDetailError = 0.05, kDeepDetailError = 0.4, kDeep = 800,
                  kBacklitDetailError = 0.075;
 // Of what is far below a pixel, times its share of the matter (Survey::sub_pixel).
