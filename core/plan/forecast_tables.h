@@ -25,12 +25,12 @@ struct TimeModel {
     TimeFigures coefficient;
 };
 // Generate, survey and plan.
-inline constexpr TimeModel kPrepareTime = {{1.7765, 0, 0.00167521, 7.36115e-08, 0, 0, 0, 0, 0, 0, 141.258, 0, 0, 0}};
-inline constexpr TimeModel kAdditiveTime = {{1.43196, 0, 0.00305032, 5.11517e-07, 2.54259e-05, 0, 0, 0, 0, 2.91663e-05, 0, 0, 0, 0}};
-inline constexpr TimeModel kHarrisLightTime = {{2.69117, 0, 0.00648709, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}};
-inline constexpr TimeModel kHarrisDrawTime = {{0, 0, 0.00295753, 1.08264e-06, 2.82601e-05, 0, 0, 0, 0, 4.18864e-05, 0, 0, 0, 0}};
-inline constexpr TimeModel kMarchLightTime = {{0.996115, 0, 0.000669329, 0, 0, 0.0010281, 2.34041e-07, 0, 0, 0, 0, 0, 0.00148587, 0.062998}};
-inline constexpr TimeModel kMarchDrawTime = {{4.57377, 0, 0.00157544, 5.83424e-07, 0.00011699, 0, 0, 0, 7.43522e-05, 0.000231353, 0, 4.55681e-05, 0, 0.013981}};
-inline constexpr TimeModel kPathTime = {{0, 0, 0.275, 0, 0.01, 0, 0, 0.00035, 0, 0.0101256, 0}};
+inline constexpr TimeModel kPrepareTime = {{1.43259, 0, 0.000966922, 6.64295e-08, 0, 0, 0, 0, 0, 0, 76.034, 0, 0, 0}};
+inline constexpr TimeModel kAdditiveTime = {{3.40263, 0, 0.00248724, 1.14041e-06, 8.58942e-06, 0, 0, 0, 0, 3.03988e-05, 0, 0, 0, 0}};
+inline constexpr TimeModel kHarrisLightTime = {{2.35634, 0, 0.00562015, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}};
+inline constexpr TimeModel kHarrisDrawTime = {{0.30896, 0, 0.00420637, 6.51369e-07, 3.12539e-05, 0, 0, 0, 0, 4.62078e-05, 0, 0, 0, 0}};
+inline constexpr TimeModel kMarchLightTime = {{0.848736, 0, 0.000881663, 0, 0, 0.000485522, 1.51484e-07, 0, 0, 0, 0, 0, 0.000530085, 0.0539104}};
+inline constexpr TimeModel kMarchDrawTime = {{2.88837, 0, 0.00452757, 0, 0.00013594, 0, 0, 0, 0.000115255, 0.000164206, 0, 3.47236e-05, 0, 0.0138051}};
+inline constexpr TimeModel kPathTime = {{0, 0, 0.412038, 0, 0.00311928, 0, 0, 0.00107784, 0, 0.00494184, 0, 0, 0, 0}};
 
 }  // namespace awan
