@@ -345,7 +345,7 @@ void march_block(const MarchScene& scene, int block_x, int block_y,
     block.draw(image);
     if (items.empty()) return;
 
-    FinePixels pixels, finest;
+    FinePixels pixels;
     const auto march_part = [&](std::span<const TilePlace> places,
                                 const std::vector<std::uint32_t>& part_items, FinePixels& to) {
         BlockMarch part(scene, place_block(scene, block_x, block_y, places, room), room);
@@ -368,6 +368,7 @@ void march_block(const MarchScene& scene, int block_x, int block_y,
     }
     pixels.draw(left, top, image);
     if (!lumps) return;
+    FinePixels finest;
     march_all(pixels.sharp_places(left, top, brightest_pixel(image, left, top), kMostSharpOfLumps),
               finest);
     finest.draw(left, top, image);

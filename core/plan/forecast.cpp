@@ -123,12 +123,14 @@ RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey
                                                : predicted_ms(kHarrisLightTime, times) +
                                                      predicted_ms(kHarrisDrawTime, times);
             break;
-        case Method::kMarch:
-            forecast.light_ms = predicted_ms(kMarchLightTime, times) * march_speed * speed.slowness;
-            forecast.draw_ms = predicted_ms(kMarchDrawTime, times) * march_speed * speed.slowness;
-            ms += (predicted_ms(kMarchLightTime, times) + predicted_ms(kMarchDrawTime, times)) *
-                  march_speed;
+        case Method::kMarch: {
+            const double light = predicted_ms(kMarchLightTime, times);
+            const double draw = predicted_ms(kMarchDrawTime, times);
+            forecast.light_ms = light * march_speed * speed.slowness;
+            forecast.draw_ms = draw * march_speed * speed.slowness;
+            ms += (light + draw) * march_speed;
             break;
+        }
         case Method::kPaths:
             forecast.error /= std::sqrt(std::max(samples, 1U));
             ms += predicted_ms(kPathTime, times) * stretch(threads, 0);

@@ -107,6 +107,15 @@ struct Batch {
         return (__builtin_convertvector(side, Floats) - o[a]) * per_d[a];
     }
 
+    // The cell of a place along an axis: down to whole cells, within the block.
+    AWAN_INLINE Ints cell_at(int a, const Floats& place) const {
+        Ints low = __builtin_convertvector(place, Ints);
+        low += __builtin_convertvector(low, Floats) > place;
+        low += origin[a];
+        low = low < block[a] ? block[a] : low;
+        return low > block[a] + more ? block[a] + more : low;
+    }
+
     // What stands in the blocks where those lanes have come to.
     AWAN_INLINE void enter(const Ints& lanes_there) {
         alignas(64) std::int32_t at[kLanes], cells[kLanes], listed[kLanes];
@@ -184,15 +193,9 @@ struct Batch {
         Ints at[3], in[3];
         for (int a = 0; a < 3; ++a) {
             const Floats place = o[a] + t * d[a];
-            // Down to whole cells, within the block.
-            Ints low = __builtin_convertvector(place, Ints);
-            low += __builtin_convertvector(low, Floats) > place;
-            low += origin[a];
-            low = low < block[a] ? block[a] : low;
-            low = low > block[a] + more ? block[a] + more : low;
-            at[a] = low;
-            found.first[a] = low & ~(kBrick - 1);
-            in[a] = low - found.first[a];
+            at[a] = cell_at(a, place);
+            found.first[a] = at[a] & ~(kBrick - 1);
+            in[a] = at[a] - found.first[a];
             found.local[a] = min(
                 max(place - __builtin_convertvector(found.first[a] - origin[a], Floats), all(0.0f)),
                 all(kSide));
@@ -244,14 +247,8 @@ struct Batch {
                    by_y = ~by_x & (side[1] <= side[2]);
         const Ints across[3] = {by_x, by_y, ~(by_x | by_y)};
         for (int a = 0; a < 3; ++a) {
-            const Floats place = o[a] + t * d[a];
-            Ints low = __builtin_convertvector(place, Ints);
-            low += __builtin_convertvector(low, Floats) > place;
-            low += origin[a];
-            low = low < block[a] ? block[a] : low;
-            low = low > block[a] + more ? block[a] + more : low;
             const Ints beyond = d[a] >= 0.0f ? block[a] + more + 1 : block[a] - 1;
-            const Ints next = across[a] ? beyond : low;
+            const Ints next = across[a] ? beyond : cell_at(a, o[a] + t * d[a]);
             ended |= moves & ((next < 0) | (next >= m.bricks[a] * kBrick));
             cell[a] = moves ? next : cell[a];
         }
