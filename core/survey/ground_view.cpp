@@ -8,6 +8,7 @@
 
 #include "core/generate/gaussian.h"
 #include "core/scene/outside.h"
+#include "core/survey/gauss.h"
 #include "core/survey/raster_ray.h"
 #include "core/survey/volume.h"
 
@@ -15,7 +16,6 @@ namespace awan {
 namespace {
 
 constexpr int kAcross = 24, kDown = 18;
-constexpr double kReach = 4;  // of s
 
 // Optical depth along a line through the volume, in steps of half a cell.
 double depth_through(const DensityVolume& volume, const glm::dvec3& from, const glm::dvec3& d) {
@@ -43,7 +43,7 @@ double depth_through(const DensityVolume& volume, const glm::dvec3& from, const 
 
 bool reaches_below(const ParticleSet& particles, double height) {
     for (std::size_t i = 0; i < particles.size(); ++i)
-        if (particles.center[i].y - kReach * gaussian_s(particles, i) < height) return true;
+        if (particles.center[i].y - kGaussianCut * gaussian_s(particles, i) < height) return true;
     return false;
 }
 

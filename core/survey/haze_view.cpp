@@ -14,7 +14,7 @@
 namespace awan {
 namespace {
 
-constexpr int kAcross = 16, kDown = 12, kPoints = 32;
+constexpr int kRaysAcross = 16, kRaysDown = 12, kPoints = 32;
 constexpr int kSkySteps = 48;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Optical depth from which a ray meets clouds.
@@ -137,9 +137,9 @@ HazeFigures haze_figures(const Scene& scene, const Survey& survey) {
     const View& view = survey.view;
     double pixels = 0, taken = 0;
     const bool matter = !survey.volume.extinction.empty();
-    for (int j = 0; j < kDown; ++j)
-        for (int i = 0; i < kAcross; ++i) {
-            const glm::dvec3 d = raster_ray(view, kAcross, kDown, i, j);
+    for (int j = 0; j < kRaysDown; ++j)
+        for (int i = 0; i < kRaysAcross; ++i) {
+            const glm::dvec3 d = raster_ray(view, kRaysAcross, kRaysDown, i, j);
             if (!matter) {
                 const double end =
                     d.y < 0 && view.eye.y > ground ? (view.eye.y - ground) / -d.y : kInfinity;
@@ -155,7 +155,7 @@ HazeFigures haze_figures(const Scene& scene, const Survey& survey) {
         }
     figures.depth_behind = std::min(figures.depth_behind, kMostHazeDepth);
     figures.depth_to_clouds = std::min(figures.depth_to_clouds, kMostHazeDepth);
-    if (pixels > 0) figures.shaded = taken * (kAcross * kDown) / pixels;
+    if (pixels > 0) figures.shaded = taken * (kRaysAcross * kRaysDown) / pixels;
     return figures;
 }
 

@@ -11,7 +11,7 @@
 namespace awan {
 namespace {
 
-constexpr double kReach = 2.5;      // of a particle's box, in s
+constexpr double kBoxReach = 2.5;   // of a particle's box, in s
 constexpr double kIslandReach = 4;  // of what an island holds, in s
 // Optical depth of a cell that counts as empty.
 constexpr double kEmpty = 1e-3;
@@ -48,7 +48,7 @@ Volume volume_of(const ParticleSet& particles, double most_cells) {
     Volume volume;
     glm::dvec3 low(INFINITY), high(-INFINITY);
     for (std::size_t i = 0; i < particles.size(); ++i) {
-        const glm::dvec3 reach(kReach * gaussian_s(particles, i));
+        const glm::dvec3 reach(kBoxReach * gaussian_s(particles, i));
         low = glm::min(low, particles.center[i] - reach);
         high = glm::max(high, particles.center[i] + reach);
     }
@@ -72,7 +72,7 @@ Volume volume_of(const ParticleSet& particles, double most_cells) {
         const double s = gaussian_s(particles, i), mass = gaussian_mass(particles, i);
         if (!(mass > 0)) continue;
         const glm::dvec3 place = (particles.center[i] - volume.origin) / volume.cell;
-        const double reach = kReach * s / volume.cell;
+        const double reach = kBoxReach * s / volume.cell;
         const glm::ivec3 a =
             glm::clamp(glm::ivec3(glm::floor(place - reach)), glm::ivec3(0), volume.n - 1);
         const glm::ivec3 b = glm::clamp(glm::ivec3(glm::floor(place + reach)), a, volume.n - 1) + 1;

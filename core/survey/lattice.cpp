@@ -16,7 +16,6 @@
 namespace awan {
 namespace {
 
-constexpr double kCut = 4;  // in s
 // Cells of the volume that finds the box.
 constexpr int kCoarse = 32;
 constexpr double kCoarseWork = 1e7;  // of it; about 10 ms
@@ -50,20 +49,21 @@ Span span_of(double center, double reach, double cell, int count) {
             static_cast<int>(std::min(last, static_cast<double>(count - 1)))};
 }
 
-// Share of a Gaussian's mass below a point, from -kCut s (0) to kCut s (1): linear between the nodes of a table,
-// within 2e-7. A table of normal_cdf, itself one: inlined and ready scaled it saves a quarter of a million small
+// Share of a Gaussian's mass below a point, from -kGaussianCut s (0) to kGaussianCut s (1): linear between the nodes
+// of a table, within 2e-7. A table of normal_cdf, itself one: inlined and ready scaled it saves a quarter of a million small
 // particles' time, which is spent here.
 class MassBelow {
   public:
     MassBelow() {
-        const double least = normal_cdf(-kCut), whole = normal_cdf(kCut) - least;
+        const double least = normal_cdf(-kGaussianCut), whole = normal_cdf(kGaussianCut) - least;
         for (int i = 0; i <= kNodes; ++i)
             below_[static_cast<std::size_t>(i)] =
-                (normal_cdf(-kCut + 2 * kCut * i / kNodes) - least) / whole;
+                (normal_cdf(-kGaussianCut + 2 * kGaussianCut * i / kNodes) - least) / whole;
         below_[kNodes + 1] = below_[kNodes];
     }
     double operator()(double x) const {  // in s from the centre
-        const double at = std::clamp((x + kCut) * (kNodes / (2 * kCut)), 0.0, double{kNodes});
+        const double at =
+            std::clamp((x + kGaussianCut) * (kNodes / (2 * kGaussianCut)), 0.0, double{kNodes});
         const auto node = static_cast<std::size_t>(at);
         return below_[node] + (at - static_cast<double>(node)) * (below_[node + 1] - below_[node]);
     }
@@ -73,7 +73,7 @@ class MassBelow {
     std::array<double, kNodes + 2> below_{};
 };
 
-// Shares of a Gaussian's mass in a span of cells along one axis. The whole within +-kCut s is 1.
+// Shares of a Gaussian's mass in a span of cells along one axis. The whole within +-kGaussianCut s is 1.
 void weights_of(const MassBelow& mass_below, double center, double s, double cell, Span span,
                 float* weights) {
     const double per = 1 / s;
@@ -104,7 +104,7 @@ std::vector<LayerSpan> layer_spans(const ParticleSet& particles, const Lattice& 
         for (std::size_t i = share * kShare; i < end; ++i) {
             const Span z =
                 span_of(glm::dot(particles.center[i] - lattice.origin, lattice.w),
-                        kCut * gaussian_s(particles, i), lattice.cell.z, lattice.cells.z);
+                        kGaussianCut * gaussian_s(particles, i), lattice.cell.z, lattice.cells.z);
             spans[i] = {static_cast<std::int16_t>(z.first), static_cast<std::int16_t>(z.last)};
         }
     });
@@ -170,8 +170,8 @@ void add_layers(const ParticleSet& particles, const Lattice& lattice, int first,
         const glm::dvec3 apart = particles.center[i] - lattice.origin;
         const double cz = glm::dot(apart, lattice.w);
         const double cx = glm::dot(apart, lattice.u), cy = glm::dot(apart, lattice.v);
-        const Span x = span_of(cx, kCut * s, lattice.cell.x, n.x);
-        const Span y = span_of(cy, kCut * s, lattice.cell.y, n.y);
+        const Span x = span_of(cx, kGaussianCut * s, lattice.cell.x, n.x);
+        const Span y = span_of(cy, kGaussianCut * s, lattice.cell.y, n.y);
         if (x.empty() || y.empty()) continue;
         const double mass = mass_of(i);
         if (!(mass > 0)) continue;
@@ -229,7 +229,7 @@ std::vector<float> deposit(const ParticleSet& particles, const Lattice& lattice,
     return cells;
 }
 
-// The particles' extent along the axes, each to kCut s.
+// The particles' extent along the axes, each to kGaussianCut s.
 Lattice whole_box(const ParticleSet& particles, const glm::dvec3& u, const glm::dvec3& v,
                   const glm::dvec3& w, int count) {
     Lattice box{{}, u, v, w, {}, {}};
@@ -238,7 +238,7 @@ Lattice whole_box(const ParticleSet& particles, const glm::dvec3& u, const glm::
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const glm::dvec3 p = particles.center[i] - base;
         const glm::dvec3 q(glm::dot(p, u), glm::dot(p, v), glm::dot(p, w));
-        const double reach = kCut * gaussian_s(particles, i);
+        const double reach = kGaussianCut * gaussian_s(particles, i);
         low = glm::min(low, q - reach);
         high = glm::max(high, q + reach);
     }
@@ -314,7 +314,7 @@ double lattice_work(const ParticleSet& particles, const glm::dvec3& cell, const 
     double work = 0;
     for (const float radius : particles.radius) {
         const glm::dvec3 sides =
-            glm::min(kCut * static_cast<double>(radius) / cell + 1.0, glm::dvec3(cells));
+            glm::min(kGaussianCut * static_cast<double>(radius) / cell + 1.0, glm::dvec3(cells));
         work += sides.x * sides.y * sides.z;
     }
     return work;

@@ -15,7 +15,6 @@ namespace {
 
 // Of the largest alpha: what counts as cloud in a picture.
 constexpr double kCoveredShare = 0.05;
-constexpr double kCut = 4;
 
 // Coarsens a raster of `side` lines until the work fits; work(side) = line-particle pairs.
 template <typename Work>
@@ -54,7 +53,7 @@ double parallel_optical_depth(const ParticleSet& particles, glm::dvec3 direction
         double work = 0;
         for (std::size_t i = 0; i < particles.size(); ++i) {
             const double reach =
-                std::min<double>(n, 2 * kCut * gaussian_s(particles, i) / extent * n + 1);
+                std::min<double>(n, 2 * kGaussianCut * gaussian_s(particles, i) / extent * n + 1);
             work += reach * reach;
         }
         return work;
@@ -69,7 +68,7 @@ double parallel_optical_depth(const ParticleSet& particles, glm::dvec3 direction
         const glm::dvec3 p = particles.center[i] - origin;
         const double x = (glm::dot(p, axes.u) - low.x) / step - 0.5,
                      y = (glm::dot(p, axes.v) - low.y) / step - 0.5;
-        const double reach = kCut * s / step, inverse = 0.5 * (step / s) * (step / s);
+        const double reach = kGaussianCut * s / step, inverse = 0.5 * (step / s) * (step / s);
         const int x0 = static_cast<int>(std::ceil(std::max(0.0, x - reach)));
         const int x1 = static_cast<int>(std::floor(std::min(side - 1.0, x + reach)));
         const int y0 = static_cast<int>(std::ceil(std::max(0.0, y - reach)));
@@ -100,7 +99,7 @@ EyeDepth eye_optical_depth(const ParticleSet& particles, const View& view) {
                 0,
                 -1,
                 {glm::dot(p, view.right), glm::dot(p, view.up), glm::dot(p, view.forward)}};
-        const double reach = kCut * gaussian_s(particles, i);
+        const double reach = kGaussianCut * gaussian_s(particles, i);
         const Interval x = disc_slopes(box.q.x, box.q.z, reach),
                        y = disc_slopes(box.q.y, box.q.z, reach);
         const auto column = [&](double slope) {

@@ -10,21 +10,19 @@
 namespace awan {
 namespace {
 
-// In s; what lies beyond (0.03% of the mass) is folded back by renormalising.
-constexpr double kCut = 4;
-
-struct Span {
+struct CellSpan {
     int first, last;  // cells, inclusive
 };
 
-Span cells_of(double center, double reach, double origin, double cell, int count) {
+CellSpan cells_of(double center, double reach, double origin, double cell, int count) {
     const int first = static_cast<int>(std::floor((center - reach - origin) / cell));
     const int last = static_cast<int>(std::floor((center + reach - origin) / cell));
     return {std::clamp(first, 0, count - 1), std::clamp(last, 0, count - 1)};
 }
 
 // Shares of a Gaussian's mass in the cells of a span along one axis; they sum to 1.
-void axis_weights(double center, double s, double origin, double cell, Span span, float* weights) {
+void axis_weights(double center, double s, double origin, double cell, CellSpan span,
+                  float* weights) {
     const auto below = [&](int edge) { return normal_cdf((origin + edge * cell - center) / s); };
     const double begin = below(span.first), whole = below(span.last + 1) - begin;
     double previous = begin;
@@ -39,7 +37,7 @@ void axis_weights(double center, double s, double origin, double cell, Span span
 double work_at(const ParticleSet& particles, double cell) {
     double work = 0;
     for (const float radius : particles.radius) {
-        const double side = kCut * static_cast<double>(radius) / cell + 2;
+        const double side = kGaussianCut * static_cast<double>(radius) / cell + 2;
         work += side * side * side;
     }
     return work;
@@ -52,14 +50,15 @@ DensityVolume density_volume(const ParticleSet& particles, int max_cells) {
     if (particles.size() == 0) return volume;
     glm::dvec3 low(particles.center[0]), high(low);
     for (std::size_t i = 0; i < particles.size(); ++i) {
-        const glm::dvec3 reach(kCut * gaussian_s(particles, i));
+        const glm::dvec3 reach(kGaussianCut * gaussian_s(particles, i));
         low = glm::min(low, particles.center[i] - reach);
         high = glm::max(high, particles.center[i] + reach);
     }
     const glm::dvec3 size = high - low;
     // Far from the origin a small ball may round to nothing; its own size is then the volume's.
-    const double largest_ball = kCut * static_cast<double>(*std::max_element(
-                                           particles.radius.begin(), particles.radius.end()));
+    const double largest_ball =
+        kGaussianCut *
+        static_cast<double>(*std::max_element(particles.radius.begin(), particles.radius.end()));
     const double longest = std::max({size.x, size.y, size.z, largest_ball});
     int count = max_cells;
     while (count > 4 && work_at(particles, longest / count) > kMaxVolumeWork) count = count * 3 / 4;
@@ -79,9 +78,9 @@ DensityVolume density_volume(const ParticleSet& particles, int max_cells) {
         const double s = gaussian_s(particles, i), mass = gaussian_mass(particles, i);
         if (!(mass > 0)) continue;
         const glm::dvec3 c = particles.center[i];
-        const Span x = cells_of(c.x, kCut * s, volume.origin.x, volume.cell, n.x);
-        const Span y = cells_of(c.y, kCut * s, volume.origin.y, volume.cell, n.y);
-        const Span z = cells_of(c.z, kCut * s, volume.origin.z, volume.cell, n.z);
+        const CellSpan x = cells_of(c.x, kGaussianCut * s, volume.origin.x, volume.cell, n.x);
+        const CellSpan y = cells_of(c.y, kGaussianCut * s, volume.origin.y, volume.cell, n.y);
+        const CellSpan z = cells_of(c.z, kGaussianCut * s, volume.origin.z, volume.cell, n.z);
         axis_weights(c.x, s, volume.origin.x, volume.cell, x, wx.data());
         axis_weights(c.y, s, volume.origin.y, volume.cell, y, wy.data());
         axis_weights(c.z, s, volume.origin.z, volume.cell, z, wz.data());
