@@ -50,8 +50,8 @@ Span span_of(double center, double reach, double cell, int count) {
 }
 
 // Share of a Gaussian's mass below a point, from -kGaussianCut s (0) to kGaussianCut s (1): linear between the nodes
-// of a table, within 2e-7. A table of normal_cdf, itself one: inlined and ready scaled it saves a quarter of a million small
-// particles' time, which is spent here.
+// of a table, within 2e-7. A table of normal_cdf, itself one: inlined and ready scaled it saves a quarter of a million
+// small particles' time, which is spent here.
 class MassBelow {
   public:
     MassBelow() {

@@ -225,7 +225,7 @@ MUTANTS = [
     M("covered by its double", "survey", "core/survey/optical_depth.cpp",
       "eye.covered = covered / lines;", "eye.covered = covered;", "a division", ["survey_test"]),
     M("half the normal distribution", "survey", "core/survey/gauss.cpp",
-      "if (!(x < kTableReach)) return 1;", "if (!(x < kReach)) return 0.5;", "of one side",
+      "if (!(x < kTableReach)) return 1;", "if (!(x < kTableReach)) return 0.5;", "of one side",
       ["survey_test:Gauss.*"]),
     M("eye's own half forgotten", "survey", "core/survey/optical_depth.cpp",
       "depth * std::exp(-0.5 * glm::dot(miss, miss)) * normal_cdf(t / s)",
