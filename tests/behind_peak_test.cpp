@@ -48,23 +48,61 @@ std::vector<float> seen(const SceneDraft& draft, int width, int height) {
     view.tan_half_fov = 1;
     view.aspect = static_cast<double>(width) / height;
     return behind_through_peak(scene, view, width, height, bare_ground(*scene),
-                               peak_of(scene->medium), true, true, 2);
+                               peak_of(scene->medium), true, true, 2)
+        .often;
 }
 
-TEST(BehindPeak, RingsRiseAndAreNarrowerForSteeperPeaks) {
+// Angle within which half of the light turns.
+double middle_of(const std::vector<Ring>& rings) {
+    double within = 0;
+    for (const Ring& ring : rings) {
+        within += ring.share;
+        if (within >= 0.5) return ring.angle;
+    }
+    return std::numbers::pi;
+}
+
+TEST(BehindPeak, RingsRiseAndAreNarrowerForSteeperPeaksAndThinMatter) {
     double before = std::numbers::pi;
     for (const double g : {0.3, 0.6, 0.85, 0.95, 0.99}) {
         const Medium medium = medium_of(g);
-        const std::vector<double> rings = rings_of_peak(medium, peak_of(medium), 8);
-        ASSERT_EQ(rings.size(), 8U);
-        EXPECT_GT(rings.front(), 0);
-        EXPECT_LE(rings.back(), std::numbers::pi);
-        EXPECT_TRUE(std::is_sorted(rings.begin(), rings.end()));
-        EXPECT_LT(rings[4], before);
-        before = rings[4];
+        const Peak peak = peak_of(medium);
+        const double most = depth_of_most(medium, peak);
+        const std::vector<Ring> rings = rings_of_peak(medium, peak, most, 24);
+        ASSERT_EQ(rings.size(), 24U);
+        EXPECT_GT(rings.front().angle, 0);
+        EXPECT_LE(rings.back().angle, std::numbers::pi);
+        double sum = 0;
+        for (std::size_t i = 0; i < rings.size(); ++i) {
+            if (i > 0) {
+                EXPECT_GT(rings[i].angle, rings[i - 1].angle);
+            }
+            sum += rings[i].share;
+        }
+        EXPECT_NEAR(sum, 1, 1e-9);
+        EXPECT_LT(middle_of(rings), before);
+        EXPECT_LE(middle_of(rings_of_peak(medium, peak, 0, 24)), middle_of(rings));
+        before = middle_of(rings);
     }
     // Three or four times scattered, by about 1 - g = .01 each.
     EXPECT_LT(before, 0.08);
+}
+
+// Scattered once, a sky of one Legendre order about any axis is that sky times what the peak keeps of the order.
+TEST(BehindPeak, KeepsOfEveryOrderWhatThePhaseFunctionDoes) {
+    const Medium medium = medium_of(0.85);
+    const Peak peak = peak_of(medium);
+    for (const double x : {0.0, depth_of_most(medium, peak)}) {
+        const std::vector<Ring> rings = rings_of_peak(medium, peak, x, 24);
+        for (int l = 1; l <= 12; ++l) {
+            double mean = 0;
+            for (const Ring& ring : rings)
+                mean += ring.share * std::legendre(static_cast<unsigned>(l), std::cos(ring.angle));
+            const double ratio = l < peak.from ? 1 : std::pow(0.85, l) / peak.share;
+            const double wanted = x > 0 ? std::expm1(x * ratio) / std::expm1(x) : ratio;
+            EXPECT_NEAR(mean, wanted, 0.02) << "order " << l << " x " << x;
+        }
+    }
 }
 
 TEST(BehindPeak, AnEvenSkyStaysAsItIs) {

@@ -15,25 +15,25 @@ namespace awan {
 namespace {
 
 // Rings around a direction, and directions on each.
-constexpr int kRings = 8, kSpokes = 10;
+constexpr int kRings = 24, kSpokes = 10;
 // Each ring is turned by this share of a spoke's gap, the golden section, against the one within.
 constexpr double kTurn = 0.618033988749895;
 // Of the grid of directions on which the mean is taken, radians; at most so many along a side.
 constexpr double kGridAngle = 0.07;
 constexpr int kMostGrid = 64;
-// Of the table of the share within an angle; of the Legendre sum.
-constexpr int kAngles = 256, kMostTerms = 1000;
+// Of the Legendre sum.
+constexpr int kMostTerms = 1000;
 constexpr double kNegligible = 1e-4;
+// Of x: e^50 is as good as without end.
+constexpr double kMostDepth = 50;
 
 // How much of the light of each Legendre order is left.
-std::vector<double> kept_by_peak(const Medium& medium, const Peak& peak) {
-    const double scattered = medium.albedo * peak.share, k = 1 - scattered;
-    const double depth = scattered < 1 ? -std::log(k) / scattered : 50;
-    const double whole = std::expm1(std::min(scattered * depth, 50.0));
+std::vector<double> kept_by_peak(const Medium& medium, const Peak& peak, double x) {
+    const double whole = std::expm1(x);
     std::vector<double> kept;
     for (int l = 0; l < kMostTerms; ++l) {
         const double ratio = l < peak.from ? 1 : phase_moment(medium, l) / peak.share;
-        kept.push_back(std::expm1(std::min(scattered * depth, 50.0) * ratio) / whole);
+        kept.push_back(whole > 0 ? std::expm1(x * ratio) / whole : ratio);
         if (l > peak.from && std::abs(kept.back()) < kNegligible) break;
     }
     return kept;
@@ -57,29 +57,31 @@ double share_within(const std::vector<double>& kept, double angle) {
 // A direction's neighbours, and what their light is.
 class Around {
   public:
-    Around(const Scene& scene, const View& view, const GroundLight& ground, const Peak& peak,
-           bool from_sky, bool from_ground)
+    Around(const Scene& scene, const View& view, const GroundLight& ground,
+           const std::vector<Ring>& rings, bool from_sky, bool from_ground)
         : eye_(view.eye),
           ground_(ground),
           sky_(outside_of(scene).sky),
           grounded_(scene->ground && view.eye.y > scene->ground->height),
           from_sky_(from_sky),
           from_ground_(from_ground) {
-        const std::vector<double> rings = rings_of_peak(scene->medium, peak, kRings);
-        for (int r = 0; r < kRings; ++r)
+        double turn = 0;
+        for (const Ring& ring : rings) {
             for (int s = 0; s < kSpokes; ++s) {
-                const double turn = 2 * std::numbers::pi * (s + kTurn * r) / kSpokes,
-                             angle = rings[static_cast<std::size_t>(r)];
-                turns_.push_back({std::sin(angle) * std::cos(turn),
-                                  std::sin(angle) * std::sin(turn), std::cos(angle)});
+                const double at = 2 * std::numbers::pi * (s + turn) / kSpokes;
+                turns_.push_back({{std::sin(ring.angle) * std::cos(at),
+                                   std::sin(ring.angle) * std::sin(at), std::cos(ring.angle)},
+                                  ring.share / kSpokes});
             }
+            turn += kTurn;
+        }
     }
     glm::vec3 mean(const glm::dvec3& direction) const {
         const SideAxes side = side_axes(direction);
         glm::dvec3 sum(0);
-        for (const glm::dvec3& turn : turns_)
-            sum += radiance(turn.x * side.u + turn.y * side.v + turn.z * direction);
-        return glm::vec3(sum / static_cast<double>(turns_.size()));
+        for (const auto& [turn, share] : turns_)
+            sum += share * radiance(turn.x * side.u + turn.y * side.v + turn.z * direction);
+        return glm::vec3(sum);
     }
 
   private:
@@ -93,7 +95,11 @@ class Around {
     const GroundLight& ground_;
     SkyDome sky_;
     bool grounded_, from_sky_, from_ground_;
-    std::vector<glm::dvec3> turns_;
+    struct Turn {
+        glm::dvec3 to;
+        double share;
+    };
+    std::vector<Turn> turns_;
 };
 
 // Points along a side of the picture whose half angle has this tangent.
@@ -105,32 +111,29 @@ int points_along(double tangent) {
 
 }  // namespace
 
-std::vector<double> rings_of_peak(const Medium& medium, const Peak& peak, int count) {
-    const std::vector<double> kept = kept_by_peak(medium, peak);
-    std::vector<double> rings;
-    double last_angle = 0, last_share = 0;
-    for (int i = 1; i <= kAngles && static_cast<int>(rings.size()) < count; ++i) {
-        const double at = static_cast<double>(i) / kAngles, angle = std::numbers::pi * at * at;
-        const double share = i == kAngles ? 1 : share_within(kept, angle);
-        // The sum over the orders up to L is cut off, and ripples.
-        if (!(share > last_share)) continue;
-        while (static_cast<int>(rings.size()) < count) {
-            const double wanted = (static_cast<double>(rings.size()) + 0.5) / count;
-            if (wanted > share) break;
-            rings.push_back(last_angle +
-                            (angle - last_angle) * (wanted - last_share) / (share - last_share));
-        }
-        last_angle = angle;
-        last_share = share;
+double depth_of_most(const Medium& medium, const Peak& peak) {
+    return std::min(-std::log(std::max(1 - medium.albedo * peak.share, 0.0)), kMostDepth);
+}
+
+std::vector<Ring> rings_of_peak(const Medium& medium, const Peak& peak, double x, int count) {
+    const std::vector<double> kept = kept_by_peak(medium, peak, x);
+    // Close together where the peak is.
+    const auto angle_at = [&](double i) { return std::numbers::pi * (i / count) * (i / count); };
+    std::vector<Ring> rings;
+    double within = 0;
+    for (int i = 1; i <= count; ++i) {
+        const double share = i == count ? 1 : share_within(kept, angle_at(i));
+        rings.push_back({angle_at(i - 0.5), share - within});
+        within = share;
     }
-    rings.resize(static_cast<std::size_t>(count), std::numbers::pi);
     return rings;
 }
 
-std::vector<float> behind_through_peak(const Scene& scene, const View& view, int width, int height,
-                                       const GroundLight& ground, const Peak& peak, bool from_sky,
-                                       bool from_ground, int threads) {
-    const Around around(scene, view, ground, peak, from_sky, from_ground);
+namespace {
+
+// The means of what stands around the pixels' middle rays, taken on a grid of directions and linear between them.
+std::vector<float> means_around(const Around& around, const View& view, int width, int height,
+                                int threads) {
     const double tan = view.tan_half_fov, wide = tan * view.aspect;
     const int across = points_along(wide), down = points_along(tan);
     std::vector<glm::vec3> means(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
@@ -140,16 +143,17 @@ std::vector<float> behind_through_peak(const Scene& scene, const View& view, int
                      v = (1 - 2.0 * static_cast<double>(i / columns) / (down - 1)) * tan;
         means[i] = around.mean(glm::normalize(view.forward + u * view.right + v * view.up));
     });
-    std::vector<float> rgb(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    const auto between = [](int pixel, int pixels, int points) {
-        const double at = (pixel + 0.5) / pixels * (points - 1);
+    const auto columns = static_cast<std::size_t>(width);
+    std::vector<float> rgb(3 * columns * static_cast<std::size_t>(height));
+    const auto between = [](std::size_t pixel, int pixels, int points) {
+        const double at = (static_cast<double>(pixel) + 0.5) / pixels * (points - 1);
         const int low = std::min(static_cast<int>(at), points - 2);
         return std::pair(static_cast<std::size_t>(low), static_cast<float>(at - low));
     };
-    std::size_t to = 0;
-    for (int y = 0; y < height; ++y) {
+    parallel_for(threads, static_cast<std::size_t>(height), [&](std::size_t y) {
         const auto [j, t] = between(y, height, down);
-        for (int x = 0; x < width; ++x) {
+        std::size_t to = 3 * columns * y;
+        for (std::size_t x = 0; x < columns; ++x) {
             const auto [i, s] = between(x, width, across);
             const glm::vec3* const row = &means[j * static_cast<std::size_t>(across) + i];
             const glm::vec3* const next = row + across;
@@ -157,8 +161,21 @@ std::vector<float> behind_through_peak(const Scene& scene, const View& view, int
                 glm::mix(glm::mix(row[0], row[1], s), glm::mix(next[0], next[1], s), t);
             for (int c = 0; c < 3; ++c) rgb[to++] = mean[c];
         }
-    }
+    });
     return rgb;
+}
+
+}  // namespace
+
+BehindPeak behind_through_peak(const Scene& scene, const View& view, int width, int height,
+                               const GroundLight& ground, const Peak& peak, bool from_sky,
+                               bool from_ground, int threads) {
+    const auto behind = [&](double x) {
+        const Around around(scene, view, ground, rings_of_peak(scene->medium, peak, x, kRings),
+                            from_sky, from_ground);
+        return means_around(around, view, width, height, threads);
+    };
+    return {behind(0), behind(depth_of_most(scene->medium, peak))};
 }
 
 }  // namespace awan

@@ -12,16 +12,31 @@
 
 namespace awan {
 
-// Angles (radians, rising, in 0..pi) of so many rings that each hold the same share of the light that the peak has
-// scattered once or more often, at the depth at which the most of it comes through: where exp(-k tau) - exp(-tau) is
-// the greatest, k = 1 - a f. Of order l it keeps (exp(a f tau r_l) - 1) / (exp(a f tau) - 1), with r_l = 1 for l <= L
-// and chi_l / f beyond. Precondition: peak.share > 0.
-std::vector<double> rings_of_peak(const Medium& medium, const Peak& peak, int count);
+// Light that the peak has scattered once or more often, on its way through matter of depth tau, with x = a f tau and k =
+// 1 - a f: of Legendre order l it keeps (exp(x r_l) - 1) / (exp(x) - 1), with r_l = 1 for l <= L and chi_l / f beyond.
+// Thin matter scatters once: r_l. The most of it comes through where exp(-k tau) - exp(-tau) is the greatest, at
+// x = -log k. Between the two its width grows about with x.
 
-// Of every pixel's middle ray, r g b, row by row from the top. from_sky, from_ground: whether the peak brings the light
-// of these; directions without it count as black.
-std::vector<float> behind_through_peak(const Scene& scene, const View& view, int width, int height,
-                                       const GroundLight& ground, const Peak& peak, bool from_sky,
-                                       bool from_ground, int threads);
+// That x; 50, which is as good as without end, where nothing is absorbed and all is the peak's.
+double depth_of_most(const Medium& medium, const Peak& peak);
+
+// A share of the light turns by about so much (radians, 0..pi). Shares may be negative: the peak keeps the orders up to
+// L whole, and what turns far, the solve's own part of the phase function has too much of.
+struct Ring {
+    double angle, share;
+};
+// So many, of rising angles; their shares add up to 1. x >= 0. Precondition: peak.share > 0.
+std::vector<Ring> rings_of_peak(const Medium& medium, const Peak& peak, double x, int count);
+
+// Of every pixel's middle ray, r g b, row by row from the top. EMPTY where nothing is seen through the peak.
+struct BehindPeak {
+    std::vector<float> once;   // through thin matter
+    std::vector<float> often;  // where the most comes through
+};
+
+// from_sky, from_ground: whether the peak brings the light of these; directions without it count as black.
+BehindPeak behind_through_peak(const Scene& scene, const View& view, int width, int height,
+                               const GroundLight& ground, const Peak& peak, bool from_sky,
+                               bool from_ground, int threads);
 
 }  // namespace awan

@@ -121,6 +121,9 @@ MarchScene scene_of(const Scene& scene, const View& view, const TransportLight& 
     march.to_sun = outside.to_sun;
     march.sun = glm::vec3(outside.sun);
     march.scaled = static_cast<float>(1 - scene->medium.albedo * march.peak.share);
+    if (march.peak.share > 0)
+        march.most_peak =
+            static_cast<float>(std::max(depth_of_most(march.medium, march.peak), 1e-3));
     march.rest = rest_of(march.medium, march.peak);
     march.detail = particles.detail.get();
     march.cut = matter_below_ground(scene, view, particles);
@@ -135,7 +138,7 @@ MarchScene scene_of(const Scene& scene, const View& view, const TransportLight& 
 }
 
 // The sky behind the cloud, as its gradient.
-SkyBehind gradient_behind(const Scene& scene, const TransportLight& light, bool has_peak) {
+SkyBehind gradient_behind(const Scene& scene) {
     SkyBehind sky;
     const SkyDome dome = outside_of(scene).sky;
     if (dome.shines && !dome.physical) {
@@ -143,7 +146,6 @@ SkyBehind gradient_behind(const Scene& scene, const TransportLight& light, bool 
             sky.zenith[c] = static_cast<float>(dome.zenith[c]);
             sky.horizon[c] = static_cast<float>(dome.horizon[c]);
         }
-        sky.peak = light.sky && has_peak;
     }
     sky.behind = scene->image.background == Background::kSky;
     return sky;
@@ -194,17 +196,18 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
         see_particles(particles, view, image.width, image.height, threads);
     MarchScene march = scene_of(scene, view, light, particles, seen, settings.step_error, threads);
     const bool has_peak = march.peak.share != 0;
-    march.sky = gradient_behind(scene, light, has_peak);
+    march.sky = gradient_behind(scene);
     Backdrop backdrop;
     if ((behind || has_peak || march.cut) && wants_backdrop(scene, view)) {
         backdrop = make_backdrop(scene, view, image.width, image.height, light.ground, threads);
         march.sky.backdrop = &backdrop;
-        march.sky.peak = has_peak && (light.sky || light.ground.into_cloud);
-        if (march.sky.peak)
-            march.sky.through_peak =
-                behind_through_peak(scene, view, image.width, image.height, light.ground,
-                                    march.peak, light.sky, light.ground.into_cloud, threads);
     }
+    march.sky.peak = has_peak && ((light.sky && outside_of(scene).sky.shines) ||
+                                  (light.ground.into_cloud && wants_backdrop(scene, view)));
+    if (march.sky.peak)
+        march.sky.through_peak =
+            behind_through_peak(scene, view, image.width, image.height, light.ground, march.peak,
+                                light.sky, light.ground.into_cloud, threads);
     const std::optional<Air> air = air_of(scene, view, light, settings, threads, took);
     if (air) march.air = &*air;
 

@@ -122,9 +122,19 @@ class BlockMarch {
         const float up[3] = {static_cast<float>(to_scene(view, frame.right).y),
                              static_cast<float>(to_scene(view, frame.up).y),
                              static_cast<float>(to_scene(view, frame.forward).y)};
-        simd::Floats backdrop[6];
-        const simd::Floats* const behind = scene_.sky.backdrop != nullptr ? backdrop : nullptr;
-        if (behind != nullptr) take_backdrop(t, backdrop);
+        const SkyBehind& sky = scene_.sky;
+        simd::Floats backdrop[3], once[3], often[3];
+        BehindPixels behind;
+        if (sky.backdrop != nullptr) {
+            take_pixels(t, sky.backdrop->rgb, backdrop);
+            behind.backdrop = backdrop;
+        }
+        if (sky.peak) {
+            take_pixels(t, sky.through_peak.once, once);
+            take_pixels(t, sky.through_peak.often, often);
+            behind.once = once;
+            behind.often = often;
+        }
         if (scene_.air != nullptr)
             kernels_.finish_air(scene_, air_tile(*scene_.air, room_.places[t]), block_.sun, up,
                                 behind, room_.tiles[t], to);
@@ -311,15 +321,11 @@ class BlockMarch {
                static_cast<std::size_t>(x);
     }
 
-    // r g b, and r g b as the peak brings it.
-    void take_backdrop(int t, simd::Floats* to) const {
-        const SkyBehind& sky = scene_.sky;
+    // Of each of the tile's pixels: r g b.
+    void take_pixels(int t, const std::vector<float>& rgb, simd::Floats* to) const {
         for (int lane = 0; lane < simd::kLanes; ++lane) {
             const std::size_t pixel = pixel_of(t, lane);
-            for (std::size_t c = 0; c < 3; ++c) {
-                to[c][lane] = sky.backdrop->rgb[3 * pixel + c];
-                to[3 + c][lane] = sky.peak ? sky.through_peak[3 * pixel + c] : 0.0f;
-            }
+            for (std::size_t c = 0; c < 3; ++c) to[c][lane] = rgb[3 * pixel + c];
         }
     }
 

@@ -13,8 +13,7 @@ namespace awan {
 
 // What stands behind a tile's pixels.
 struct BehindTile {
-    // Radiance r g b, then that which the forward peak brings, r g b. Null: the sky's gradient.
-    const simd::Floats* backdrop;
+    BehindPixels pixels;
     simd::Floats up;  // of the rays' directions, along the scene's y
 };
 
@@ -41,15 +40,22 @@ AWAN_INLINE simd::Floats through_peak(float scaled, const simd::Floats& depth) {
 // One channel of the radiance behind. `zenith`: zenith_share, where there is no backdrop.
 AWAN_INLINE simd::Floats radiance_behind(const SkyBehind& sky, const BehindTile& tile, int channel,
                                          const simd::Floats& zenith) {
-    if (tile.backdrop != nullptr) return tile.backdrop[channel];
+    if (tile.pixels.backdrop != nullptr) return tile.pixels.backdrop[channel];
     return sky.horizon[channel] + (sky.zenith[channel] - sky.horizon[channel]) * zenith;
 }
 
-// The same as the forward peak brings it: a gradient is even enough to be that right behind.
-AWAN_INLINE simd::Floats radiance_through_peak(const SkyBehind& sky, const BehindTile& tile,
-                                               int channel, const simd::Floats& zenith) {
-    if (tile.backdrop != nullptr) return tile.backdrop[3 + channel];
-    return radiance_behind(sky, tile, channel, zenith);
+// How much of the difference between matter where the most of the peak's light comes through and thin matter is there
+// at this depth of the cloud, 0..1.
+AWAN_INLINE simd::Floats often_scattered(const MarchScene& scene, const simd::Floats& depth) {
+    return simd::min((1.0f - scene.scaled) / scene.most_peak * depth, simd::all(1.0f));
+}
+
+// One channel of the light that the forward peak brings. through: the share of it that comes through.
+AWAN_INLINE simd::Floats light_of_peak(const BehindTile& tile, const simd::Floats& through,
+                                       const simd::Floats& often, int channel) {
+    if (tile.pixels.once == nullptr) return simd::Floats{};
+    const simd::Floats& once = tile.pixels.once[channel];
+    return through * (once + often * (tile.pixels.often[channel] - once));
 }
 
 // From a channel a vector to a pixel a row: to[lane][channel].
@@ -71,13 +77,14 @@ AWAN_INLINE void finish(const MarchScene& scene, const BehindTile& behind, const
     simd::Floats passes{}, through{};
     if (sky.behind) passes = clear;
     if (sky.peak) through = through_peak(scene.scaled, tile.depth);
+    const simd::Floats often = often_scattered(scene, tile.depth);
     simd::Floats zenith{};
-    if (behind.backdrop == nullptr && (sky.behind || sky.peak)) zenith = zenith_share(behind.up);
+    if (behind.pixels.backdrop == nullptr && sky.behind) zenith = zenith_share(behind.up);
     const simd::Floats radiance[3] = {tile.red, tile.green, tile.blue};
     simd::Floats channels[4];
     for (int c = 0; c < 3; ++c)
         channels[c] = radiance[c] + passes * radiance_behind(sky, behind, c, zenith) +
-                      through * radiance_through_peak(sky, behind, c, zenith);
+                      light_of_peak(behind, through, often, c);
     channels[3] = sky.behind ? simd::all(1.0f) : simd::one_minus(clear, tile.depth);
     to_pixels(channels, to);
 }
@@ -107,14 +114,15 @@ AWAN_INLINE void finish_in_air(const MarchScene& scene, const AirTile& air, cons
     const simd::Floats haze = tile.seen_air + clear * whole_air;
     const simd::Floats lit = rest_of_phase(scene.air->phase, chords) *
                              simd::max(haze - tile.seen_lost - clear * air.lost, simd::Floats{});
+    const simd::Floats often = often_scattered(scene, tile.depth);
     simd::Floats zenith{};
-    if (behind.backdrop == nullptr) zenith = zenith_share(behind.up);
+    if (behind.pixels.backdrop == nullptr) zenith = zenith_share(behind.up);
     const simd::Floats radiance[3] = {tile.red, tile.green, tile.blue};
     simd::Floats channels[4];
     for (int c = 0; c < 3; ++c)
         channels[c] = radiance[c] + haze * air.ambient[c] + lit * air.sun[c] +
                       passes * radiance_behind(sky, behind, c, zenith) +
-                      through * radiance_through_peak(sky, behind, c, zenith);
+                      light_of_peak(behind, through, often, c);
     channels[3] = simd::all(1.0f);
     if (!sky.behind) channels[3] -= clear * whole_clear;
     to_pixels(channels, to);

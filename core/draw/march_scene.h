@@ -6,10 +6,12 @@
 
 #include "core/draw/air.h"
 #include "core/draw/backdrop.h"
+#include "core/draw/behind_peak.h"
 #include "core/draw/march_bins.h"
 #include "core/draw/march_fineness.h"
 #include "core/draw/march_light.h"
 #include "core/draw/march_phase.h"
+#include "core/draw/march_simd.h"
 #include "core/generate/detail.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
@@ -23,8 +25,15 @@ struct SkyBehind {
     bool peak = false;                      // it is seen through the forward peak, too
     // What stands behind instead of the gradient; null: nothing.
     const Backdrop* backdrop = nullptr;
-    // Of each of its pixels, as the peak brings it (behind_peak.h); EMPTY where nothing is seen through the peak.
-    std::vector<float> through_peak;
+    BehindPeak through_peak;  // EMPTY without `peak`
+};
+
+// What stands behind the pixels of a tile.
+struct BehindPixels {
+    const simd::Floats* backdrop = nullptr;  // radiance r g b; null: the sky's gradient
+    // That which the forward peak brings (BehindPeak), r g b; null: none.
+    const simd::Floats* once = nullptr;
+    const simd::Floats* often = nullptr;
 };
 
 struct MarchScene {
@@ -39,6 +48,7 @@ struct MarchScene {
     glm::dvec3 to_sun{0, 1, 0};  // unit
     glm::vec3 sun{0};            // irradiance
     float scaled = 1;            // share of extinction that is not the peak's: 1 - albedo * f
+    float most_peak = 1;         // depth_of_most (behind_peak.h), above 0
     double step = 1;             // the longest step, scene units
     // The widest gap between rays along which light is looked up, scene units.
     double apart = 1e300;

@@ -16,9 +16,9 @@ namespace awan {
 struct MarchKernels {
     void (*rays)(const BlockFrame&, const float*, const float*, Floats*);
     void (*phases)(const MarchScene&, const SunInBlock&, Tile&, Floats*);
-    void (*finish)(const MarchScene&, const float*, const Floats*, const Tile&, float (*)[4]);
+    void (*finish)(const MarchScene&, const float*, const BehindPixels&, const Tile&, float (*)[4]);
     void (*finish_air)(const MarchScene&, const AirTile&, const SunInBlock&, const float*,
-                       const Floats*, const Tile&, float (*)[4]);
+                       const BehindPixels&, const Tile&, float (*)[4]);
     void (*measure)(const BlockParticles&, const Floats*, const Floats&, ActiveParticle&);
     void (*ratio)(const BlockParticles&, float, std::vector<ActiveParticle>&);
     void (*deposit)(const BlockParticles&, const std::vector<ActiveParticle>&, const Chunk&, Tile*);
