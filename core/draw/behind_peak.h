@@ -12,8 +12,8 @@
 
 namespace awan {
 
-// Light that the peak has scattered once or more often, on its way through matter of depth tau, with x = a f tau and k =
-// 1 - a f: of Legendre order l it keeps (exp(x r_l) - 1) / (exp(x) - 1), with r_l = 1 for l <= L and chi_l / f beyond.
+// Light that the peak has scattered once or more often, on its way through matter of depth tau, with x = a f tau and
+// k = 1 - a f: of Legendre order l it keeps (exp(x r_l) - 1) / (exp(x) - 1), with r_l = 1 for l <= L and chi_l / f beyond.
 // Thin matter scatters once: r_l. The most of it comes through where exp(-k tau) - exp(-tau) is the greatest, at
 // x = -log k. Between the two its width grows about with x.
 

@@ -58,29 +58,37 @@ struct Reference {
     double noise = 0, seconds = 0;
 };
 
-Reference reference_of(const Scene& scene, const Planned& planned, const Options& options) {
-    Reference reference;
+// Traces with so many samples a pixel.
+Reference traced(const Scene& scene, const Planned& planned, const Options& options,
+                 std::uint32_t samples) {
     TruthOptions truth;
     truth.eye_effects = planned.plan.eye_effects();
     truth.whole_pixels = true;
     truth.threads = options.threads;
-    truth.samples = options.noise < 1 ? 16 : 2;
-    for (int round = 0; round < (options.noise < 1 ? 3 : 1); ++round) {
-        const auto start = Deadline::Clock::now();
-        reference.image =
-            must(trace_truth(scene, planned.particles, planned.survey.view, truth, {}, {}));
-        reference.seconds = seconds_since(start);
-        reference.samples = truth.samples;
-        reference.noise = picture_error(mean_of(reference.image), reference.image).truth_noise;
-        if (reference.noise <= 1.1 * options.noise) break;
-        const double ratio = reference.noise / options.noise;
-        const double more =
-            std::min(ratio * ratio, options.seconds / std::max(reference.seconds, 1e-3));
-        if (more < 1.2) break;
-        truth.samples =
-            2 * static_cast<std::uint32_t>(std::clamp(more * truth.samples / 2, 1.0, 2e5));
-    }
+    truth.samples = samples;
+    Reference reference;
+    const auto start = Deadline::Clock::now();
+    reference.image =
+        must(trace_truth(scene, planned.particles, planned.survey.view, truth, {}, {}));
+    reference.seconds = seconds_since(start);
+    reference.samples = samples;
+    reference.noise = picture_error(mean_of(reference.image), reference.image).truth_noise;
     return reference;
+}
+
+Reference reference_of(const Scene& scene, const Planned& planned, const Options& options) {
+    constexpr std::uint32_t kFew = 2, kSome = 16;
+    const Reference few = traced(scene, planned, options, kFew);
+    if (options.noise >= 1) return few;
+    Reference reference = traced(scene, planned, options, kSome);
+    // Where there are many particles a pixel costs more before its first path than the paths do.
+    const double one = std::max((reference.seconds - few.seconds) / (kSome - kFew), 1e-6);
+    const double before = std::max(reference.seconds - kSome * one, 0.0);
+    const double ratio = reference.noise / options.noise;
+    const double wanted = std::min(kSome * ratio * ratio, (options.seconds - before) / one);
+    if (wanted < 1.2 * kSome) return reference;
+    const double most = std::clamp(wanted / 2, 1.0, 2e6);
+    return traced(scene, planned, options, 2 * static_cast<std::uint32_t>(most));
 }
 
 // A reference as a file: samples, noise, seconds, then the pixels of both halves.
