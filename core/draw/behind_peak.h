@@ -13,9 +13,9 @@
 namespace awan {
 
 // Light that the peak has scattered once or more often, on its way through matter of depth tau, with x = a f tau and
-// k = 1 - a f: of Legendre order l it keeps (exp(x r_l) - 1) / (exp(x) - 1), with r_l = 1 for l <= L and chi_l / f beyond.
-// Thin matter scatters once: r_l. The most of it comes through where exp(-k tau) - exp(-tau) is the greatest, at
-// x = -log k. Between the two its width grows about with x.
+// k = 1 - a f: of Legendre order l it keeps (exp(x r_l) - 1) / (exp(x) - 1), with r_l = 1 for l <= L and chi_l / f
+// beyond. Thin matter scatters once: r_l. The most of it comes through where exp(-k tau) - exp(-tau) is the greatest,
+// at x = -log k. Between the two its width grows about with x.
 
 // That x; 50, which is as good as without end, where nothing is absorbed and all is the peak's.
 double depth_of_most(const Medium& medium, const Peak& peak);
