@@ -12,6 +12,7 @@
 
 #include "core/plan/plan.h"
 #include "server/service/render_thread.h"
+#include "tests/patience.h"
 
 namespace awan::test {
 
@@ -74,10 +75,10 @@ class FakeRenderer {
     std::shared_ptr<State> state_ = std::make_shared<State>();
 };
 
-// Waits until `condition` holds, at most twenty seconds: sanitizers are slow.
+// Waits until `condition` holds, at most so long.
 template <typename Condition>
 bool eventually(Condition condition) {
-    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    const auto until = std::chrono::steady_clock::now() + patience(20);
     while (!condition()) {
         if (std::chrono::steady_clock::now() > until) return false;
         std::this_thread::sleep_for(std::chrono::milliseconds(2));

@@ -8,6 +8,7 @@
 #include "nlohmann/json.hpp"
 #include "server/service/negotiation.h"
 #include "service_fixture.h"
+#include "tests/patience.h"
 
 namespace awan::test {
 namespace {
@@ -22,7 +23,7 @@ Request accuracy_request(Query query = {}, const std::string& accept = "",
     if (!accept.empty()) request.headers.emplace_back("Accept", accept);
     request.query = {{"rungs", "additive,harris"}, {"samples", "16"}, {"size", "8"}};
     request.query.insert(request.query.end(), query.begin(), query.end());
-    request.deadline.until = Deadline::Clock::now() + std::chrono::seconds(30);
+    request.deadline.until = Deadline::Clock::now() + test::patience(30);
     return request;
 }
 

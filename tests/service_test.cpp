@@ -7,6 +7,7 @@
 
 #include "server/service/work_budget.h"
 #include "service_fixture.h"
+#include "tests/patience.h"
 
 namespace awan::test {
 namespace {
@@ -228,7 +229,7 @@ TEST_F(ServiceTest, WhatCannotBeDoneInTimeIsRefusedAtOnce) {
         make_request("POST", "/v1/render",
                      R"({"cubes":[{"particles":20,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],)"
                      R"("image":{"width":4096,"height":4096},"accuracy":{"rung":"truth"}})");
-    request.deadline.until = Deadline::Clock::now() + std::chrono::seconds(10);
+    request.deadline.until = Deadline::Clock::now() + test::patience(10);
     const Response refused = service.answer(request);
     expect_problem(refused, 504);
     for (const char* const said : {"rung truth would take about", "are left", "smaller picture"})
