@@ -17,16 +17,18 @@ namespace awan {
 namespace {
 
 // Error over the difference to the next coarser grid (tests/calibration/README.md).
-constexpr double kErrorOfDifference = 1.8;
+constexpr double kErrorOfDifference = 1.5;
 // The same, of pictures without a grid to one with it.
 constexpr double kErrorOfPicture = 1.1;
 // With which power of a cell's side errors fall, at least: from 1.3 to 1.6 was measured on smooth clouds.
 constexpr double kOrder = 1.3;
-// What differences of grids do not show, of thick matter. The march's steps, its light between looked up rays and the
-// sun's lattice:
-constexpr double kEyeError = 0.018;
-// what 128 directions leave of the angles of forward scattered light, times g squared;
-constexpr double kAngularError = 0.045;
+// What differences of grids do not show. The march's steps and its light between looked up rays, in any matter; and in
+// thick matter the sun's lattice:
+constexpr double kEyeError = 0.005, kThickError = 0.006;
+// what 128 directions and four orders leave of the angles of forward scattered light, times g squared; the more of it
+// the nearer the sun is to behind the eye, in proportion to the square of what the cosine between it and the view is
+// below -1/2: what comes back from there has turned around by many small angles, which the peak's light does not;
+constexpr double kAngularError = 0.025, kTurnedBackError = 0.2;
 // what lumps of detail that are smaller than steps, cells and the gaps between rays leave, times the detail's amount;
 // more of it in deep matter, where a cell of the sun's lattice is several mean free paths, in proportion to depths
 // up to kDeep, and where the sun shines through their edges, times the cosine squared between it and the view.
@@ -140,7 +142,9 @@ Result<const Image*> small_picture(const Climb& climb, const TransportLight& lig
 double stated_error(double difference, const Climb& climb) {
     const Survey& survey = climb.planned.survey;
     const double g = climb.scene->medium.g, depth = survey.optical_depth_eye;
-    double floor = std::hypot(kEyeError, kAngularError * g * g) * depth / (1 + depth);
+    const double behind = std::clamp(-2 * survey.sun_cosine - 1, 0.0, 1.0);
+    const double angular = (kAngularError + kTurnedBackError * behind * behind) * g * g;
+    double floor = std::hypot(kEyeError, std::hypot(kThickError, angular) * depth / (1 + depth));
     if (climb.planned.particles.detail != nullptr) {
         const double into_sun = std::max(survey.sun_cosine, 0.0);
         floor =
