@@ -82,6 +82,9 @@ TEST_F(ServiceTest, SceneTypesAreTaken) {
 TEST_F(ServiceTest, BrokenDocumentsAre400) {
     for (const char* body : {"", " ", "{", "nonsense", "{\"cubes\":[}", "\xff\xfe"})
         expect_problem(post("/v1/plan", body), 400);
+    // What follows a NUL must not be passed over.
+    for (const std::string& after : {std::string(1, '\0'), std::string("\0 nonsense", 10)})
+        expect_problem(post("/v1/plan", kScene + after), 400);
     expect_problem(post("/v1/plan", "2\n1\n", {}, "text/x-awn"), 400);
     expect_problem(post("/v1/plan", "a,b\n1,2\n", {}, "text/csv"), 400);
     expect_problem(post("/v1/plan", "ply\n", {}, "application/x-ply"), 400);

@@ -20,6 +20,7 @@ int status_of(ErrorCode code) {
         case ErrorCode::kTooLarge:
             return 413;
         case ErrorCode::kNoRenderer:
+        case ErrorCode::kOutOfMemory:
         case ErrorCode::kCancelled:
             return 503;
         case ErrorCode::kOverDeadline:
@@ -39,6 +40,7 @@ int exit_code_of(ErrorCode code) {
         case ErrorCode::kTooLarge:
             return 3;
         case ErrorCode::kNoRenderer:
+        case ErrorCode::kOutOfMemory:
         case ErrorCode::kCancelled:
         case ErrorCode::kOverDeadline:
         case ErrorCode::kInternal:
