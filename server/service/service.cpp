@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/thrown.h"
 #include "server/document/json.h"
 #include "server/header_text.h"
 #include "server/service/negotiation.h"
@@ -16,6 +17,27 @@ using Clock = Deadline::Clock;
 
 // Seconds for Retry-After. By then another instance, or this one started anew, is up.
 constexpr int kDrainRetrySeconds = 5;
+
+// Counts the requests that are being answered.
+class InProgress {
+  public:
+    explicit InProgress(std::atomic<std::size_t>* count) : count_(count) {
+        if (count_) ++*count_;
+    }
+    ~InProgress() {
+        if (count_) --*count_;
+    }
+    InProgress(const InProgress&) = delete;
+    InProgress& operator=(const InProgress&) = delete;
+
+  private:
+    std::atomic<std::size_t>* count_;
+};
+
+ServiceOptions with_defaults(ServiceOptions options) {
+    if (!options.on_processor) options.on_processor = processor_renderer();
+    return options;
+}
 
 std::string_view find_header(const std::vector<std::pair<std::string, std::string>>& headers,
                              std::string_view name) {
@@ -83,9 +105,27 @@ std::string not_ready(const Service::State& state) {
     if (state.draining) return "the server is stopping";
     const RenderThread::Info info = state.renderer.info();
     if (info.state == RenderThread::Info::State::kStarting) return "the renderer is starting";
-    if (info.state == RenderThread::Info::State::kNoRenderer)
-        return "there is no renderer: " + info.reason;
+    if (state.lanes.load().full) return "saturated: as many requests wait as may";
     return {};
+}
+
+int retry_seconds(const Service::State& state) {
+    return seconds_from_ms(state.lanes.wait_ms(Weight::kShort));
+}
+
+Gauges gauges(const Service::State& state) {
+    Gauges now;
+    now.ready = not_ready(state).empty();
+    now.renderer = state.renderer.info().state == RenderThread::Info::State::kReady;
+    now.renderer_reopened = state.renderer.reopened();
+    now.in_progress = state.in_progress;
+    now.lanes = state.lanes.load();
+    now.device_lane = state.device_lane.load();
+    now.work_bytes = state.budget.taken();
+    now.work_bytes_most = state.budget.bytes();
+    now.cache_bytes = state.results.bytes_in_use();
+    now.cache_entries = state.results.entries();
+    return now;
 }
 
 Response get(Service::State& state, const Route& route, const Request& request) {
@@ -99,11 +139,12 @@ Response get(Service::State& state, const Route& route, const Request& request) 
     if (route.pattern == "/readyz") {
         const std::string reason = not_ready(state);
         if (reason.empty()) return text_answer("text/plain; charset=utf-8", "ready\n");
-        return problem_retry(503, reason, kDrainRetrySeconds, request.id);
+        const int seconds = state.draining ? kDrainRetrySeconds : retry_seconds(state);
+        return problem_retry(503, reason, seconds, request.id);
     }
     if (route.pattern == "/metrics")
         return text_answer("text/plain; version=0.0.4; charset=utf-8",
-                           state.metrics.text(state.renderer.waiting(), not_ready(state).empty()));
+                           state.metrics.text(gauges(state)));
     // Here the path is /version.
     const RenderThread::Info info = state.renderer.info();
     const bool ready = info.state == RenderThread::Info::State::kReady;
@@ -139,10 +180,13 @@ std::optional<Response> check(const Service::State& state, const Route& route,
 
 Response finished(Service::State& state, const Route& route, const Request& request,
                   Response response, double seconds) {
+    response.route = route.pattern;
     for (const auto& [name, value] :
          {std::pair<std::string_view, std::string_view>("X-Request-Id", request.id),
           {"X-Content-Type-Options", "nosniff"}})
         if (find_header(response.headers, name).empty()) response.headers.emplace_back(name, value);
+    // Nobody reads the status of an answer whose client has gone; 499 is what nginx counts it as.
+    if (response.abandoned) response.status = kClientGone;
     state.metrics.request_done(route.pattern, response.status, seconds);
     return response;
 }
@@ -172,7 +216,7 @@ Response not_modified(std::string_view etag, bool varies) {
 }
 
 Service::Service(RenderThread& renderer, Metrics& metrics, ServiceOptions options)
-    : state_(std::make_unique<State>(renderer, metrics, options)) {
+    : state_(std::make_unique<State>(renderer, metrics, with_defaults(std::move(options)))) {
     std::vector<PresetEntry> entries;
     for (const Preset& preset : state_->presets) entries.push_back(preset.entry);
     state_->presets_json = presets_to_json(entries.data(), entries.size());
@@ -186,7 +230,11 @@ void Service::drain() {
 }
 
 int Service::retry_after_seconds() const {
-    return state_->renderer.retry_after_seconds();
+    return retry_seconds(*state_);
+}
+
+std::size_t Service::in_progress() const {
+    return state_->in_progress;
 }
 
 std::optional<Response> Service::refuse(const Request& request) {
@@ -200,6 +248,7 @@ Response Service::answer(const Request& request) {
     const auto start = Clock::now();
     Route route;
     Response response;
+    const InProgress counted(request.method == "POST" ? &state_->in_progress : nullptr);
     try {
         route = find_route(*state_, request.path);
         if (auto refused = check(*state_, route, request)) {
@@ -208,12 +257,11 @@ Response Service::answer(const Request& request) {
             response =
                 route.post ? answer_scene_request(*state_, request) : get(*state_, route, request);
         }
-    } catch (const std::bad_alloc&) {
-        response = problem_retry(503, "there is not enough memory for this now",
-                                 retry_after_seconds(), request.id);
-    } catch (const std::exception&) {
-        response = problem(Error{ErrorCode::kInternal, "", ""}, request.id);
+    } catch (const std::exception& e) {
+        response = fail(error_of_thrown(e), request);
     }
+    if (response.status == 503 && response.header("Retry-After").empty())
+        response.headers.emplace_back("Retry-After", std::to_string(retry_seconds(*state_)));
     const std::chrono::duration<double> took = Clock::now() - start;
     return finished(*state_, route, request, std::move(response), took.count());
 }
