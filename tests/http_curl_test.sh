@@ -166,6 +166,43 @@ same "host of the environment" 200 "$(code -H 'Host: env.example:80' "$url/healt
 same "host of the file, overruled" 421 "$(code -H 'Host: file.example' "$url/healthz")"
 stop 0 TERM
 
+# --- beyond this machine only with a token, or where something else guards it
+"$awan" serve --listen 0.0.0.0:0 2>"$work/second"
+same "open by mistake" 2 "$?"
+contains "open by mistake" "--token-file" "$(cat "$work/second")"
+echo short >"$work/token"
+"$awan" serve --listen 0.0.0.0:0 --token-file "$work/token" 2>"$work/second"
+same "a token that can be guessed" 5 "$?"
+echo 0123456789abcdef >"$work/token"
+start --software --listen 0.0.0.0:0 --token-file "$work/token" --log json --deadline 0.5 --max-body 1 --queue 3
+url=${url/0.0.0.0/127.0.0.1}
+same "health without a token" 200 "$(code "$url/healthz")"
+same "without a token" 401 "$(code -H "$json" -d "$scene" "$url/v1/plan")"
+contains "what is wanted" 'WWW-Authenticate: Bearer' "$(curl -si "$url/metrics")"
+same "with another" 401 "$(code -H 'Authorization: Bearer 0123456789abcdee' "$url/metrics")"
+token='Authorization: bearer 0123456789abcdef'
+same "with the token" 200 "$(code -H "$token" -H "$json" -d "$scene" "$url/v1/plan")"
+same "body over --max-body" 413 "$(code -H "$token" -H "$json" --data-binary @"$work/long.json" "$url/v1/plan")"
+truth='{"cubes":[{"particles":60,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],"image":{"width":2048,"height":2048},"accuracy":{"rung":"truth"}}'
+contains "what would fit" '\"time_ms\"' "$(curl -s -H "$token" -H "$json" -d "$truth" "$url/v1/render")"
+curl -s -o "$work/kept1" -H "$token" -H "$json" -d "$scene" "$url/v1/render"
+contains "kept" 'Awan-Cache: hit' "$(curl -s -D - -o "$work/kept2" -H "$token" -H "$json" -d "$scene" "$url/v1/render")"
+cmp -s "$work/kept1" "$work/kept2" || fail "what is kept has other bytes"
+contains "kept, counted" 'awan_cache_hits_total 1' "$(curl -s -H "$token" "$url/metrics")"
+same "an id in the log" 200 "$(code -H 'X-Request-Id: log-1' "$url/healthz")"
+stop 0 TERM
+python3 - "$work/log" <<'PYTHON' || fail "the log"
+import json, sys
+lines = [json.loads(line) for line in open(sys.argv[1]) if line.startswith("{")]
+names = ["time", "client", "id", "method", "target", "route", "status", "bytes_in", "bytes_out", "seconds", "stages", "reason"]
+assert all(list(line) == names for line in lines), lines[0]
+assert any(line["id"] == "log-1" and line["route"] == "/healthz" and line["status"] == 200 for line in lines)
+assert any(line["reason"] == "hopeless" and line["status"] == 504 for line in lines), lines
+assert any(line["reason"] == "cache hit" for line in lines)
+assert any(line["status"] == 401 and line["reason"] == "access" for line in lines)
+assert any("encode" in line["stages"] for line in lines)
+PYTHON
+
 "$awan" serve --config "$work/none.conf" 2>"$work/second"
 same "file that is not there" 5 "$?"
 printf 'queeu = 3\n' >"$work/wrong.conf"

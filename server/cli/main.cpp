@@ -1,9 +1,12 @@
 // awan: the command line. Flags become plain values here; commands.cpp and serve.cpp do the work.
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <functional>
+#include <iostream>
 #include <thread>
 
 #include "core/base/thrown.h"
@@ -280,8 +283,12 @@ Run add_convert(CLI::App& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    // A heap for each thread takes 64 MiB of addresses, which are short under a limit, and keeps what it once took.
+    mallopt(M_ARENA_MAX, 4);
     // Writing to a pipe that was closed then fails, with a message, instead of ending the process.
     std::signal(SIGPIPE, SIG_IGN);
+    // So does writing more than a file may hold (ulimit -f).
+    std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Awan renders clouds.", "awan");
     app.footer(
         "Every flag has an environment variable; awan COMMAND --help names it.\n"
@@ -308,7 +315,9 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         const bool help = e.get_exit_code() == 0;
         app.exit(e);
-        if (help) return kExitFine;
+        if (help && std::cout.flush()) return kExitFine;
+        if (help)
+            return report_error("", Error{ErrorCode::kIo, "", "cannot write standard output"});
         return dynamic_cast<const CLI::FileError*>(&e) ? exit_code_of(ErrorCode::kIo) : kExitUsage;
     }
     try {

@@ -23,12 +23,10 @@ namespace awan {
 namespace {
 
 // A request's large arrays go back to the system when it ends. Left to itself, glibc raises its threshold to what was
-// freed last and keeps them: 340 MB stayed after renders of 200,000 particles, 228 MB do so. Nor has every thread a
-// heap of its own, each of which keeps what the largest document took that was ever read in it.
+// freed last and keeps them: 340 MB stayed after renders of 200,000 particles, 228 MB do so.
 void give_memory_back() {
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
     mallopt(M_TRIM_THRESHOLD, 1 << 20);
-    mallopt(M_ARENA_MAX, 4);
 }
 
 // Characters of a token. What can be guessed is no secret.

@@ -232,6 +232,8 @@ Response answer_scene_request(Service::State& state, const Request& request) {
     auto scene = read(request);
     reading = {};
     if (!scene) return fail(scene.error(), request);
+    // Reading a long document may take seconds.
+    if (const Status over = request.deadline.over()) return fail(*over, request);
     if ((*scene)->sequence || particle_count(**scene) > kManyParticles)
         if (auto refused = not_let_in(pass.expect(2 * kShort_ms, request.deadline), state.lanes,
                                       Weight::kLong, request))
