@@ -55,6 +55,20 @@ inline constexpr std::size_t kRenderQueue = 16;
 // Requests that are read and not yet with a worker. More are answered 429.
 inline constexpr std::size_t kWaitingRequests = 64;
 
+// Jobs that have not finished; more are answered 429. Jobs that are kept in all, the oldest finished ones are dropped.
+inline constexpr std::size_t kWaitingJobs = 64;
+inline constexpr std::size_t kMostJobs = 256;
+// Bytes of the results of jobs that are kept: some sequences, or a thousand pictures.
+inline constexpr std::size_t kJobBytes = 256u << 20;
+// Of one job, from when it begins: what takes longer is for the command line.
+inline constexpr std::chrono::minutes kJobDeadline{60};
+// Clients that follow jobs at once: each holds a thread. More are answered 429, and ask now and then instead.
+inline constexpr std::size_t kEventStreams = 16;
+// After so long the stream ends, and whoever still follows connects anew.
+inline constexpr std::chrono::minutes kEventsDeadline{10};
+// Bytes of an Idempotency-Key. A UUID takes 36.
+inline constexpr std::size_t kMaxKeyBytes = 128;
+
 // --- Memory
 
 // Bytes of a body that never waits for the budget below. No layout is longer.

@@ -32,10 +32,10 @@ class FakeRenderer {
 
     // What renders the rungs that need no device.
     RenderOnProcessor on_processor() const {
-        return
-            [state = state_](const Scene& scene, Planned planned, int, const Deadline& deadline) {
-                return render(*state, scene, std::move(planned), deadline);
-            };
+        return [state = state_](const Scene& scene, Planned planned, int, const Progress&,
+                                const Deadline& deadline) {
+            return render(*state, scene, std::move(planned), deadline);
+        };
     }
 
     void hold() { set_held(true); }

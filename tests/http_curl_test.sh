@@ -12,9 +12,9 @@ fail() { echo "FAILED: $*" >&2; failures=$((failures + 1)); }
 same() { [ "$2" = "$3" ] || fail "$1: expected '$2', got '$3'"; }
 contains() { case $3 in *"$2"*) ;; *) fail "$1: '$2' is not in '$3'" ;; esac; }
 
-# start ARGUMENTS...: serves on a free port; sets $server and $url.
+# start ARGUMENTS...: serves on a free port (of $listen); sets $server and $url.
 start() {
-    "$awan" serve --listen 127.0.0.1:0 "$@" 2>"$work/log" &
+    "$awan" serve --listen "${listen:-127.0.0.1:0}" "$@" 2>"$work/log" &
     server=$!
     url=
     for _ in $(seq 200); do
@@ -109,7 +109,7 @@ assert answer["reference"]["width"] == 16, answer
 times = [rung["time_ms"] for rung in answer["rungs"]]
 left_out = answer["left_out"]  # on a busy machine, for want of time
 assert times and times == sorted(times) and len(times) + len(left_out) == 8, answer
-assert all("that were left" in rung["reason"] for rung in left_out), answer' || fail "accuracy as JSON"
+assert all("were left" in rung["reason"] for rung in left_out), answer' || fail "accuracy as JSON"
 contains "accuracy is not kept" 'Cache-Control: no-store' "$(cat "$work/head")"
 curl -s -H "$json" -H 'Accept: image/png' -d "$scene" \
     "$url/v1/accuracy?theme=dark&rungs=harris,transport-16&samples=16&size=16&runs=2" -o "$work/plot.png"
@@ -174,7 +174,7 @@ echo short >"$work/token"
 "$awan" serve --listen 0.0.0.0:0 --token-file "$work/token" 2>"$work/second"
 same "a token that can be guessed" 5 "$?"
 echo 0123456789abcdef >"$work/token"
-start --software --listen 0.0.0.0:0 --token-file "$work/token" --log json --deadline 0.5 --max-body 1 --queue 3
+listen=0.0.0.0:0 start --software --token-file "$work/token" --log json --deadline 0.5 --max-body 1 --queue 3
 url=${url/0.0.0.0/127.0.0.1}
 same "health without a token" 200 "$(code "$url/healthz")"
 same "without a token" 401 "$(code -H "$json" -d "$scene" "$url/v1/plan")"

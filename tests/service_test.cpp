@@ -520,7 +520,7 @@ TEST(Memory, ThatRunsOutIs503AndNotTheEnd) {
     RenderThread thread(fake.opener());
     Metrics metrics;
     ServiceOptions options;
-    options.on_processor = [](const Scene&, Planned, int, const Deadline&) -> Result<Rendered> {
+    options.on_processor = [](const Scene&, Planned, int, const Progress&, const Deadline&) -> Result<Rendered> {
         throw std::bad_alloc();
     };
     Service service(thread, metrics, options);

@@ -120,10 +120,10 @@ bool is_loopback(const std::string& host) {
     return host == "localhost" || host.starts_with("127.") || host == "[::1]" || host == "::1";
 }
 
-// How many POSTs there may be at once: those in lanes, those in the lines of the lanes and of the renderer, and one
-// more, to be told that these are full.
+// How many threads may wait at once: those in lanes, those in the lines of the lanes and of the renderer, those that
+// follow jobs, and some more, to be told that these are full.
 std::size_t workers_for(const LanesOptions& lanes) {
-    return lanes.lanes + 2 * lanes.line + 2;
+    return lanes.lanes + 2 * lanes.line + 2 + limits::kEventStreams;
 }
 
 }  // namespace
@@ -181,6 +181,7 @@ int run_serve(const ServeCommand& command) {
     service_options.work_bytes = command.memory_mib > 0
                                      ? command.memory_mib << 20
                                      : std::min(limits::kWorkBytes, memory_there_is() / 2);
+    service_options.jobs = lanes.lanes;
     service_options.cache_bytes = command.cache_mib << 20;
     const auto lights = std::make_shared<LightCache>(kLightCacheBytes);
     service_options.on_processor = processor_renderer(lights);

@@ -103,7 +103,7 @@ bool ConnectionSink::write(std::string_view bytes) {
         const std::size_t n = std::min(bytes.size(), kSlice);
         connection_.out.append(bytes.substr(0, n));
         bytes.remove_prefix(n);
-        if (connection_.out.size() >= kGather && !send_or_wait()) return false;
+        if ((!gathers_ || connection_.out.size() >= kGather) && !send_or_wait()) return false;
     }
     return true;
 }

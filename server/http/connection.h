@@ -126,6 +126,8 @@ class ConnectionSink : public ByteSink {
         : connection_(connection), parked_(parked_in_all), never_wait_(never_wait), until_(until) {}
 
     bool write(std::string_view bytes) override;
+    // From now on every write goes out at once.
+    void gather_nothing() { gathers_ = false; }
     // To be called once after the last write.
     bool flush();
 
@@ -135,6 +137,7 @@ class ConnectionSink : public ByteSink {
     Connection& connection_;
     std::atomic<std::size_t>& parked_;
     bool never_wait_;
+    bool gathers_ = true;
     Connection::Clock::time_point until_;
 };
 

@@ -98,7 +98,8 @@ void HttpServer::State::dispatch(Connection& c) {
     c.read_at = Clock::now();
     c.close_after = !c.head.keep_alive || ++c.served >= options.requests_per_connection ||
                     draining || c.in_reserve;
-    if (c.head.method != "POST") return taken_back(c, answer(c, codec, true));
+    if (c.head.method != "POST" && !Service::waits_for_events(c.head.target))
+        return taken_back(c, answer(c, codec, true));
     c.with_worker = workers->push(&c);
     if (c.with_worker) return;
     metrics.connection_refused("requests");
@@ -168,6 +169,8 @@ bool HttpServer::State::answer(Connection& c, HttpCodec& with, bool here) {
             Response response = service.answer(r);
             log(c, response, r.id, r.body.size());
             begin_answer(c);
+            // Each event leaves when it happens.
+            if (response.header("Content-Type") == "text/event-stream") sink.gather_nothing();
             if (!origin.empty()) {
                 response.headers.emplace_back("Access-Control-Allow-Origin", origin);
                 response.headers.emplace_back("Access-Control-Expose-Headers", "*");

@@ -165,7 +165,7 @@ Response answer_accuracy(Service::State& state, const Request& request, const Sc
         return render_one(state, one, request.client, deadline, queue_ms);
     };
     NamedAccuracy named;
-    auto report = measure_accuracy(scene, options, render, Progress{}, request.deadline);
+    auto report = measure_accuracy(scene, options, render, request.progress, request.deadline);
     if (!report) return fail(report.error(), request);
     named.report = *std::move(report);
     const double measured_ms = ms_since(start);

@@ -144,6 +144,9 @@ std::string Metrics::text(const Gauges& now) const {
         state_->cache_misses);
     one("awan_cache_bytes", "gauge", "Memory of the answers that are kept.", now.cache_bytes);
     one("awan_cache_entries", "gauge", "Answers that are kept.", now.cache_entries);
+    one("awan_jobs_waiting", "gauge", "Jobs that have not begun.", now.jobs_waiting);
+    one("awan_jobs_running", "gauge", "Jobs that run.", now.jobs_running);
+    one("awan_job_result_bytes", "gauge", "Results of jobs that are kept.", now.job_bytes);
     one("awan_ready", "gauge", "1 when /readyz says 200.", now.ready ? 1 : 0);
     one("awan_renderer", "gauge", "1 when the splat rungs can be drawn.", now.renderer ? 1 : 0);
     one("awan_renderer_reopened_total", "counter", "How often the renderer was opened again.",

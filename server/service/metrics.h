@@ -21,6 +21,7 @@ struct Gauges {
     Lanes::Load device_lane{};
     std::size_t work_bytes = 0, work_bytes_most = 0;
     std::size_t cache_bytes = 0, cache_entries = 0;
+    std::size_t jobs_waiting = 0, jobs_running = 0, job_bytes = 0;
 };
 
 // What /metrics shows.

@@ -99,6 +99,13 @@ std::string what_fits(const Plan& plan, double ms) {
     return detail;
 }
 
+// Of the stages between the plan and encoding, as predicted.
+double to_come_ms(const Planned& planned) {
+    const double done_ms = planned.times.generate_ms + planned.times.survey_ms;
+    const double all_ms = planned.plan.predicted.time_ms;
+    return std::isfinite(all_ms) ? std::max(all_ms - done_ms, 0.0) : 0;
+}
+
 // One render on its way: what is known of it, and how it ends.
 struct Way {
     Service::State& state;
@@ -116,25 +123,18 @@ struct Way {
             request.deadline.until - Clock::now();
         return std::max(left.count(), 0.0);
     }
-    // Of all stages that come after the plan.
-    double to_come_ms(const Planned& planned) const {
-        const double done_ms = planned.times.generate_ms + planned.times.survey_ms;
-        return std::max(planned.plan.predicted.time_ms - done_ms, 0.0) + encode_ms;
-    }
     // Why a plan cannot be carried out before the deadline, and what could be; nothing when it may.
     std::optional<Response> hopeless(const Planned& planned) const {
-        const double left =
-            left_ms() - (needs_device(planned.plan)
-                             ? state.device_lane.wait_ms(weight_of(to_come_ms(planned)))
-                             : 0);
-        if (planned.plan.predicted.rung == nullptr ||
-            !(to_come_ms(planned) > kHopeless * std::max(left, 0.0)))
+        const double needed = to_come_ms(planned) + encode_ms;
+        const double wait =
+            needs_device(planned.plan) ? state.device_lane.wait_ms(weight_of(needed)) : 0;
+        const double left = std::max(left_ms() - wait, 0.0);
+        if (planned.plan.predicted.rung == nullptr || !(needed > kHopeless * left))
             return std::nullopt;
         Response response = problem(504,
                                     "rung " + planned.plan.rung + " would take about " +
-                                        seconds_text(to_come_ms(planned)) + " and " +
-                                        seconds_text(std::max(left, 0.0)) + " are left; " +
-                                        what_fits(planned.plan, left - encode_ms),
+                                        seconds_text(needed) + " and " + seconds_text(left) +
+                                        " are left; " + what_fits(planned.plan, left - encode_ms),
                                     "", request.id);
         response.reason = "hopeless";
         return response;
@@ -170,37 +170,48 @@ Response kept_answer(const KeptResult& kept) {
     return response;
 }
 
-// Draws it: with the device, in whose line it waits while another computes in its lane, or in its lane.
-Result<Rendered> render(const Way& way, Planned planned, Lanes::Pass& pass, double& queue_ms,
-                        std::optional<Response>& refused) {
-    Service::State& state = way.state;
-    const Deadline& deadline = way.request.deadline;
-    const double expected_ms = way.to_come_ms(planned);
-    const Error no_lane{ErrorCode::kInternal, "", "it got no lane"};
-    if (!needs_device(planned.plan)) {
-        const Weight weight = weight_of(expected_ms);
-        refused = not_let_in(pass.expect(expected_ms, deadline), state.lanes, weight, way.request);
-        if (refused) return no_lane;
-        return state.options.on_processor(way.scene, std::move(planned), threads_of_one(state),
-                                          deadline);
+}  // namespace
+
+std::string server_timing(std::span<const std::pair<const char*, double>> milliseconds) {
+    std::string header;
+    for (const auto& [name, ms] : milliseconds) {
+        header += header.empty() ? "" : ", ";
+        header += name + number_text(";dur=%.3f", ms);
     }
-    pass.leave();
-    const LaneWork work{weight_of(expected_ms), expected_ms, way.request.client};
-    Lanes::Pass drawing(state.device_lane);
-    refused =
-        not_let_in(drawing.enter(work, deadline), state.device_lane, work.weight, way.request);
-    if (refused) return no_lane;
-    RenderJobResult job = state.renderer.render(way.scene, std::move(planned), deadline);
-    queue_ms += drawing.waited_ms() + job.queue_ms;
-    drawing.leave();
-    if (!job.rendered) return std::move(job.rendered);
-    const LaneWork encoding{weight_of(way.encode_ms), way.encode_ms, way.request.client};
-    refused = not_let_in(pass.enter(encoding, deadline), state.lanes, encoding.weight, way.request);
-    if (refused) return no_lane;
-    return std::move(job.rendered);
+    return header;
 }
 
-}  // namespace
+Drawn draw_in_lanes(Service::State& state, const Request& request, const Scene& scene,
+                    Planned planned, double encode_ms, Lanes::Pass& pass) {
+    const Deadline& deadline = request.deadline;
+    const double expected_ms = to_come_ms(planned) + encode_ms;
+    const auto no_lane = [](Response response) {
+        return Drawn{std::move(response), Error{ErrorCode::kCancelled, "", "it got no lane"}};
+    };
+    if (!needs_device(planned.plan)) {
+        if (auto refused = not_let_in(pass.expect(expected_ms, deadline), state.lanes,
+                                      weight_of(expected_ms), request))
+            return no_lane(std::move(*refused));
+        return {std::nullopt,
+                state.options.on_processor(scene, std::move(planned), threads_of_one(state),
+                                           request.progress, deadline)};
+    }
+    pass.leave();
+    const LaneWork work{weight_of(expected_ms), expected_ms, request.client};
+    Lanes::Pass drawing(state.device_lane);
+    if (auto refused =
+            not_let_in(drawing.enter(work, deadline), state.device_lane, work.weight, request))
+        return no_lane(std::move(*refused));
+    RenderJobResult job = state.renderer.render(scene, std::move(planned), deadline);
+    const double queue_ms = drawing.waited_ms() + job.queue_ms;
+    drawing.leave();
+    const LaneWork encoding{weight_of(encode_ms), encode_ms, request.client};
+    if (job.rendered)
+        if (auto refused =
+                not_let_in(pass.enter(encoding, deadline), state.lanes, encoding.weight, request))
+            return no_lane(std::move(*refused));
+    return {std::nullopt, std::move(job.rendered), queue_ms};
+}
 
 Response answer_render(Service::State& state, const Request& request, const Scene& scene,
                        Lanes::Pass& pass) {
@@ -240,10 +251,11 @@ Response answer_render(Service::State& state, const Request& request, const Scen
         return no_memory(state, request);
 
     Timing timing;
-    std::optional<Response> refused;
     const Plan plan = planned->plan;
-    auto rendered = render(way, *std::move(planned), pass, timing.queue_ms, refused);
-    if (refused) return std::move(*refused);
+    Drawn drawn = draw_in_lanes(state, request, scene, *std::move(planned), way.encode_ms, pass);
+    if (drawn.refused) return std::move(*drawn.refused);
+    Result<Rendered>& rendered = drawn.rendered;
+    timing.queue_ms = drawn.queue_ms;
     if (!rendered) return way.failed(rendered.error(), plan);
     const auto start = Clock::now();
     auto bytes = encode(*rendered, scene, type, request.deadline);

@@ -71,9 +71,9 @@ OpenRenderer device_renderer(DeviceChoice choice, int threads, std::shared_ptr<L
 
 RenderOnProcessor processor_renderer(std::shared_ptr<LightCache> lights) {
     return [lights = std::move(lights)](const Scene& scene, Planned planned, int threads,
-                                        const Deadline& deadline) {
-        return render_planned(scene, std::move(planned), {nullptr, threads, lights.get(), {}, {}},
-                              deadline);
+                                        const Progress& progress, const Deadline& deadline) {
+        return render_planned(scene, std::move(planned),
+                              {nullptr, threads, lights.get(), progress, {}}, deadline);
     };
 }
 

@@ -23,8 +23,8 @@ struct Renderer {
 using OpenRenderer = std::function<Result<Renderer>()>;
 
 // Renders a rung that needs no device, on so many threads; thread-safe.
-using RenderOnProcessor =
-    std::function<Result<Rendered>(const Scene&, Planned, int threads, const Deadline&)>;
+using RenderOnProcessor = std::function<Result<Rendered>(const Scene&, Planned, int threads,
+                                                         const Progress&, const Deadline&)>;
 
 // Lights that are kept while cameras move: about ten of the largest rungs', hundreds of the common.
 inline constexpr std::size_t kLightCacheBytes = 256u << 20;

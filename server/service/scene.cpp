@@ -2,8 +2,6 @@
 // goes on in accuracy.cpp.
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
 #include <span>
 #include <vector>
 
@@ -44,13 +42,6 @@ std::span<const std::string_view> offers_of(std::string_view path) {
     if (path == "/v1/render") return kRenderOffers;
     if (path == kAccuracyPath) return kAccuracyOffers;
     return kPlanOffers;
-}
-
-Result<Scene> read(const Request& request) {
-    const auto format = scene_format_of_type(media_type(request.header("Content-Type")));
-    auto draft = read_scene(*format, request.body);
-    if (!draft) return draft.error();
-    return validate(std::move(draft).value());
 }
 
 // --- /v1/particles
@@ -143,6 +134,13 @@ Response answer_plan(Service::State& state, const Request& request, const Scene&
 
 }  // namespace
 
+Result<Scene> read_request_scene(const Request& request) {
+    const auto format = scene_format_of_type(media_type(request.header("Content-Type")));
+    auto draft = read_scene(*format, request.body);
+    if (!draft) return draft.error();
+    return validate(std::move(draft).value());
+}
+
 Response fail(const Error& error, const Request& request) {
     Response response = problem(error, request.id);
     response.abandoned = error.code == ErrorCode::kCancelled;
@@ -192,15 +190,6 @@ std::string speed_text(const Service::State& state) {
     return std::to_string(state.options.speed.slowness);
 }
 
-std::string server_timing(std::span<const std::pair<const char*, double>> milliseconds) {
-    std::string header;
-    for (const auto& [name, ms] : milliseconds) {
-        header += header.empty() ? "" : ", ";
-        header += name + number_text(";dur=%.3f", ms);
-    }
-    return header;
-}
-
 std::optional<Response> check_scene_request(const Request& request) {
     if (!scene_format_of_type(media_type(request.header("Content-Type")))) {
         Response response = problem(
@@ -229,7 +218,7 @@ Response answer_scene_request(Service::State& state, const Request& request) {
         return std::move(*refused);
     WorkBudget::Lease reading = state.budget.take(reading_bytes(request.body.size()));
     if (!reading) return no_memory(state, request);
-    auto scene = read(request);
+    auto scene = read_request_scene(request);
     reading = {};
     if (!scene) return fail(scene.error(), request);
     // Reading a long document may take seconds.

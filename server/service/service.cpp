@@ -54,13 +54,41 @@ struct Route {
     const Page* page = nullptr;
     const Preset* preset = nullptr;
 
-    std::string_view allow() const { return post ? "POST, OPTIONS" : "GET, HEAD, OPTIONS"; }
+    // Of jobs: one of them may be deleted.
+    bool job = false, deletable = false;
+
+    std::string_view allow() const {
+        if (deletable) return "GET, HEAD, DELETE, OPTIONS";
+        return post ? "POST, OPTIONS" : "GET, HEAD, OPTIONS";
+    }
+    bool takes(std::string_view method) const {
+        if (post) return method == "POST";
+        return method == "GET" || method == "HEAD" || (deletable && method == "DELETE");
+    }
 };
+
+Route job_route(std::string_view rest) {
+    Route route{"/v1/jobs/{id}", true, false};
+    route.job = true;
+    const std::size_t slash = rest.find('/');
+    const std::string_view below = slash == std::string_view::npos ? "" : rest.substr(slash);
+    if (below.empty()) {
+        route.deletable = true;
+    } else if (below == "/events") {
+        route.pattern = "/v1/jobs/{id}/events";
+    } else if (below == "/result") {
+        route.pattern = "/v1/jobs/{id}/result";
+    } else {
+        return {};
+    }
+    return rest.substr(0, slash).empty() ? Route{} : route;
+}
 
 Route find_route(const Service::State& state, std::string_view path) {
     for (const std::string_view post : std::initializer_list<std::string_view>{
-             "/v1/particles", "/v1/render", "/v1/plan", kAccuracyPath})
+             "/v1/particles", "/v1/render", "/v1/plan", kAccuracyPath, kJobsPath})
         if (path == post) return {post, true, true};
+    if (path.starts_with("/v1/jobs/")) return job_route(path.substr(9));
     for (const std::string_view get :
          {"/healthz", "/readyz", "/metrics", "/version", "/v1/presets"})
         if (path == get) return {get, true, false};
@@ -125,6 +153,9 @@ Gauges gauges(const Service::State& state) {
     now.work_bytes_most = state.budget.bytes();
     now.cache_bytes = state.results.bytes_in_use();
     now.cache_entries = state.results.entries();
+    now.jobs_waiting = state.jobs->load().waiting;
+    now.jobs_running = state.jobs->load().running;
+    now.job_bytes = state.jobs->load().bytes;
     return now;
 }
 
@@ -157,7 +188,6 @@ Response get(Service::State& state, const Route& route, const Request& request) 
 // What can be said before the body: unknown paths, wrong methods, a server that stops, wrong types.
 std::optional<Response> check(const Service::State& state, const Route& route,
                               const Request& request) {
-    const bool reading = request.method == "GET" || request.method == "HEAD";
     if (request.method == "OPTIONS" && (route.known || request.path == "*")) {
         Response response;
         response.status = 204;
@@ -166,7 +196,7 @@ std::optional<Response> check(const Service::State& state, const Route& route,
         return response;
     }
     if (!route.known) return problem(404, "there is nothing at this path", "", request.id);
-    if (route.post ? request.method != "POST" : !reading) {
+    if (!route.takes(request.method)) {
         Response response =
             problem(405, "this path takes " + std::string(route.allow()) + " only", "", request.id);
         response.headers.emplace_back("Allow", route.allow());
@@ -175,7 +205,14 @@ std::optional<Response> check(const Service::State& state, const Route& route,
     if (!route.post) return std::nullopt;
     if (state.draining && !request.admitted)
         return problem_retry(503, "the server is stopping", kDrainRetrySeconds, request.id);
-    return check_scene_request(request);
+    return route.pattern == kJobsPath ? check_job_request(request) : check_scene_request(request);
+}
+
+Response route_answer(Service::State& state, const Route& route, const Request& request) {
+    if (route.job) return tell_job(state, request);
+    if (!route.post) return get(state, route, request);
+    return route.pattern == kJobsPath ? submit_job(state, request)
+                                      : answer_scene_request(state, request);
 }
 
 Response finished(Service::State& state, const Route& route, const Request& request,
@@ -221,9 +258,20 @@ Service::Service(RenderThread& renderer, Metrics& metrics, ServiceOptions option
     for (const Preset& preset : state_->presets) entries.push_back(preset.entry);
     state_->presets_json = presets_to_json(entries.data(), entries.size());
     state_->presets_etag = make_etag({state_->presets_json});
+    JobsOptions jobs;
+    jobs.runners = state_->options.jobs;
+    state_->jobs = std::make_unique<Jobs>(
+        jobs, [state = state_.get()](const JobWork& work, const Request& request) {
+            return answer_job_work(*state, work, request);
+        });
 }
 
 Service::~Service() = default;
+
+bool Service::waits_for_events(std::string_view target) {
+    const std::string_view path = target.substr(0, target.find('?'));
+    return path.starts_with("/v1/jobs/") && path.ends_with("/events");
+}
 
 void Service::drain() {
     state_->draining = true;
@@ -254,8 +302,7 @@ Response Service::answer(const Request& request) {
         if (auto refused = check(*state_, route, request)) {
             response = std::move(*refused);
         } else {
-            response =
-                route.post ? answer_scene_request(*state_, request) : get(*state_, route, request);
+            response = route_answer(*state_, route, request);
         }
     } catch (const std::exception& e) {
         response = fail(error_of_thrown(e), request);

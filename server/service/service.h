@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/deadline.h"
+#include "core/base/progress.h"
 #include "server/limits.h"
 #include "server/service/lanes.h"
 #include "server/service/metrics.h"
@@ -31,6 +32,8 @@ struct Request {
     std::string id;
     // Its `cancelled` becomes true when the client goes away.
     Deadline deadline;
+    // How far it has come, for whoever watches. May be empty.
+    Progress progress;
     // Whose turn it is (server/service/lanes.h): the client's address.
     std::string client;
     // It came before the server began to drain, and is finished.
@@ -74,6 +77,8 @@ struct ServiceOptions {
     std::size_t cache_bytes = 0;
     // Renders what needs no device; empty: processor_renderer().
     RenderOnProcessor on_processor;
+    // Jobs that run at once, each in lanes as any request.
+    std::size_t jobs = 2;
 };
 
 // Answers requests.
@@ -85,8 +90,10 @@ class Service {
     Service& operator=(const Service&) = delete;
 
     // Thread-safe. Never throws: a bug inside becomes a 500 without details of the exception.
-    // Anything but POST is answered from memory and never waits for a render or another request.
+    // Anything but POST is answered from memory and never waits for a render or another request; but what
+    // waits_for_events says is a stream that waits for what it tells.
     Response answer(const Request& request);
+    static bool waits_for_events(std::string_view target);
 
     // What answer() would say whatever the body is: for clients that ask before they send it
     // (Expect: 100-continue) or announce a long one. Nothing: the body is wanted.

@@ -8,6 +8,7 @@
 
 #include "core/light/light_cache.h"
 #include "server/limits.h"
+#include "server/service/jobs.h"
 #include "server/service/pages.h"
 #include "server/service/result_cache.h"
 #include "server/service/service.h"
@@ -42,10 +43,16 @@ struct Service::State {
     DetailTiles tiles;
     // Of the frames by which the rungs of sequences are settled: for the frames that are asked for next.
     LightCache settling_lights{limits::kSettlingLightBytes};
+    // Held from looking for an Idempotency-Key to the job being there.
+    std::mutex submitting;
+    // Streams that tell how jobs go.
+    std::atomic<std::size_t> streams{0};
     const std::vector<Page> pages = make_pages();
     const std::vector<Preset> presets = make_presets();
     std::string presets_json;
     std::string presets_etag;
+    // Last: when it goes, what its jobs use is still there.
+    std::unique_ptr<Jobs> jobs;
 };
 
 // All values of a header that may be repeated, as one list.
@@ -63,6 +70,29 @@ inline constexpr std::string_view kAccuracyPath = "/v1/accuracy";
 Status check_accuracy_query(const Request& request);
 Response answer_accuracy(Service::State& state, const Request& request, const Scene& scene,
                          std::string_view type);
+
+// The scene of a request's body, by its Content-Type; then whether it can be.
+Result<Scene> read_request_scene(const Request& request);
+
+// /v1/jobs and what is below it (job_routes.cpp). answer_job_work runs a job.
+inline constexpr std::string_view kJobsPath = "/v1/jobs";
+std::optional<Response> check_job_request(const Request& request);
+Response submit_job(Service::State& state, const Request& request);
+Response tell_job(Service::State& state, const Request& request);
+Response answer_job_work(Service::State& state, const JobWork& work, const Request& request);
+
+// The frames of a sequence as an animation, "webp" or "apng" (sequence_job.cpp).
+Response answer_sequence(Service::State& state, const Request& request, const std::string& format);
+
+// Draws what is planned: with the device, in whose line it waits while another computes in its lane, or in its lane.
+// pass: in a lane, before and after. `refused`: what is to be said where it got no lane; then there is no picture.
+struct Drawn {
+    std::optional<Response> refused;
+    Result<Rendered> rendered;
+    double queue_ms = 0;
+};
+Drawn draw_in_lanes(Service::State& state, const Request& request, const Scene& scene,
+                    Planned planned, double encode_ms, Lanes::Pass& pass);
 
 // POST /v1/render (render.cpp). pass: in a lane, after so many ms.
 Response answer_render(Service::State& state, const Request& request, const Scene& scene,
