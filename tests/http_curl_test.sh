@@ -49,7 +49,7 @@ same "health by HEAD" 200 "$(code -I "$url/healthz")"
 contains "version" '"name":"awan"' "$(curl -s "$url/version")"
 contains "metrics" 'awan_ready 1' "$(curl -s "$url/metrics")"
 contains "page" '<html' "$(curl -s "$url/")"
-same "unknown path" 404 "$(code "$url/v1/jobs")"
+same "unknown path" 404 "$(code "$url/v1/nowhere")"
 same "wrong method" 405 "$(code -X DELETE "$url/healthz")"
 same "wrong method without a body" 405 "$(code -X PUT "$url/v1/render")"
 contains "Allow" 'Allow: POST, OPTIONS' "$(curl -si "$url/v1/render")"
@@ -70,13 +70,20 @@ def refs(node):
 for ref in refs(document):
     node = document
     for part in ref.removeprefix("#/").split("/"): node = node[part]
+def job():
+    scene = b'{"kind": "render", "scene": {"cubes": [], "image": {"width": 8, "height": 8}}}'
+    made = json.load(urllib.request.urlopen(urllib.request.Request(sys.argv[2] + "/v1/jobs", data=scene,
+        headers={"Content-Type": "application/json"})))
+    with urllib.request.urlopen(sys.argv[2] + made["events"]) as events: events.read()
+    return made["id"]
 for path, methods in document["paths"].items():
     for method in set(methods) - {"parameters"}:
-        request = urllib.request.Request(sys.argv[2] + path.replace("{name}", "cumulus"), method=method.upper(),
+        named = path.replace("{name}", "cumulus").replace("{id}", job() if "{id}" in path else "")
+        request = urllib.request.Request(sys.argv[2] + named, method=method.upper(),
             data=b"{}" if method == "post" else None, headers={"Content-Type": "application/json"})
         try: status = urllib.request.urlopen(request).status
         except urllib.error.HTTPError as error: status = error.code
-        assert status == (422 if method == "post" else 200), (path, method, status)
+        assert status == {"post": 422, "delete": 204}.get(method, 200), (path, method, status)
         assert str(status) in methods[method]["responses"], (path, method, status)
 PYTHON
 
@@ -135,6 +142,25 @@ head -c 110000000 /dev/zero >"$work/huge"
 same "body over the limit" 413 "$(code -H "$json" --data-binary @"$work/huge" "$url/v1/plan")"
 same "and without asking" 413 "$(code -H "$json" -H 'Expect:' --data-binary @"$work/huge" "$url/v1/plan")"
 rm "$work/huge"
+
+# --- jobs: asked for now, fetched later, the same bytes
+curl -s -o "$work/now.png" -H "$json" -d "$scene" "$url/v1/render"
+curl -s -D "$work/head" -o /dev/null -H "$json" -d "{\"kind\":\"render\",\"scene\":$scene}" "$url/v1/jobs"
+job=$url$(tr -d '\r' <"$work/head" | sed -n 's/^Location: //p')
+contains "the last event" '"state":"done","progress":1' "$(curl -sN --max-time 20 "$job/events")"
+contains "a job's state" '"state":"done"' "$(curl -s "$job")"
+same "a job's result" 200 "$(curl -s -o "$work/later.png" -w '%{http_code}' "$job/result")"
+cmp -s "$work/now.png" "$work/later.png" || fail "a job's picture has other bytes"
+same "a result is dropped" "204 404" "$(code -X DELETE "$job") $(code "$job")"
+moving='{"clouds":[{"velocity":[1,0,0],"cubes":[{"particles":60,"size":[2,1,2],"center":[0,0,0],"radius":0.5}]}],
+    "sequence":{"from":0,"to":2,"frames":3},"image":{"width":64,"height":48},"accuracy":{"rung":"harris"}}'
+curl -s -D "$work/head" -o /dev/null -H "$json" -d "{\"kind\":\"sequence\",\"scene\":$moving,\"format\":\"apng\"}" "$url/v1/jobs"
+job=$url$(tr -d '\r' <"$work/head" | sed -n 's/^Location: //p')
+contains "a sequence" '"state":"done"' "$(curl -sN --max-time 60 "$job/events" | tail -3)"
+echo "$moving" >"$work/moving.json"
+"$awan" render "$work/moving.json" -o "$work/moving.apng" --software >/dev/null
+curl -s -o "$work/job.apng" "$job/result"
+cmp -s "$work/moving.apng" "$work/job.apng" || fail "a sequence has other bytes than the command line's"
 
 # Two requests on one connection.
 contains "keep-alive" 'Re-using existing connection' \

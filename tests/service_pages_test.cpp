@@ -59,9 +59,9 @@ TEST_F(ServiceTest, ContractNamesEveryRoute) {
     const Response contract = get("/openapi.json");
     ASSERT_EQ(contract.status, 200);
     EXPECT_EQ(contract.header("Content-Type"), "application/json");
-    for (const char* path : {"/v1/particles", "/v1/render", "/v1/plan", "/v1/accuracy",
-                             "/v1/presets", "/v1/presets/{name}", "/healthz", "/readyz", "/metrics",
-                             "/version", "/openapi.json", "/"})
+    for (const char* path : {"/v1/particles", "/v1/render", "/v1/plan", "/v1/accuracy", "/v1/jobs",
+                             "/v1/jobs/{id}/events", "/v1/presets", "/v1/presets/{name}",
+                             "/healthz", "/readyz", "/metrics", "/version", "/openapi.json", "/"})
         EXPECT_NE(contract.body.find("    \"" + std::string(path) + "\": {"), std::string::npos)
             << path;
     std::string rungs;

@@ -15,9 +15,9 @@ namespace {
 // --- routes
 
 TEST_F(ServiceTest, UnknownPathsAre404) {
-    for (const char* path :
-         {"/nowhere", "/v1", "/v1/", "/v1/render/", "/v1/accuracy/", "/v1/jobs", "/v1/jobs/1",
-          "/v1/presets/", "/v1/presets/none", "/presets/cumulus.json", "", "*"}) {
+    for (const char* path : {"/nowhere", "/v1", "/v1/", "/v1/render/", "/v1/accuracy/", "/v1/jobs/",
+                             "/v1/jobs/1/nothing", "/v1/presets/", "/v1/presets/none",
+                             "/presets/cumulus.json", "", "*"}) {
         expect_problem(get(path), 404);
         expect_problem(post(path), 404);
     }
@@ -520,9 +520,8 @@ TEST(Memory, ThatRunsOutIs503AndNotTheEnd) {
     RenderThread thread(fake.opener());
     Metrics metrics;
     ServiceOptions options;
-    options.on_processor = [](const Scene&, Planned, int, const Progress&, const Deadline&) -> Result<Rendered> {
-        throw std::bad_alloc();
-    };
+    options.on_processor = [](const Scene&, Planned, int, const Progress&,
+                              const Deadline&) -> Result<Rendered> { throw std::bad_alloc(); };
     Service service(thread, metrics, options);
     const Response response = service.answer(make_request("POST", "/v1/render", kMarched));
     expect_problem(response, 503);

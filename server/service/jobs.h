@@ -49,7 +49,7 @@ struct JobsOptions {
     std::size_t runners = 2;
     // That have not finished.
     std::size_t most_waiting = limits::kWaitingJobs;
-    // Bytes of results that are kept; the oldest are dropped.
+    // Bytes of results that are kept, the oldest are dropped; and of the scenes of those that have not finished.
     std::size_t bytes = limits::kJobBytes;
     // That are kept, finished ones among them.
     std::size_t most = limits::kMostJobs;
@@ -71,7 +71,7 @@ class Jobs {
     Jobs(const Jobs&) = delete;
     Jobs& operator=(const Jobs&) = delete;
 
-    // False: so many wait already.
+    // False: so many, or so much, waits already.
     bool submit(JobWork work);
     std::optional<JobView> view(std::string_view id) const;
     std::optional<JobWork> work(std::string_view id) const;
