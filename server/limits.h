@@ -40,7 +40,8 @@ inline constexpr std::chrono::milliseconds kDrainDeadline{30'000};
 
 // Connections that the kernel holds until they are accepted.
 inline constexpr int kListenBacklog = 1024;
-// Connections open at once. Each takes about 20 KiB while its head is read.
+// Connections open at once, beside a few in which only health is answered. Each takes about 20 KiB while its head is
+// read.
 inline constexpr std::size_t kMaxConnections = 1000;
 // Requests after which a connection is closed, so that a balancer in front can spread the load anew.
 inline constexpr std::size_t kRequestsPerConnection = 1000;
@@ -49,10 +50,24 @@ inline constexpr std::size_t kSpareDescriptors = 64;
 
 // --- Work
 
-// Renders that wait. At 50 ms each, the last waits under a second.
+// Requests that wait for a lane, of each weight (server/service/lanes.h). At 50 ms each, the last waits under a second.
 inline constexpr std::size_t kRenderQueue = 16;
 // Requests that are read and not yet with a worker. More are answered 429.
 inline constexpr std::size_t kWaitingRequests = 64;
+
+// Jobs that have not finished; more are answered 429. Jobs that are kept in all, the oldest finished ones are dropped.
+inline constexpr std::size_t kWaitingJobs = 64;
+inline constexpr std::size_t kMostJobs = 256;
+// Bytes of the results of jobs that are kept: some sequences, or a thousand pictures.
+inline constexpr std::size_t kJobBytes = 256u << 20;
+// Of one job, from when it begins: what takes longer is for the command line.
+inline constexpr std::chrono::minutes kJobDeadline{60};
+// Clients that follow jobs at once: each holds a thread. More are answered 429, and ask now and then instead.
+inline constexpr std::size_t kEventStreams = 16;
+// After so long the stream ends, and whoever still follows connects anew.
+inline constexpr std::chrono::minutes kEventsDeadline{10};
+// Bytes of an Idempotency-Key. A UUID takes 36.
+inline constexpr std::size_t kMaxKeyBytes = 128;
 
 // --- Memory
 
@@ -64,10 +79,14 @@ inline constexpr std::size_t kMaxBodyBytesInAll = 384u << 20;
 inline constexpr std::size_t kMaxParkedBytes = 128u << 20;
 // Bytes of all scenes that are being worked on: two of the largest.
 inline constexpr std::size_t kWorkBytes = std::size_t{3} << 30;
+// What a byte of a document takes of it while it is read, an estimate: lists of lists of short numbers take most.
+inline constexpr std::size_t kBytesPerBodyByte = 8;
 // What one particle takes of it, an estimate: positions, radii, densities, light pass, sort keys.
 inline constexpr std::size_t kBytesPerParticle = 150;
 // What one pixel takes of it, an estimate: float RGBA and its encoding.
 inline constexpr std::size_t kBytesPerPixel = 24;
+// Bytes of answers to renders that are kept: a few hundred pictures of the usual size.
+inline constexpr std::size_t kCacheBytes = 64u << 20;
 // Bytes of lights that are kept to settle the rungs of sequences: a few dozen coarse grids, or one of the finest.
 inline constexpr std::size_t kSettlingLightBytes = 64u << 20;
 

@@ -95,6 +95,26 @@ AWAN_WIDTH=wide run 2 render scene.json -o a.png
 contains "bad variable" "wide" "$(cat err)"
 same "nothing was written" "" "$(ls -- *.png *.exr *.txt 2>/dev/null)"
 
+# --- files that are not whole are not left: not by a limit on files, not by who was killed before
+touch .awan-0123456789abcdef.tmp
+(ulimit -f 1; "$awan" particles scene.json -o limited.csv 2>err); same "over a limit on files" 5 "$?"
+contains "a limit on files" "limited.csv" "$(cat err)"
+same "what was left is removed" "" "$(find . -name '.awan-*' -o -name limited.csv)"
+"$awan" --version >/dev/full 2>err; same "a version that nobody got" 5 "$?"
+# A file that another still writes is not removed.
+mkfifo held
+(flock -x 9; cat held >/dev/null) 9>.awan-writing.tmp &
+until ! flock -n .awan-writing.tmp true; do sleep 0.02; done
+run 0 particles scene.json -o whole.csv
+same "another's file" ".awan-writing.tmp" "$(ls -A | grep '^.awan-')"
+: >held; wait; rm held
+run 0 particles scene.json -o whole.csv
+same "its file, when it has ended" "" "$(ls -A | grep '^.awan-')"
+
+# --- too little memory is an exit code, not a crash
+(ulimit -v 800000; "$awan" render scene.json -o small.png 2>err); same "splats in little memory" 4 "$?"
+contains "little memory" "memory" "$(cat err)"
+
 # --- scenes that cannot be
 run 3 plan impossible.json
 contains "place" "awan: impossible.json: /cubes/0/size/1: must be" "$(cat err)"

@@ -31,6 +31,14 @@ class FakeRenderer {
         };
     }
 
+    // What renders the rungs that need no device.
+    RenderOnProcessor on_processor() const {
+        return [state = state_](const Scene& scene, Planned planned, int, const Progress&,
+                                const Deadline& deadline) {
+            return render(*state, scene, std::move(planned), deadline);
+        };
+    }
+
     void hold() { set_held(true); }
     void release() { set_held(false); }
     int begun() const { return state_->begun; }

@@ -12,9 +12,9 @@ fail() { echo "FAILED: $*" >&2; failures=$((failures + 1)); }
 same() { [ "$2" = "$3" ] || fail "$1: expected '$2', got '$3'"; }
 contains() { case $3 in *"$2"*) ;; *) fail "$1: '$2' is not in '$3'" ;; esac; }
 
-# start ARGUMENTS...: serves on a free port; sets $server and $url.
+# start ARGUMENTS...: serves on a free port (of $listen); sets $server and $url.
 start() {
-    "$awan" serve --listen 127.0.0.1:0 "$@" 2>"$work/log" &
+    "$awan" serve --listen "${listen:-127.0.0.1:0}" "$@" 2>"$work/log" &
     server=$!
     url=
     for _ in $(seq 200); do
@@ -49,7 +49,7 @@ same "health by HEAD" 200 "$(code -I "$url/healthz")"
 contains "version" '"name":"awan"' "$(curl -s "$url/version")"
 contains "metrics" 'awan_ready 1' "$(curl -s "$url/metrics")"
 contains "page" '<html' "$(curl -s "$url/")"
-same "unknown path" 404 "$(code "$url/v1/jobs")"
+same "unknown path" 404 "$(code "$url/v1/nowhere")"
 same "wrong method" 405 "$(code -X DELETE "$url/healthz")"
 same "wrong method without a body" 405 "$(code -X PUT "$url/v1/render")"
 contains "Allow" 'Allow: POST, OPTIONS' "$(curl -si "$url/v1/render")"
@@ -70,13 +70,20 @@ def refs(node):
 for ref in refs(document):
     node = document
     for part in ref.removeprefix("#/").split("/"): node = node[part]
+def job():
+    scene = b'{"kind": "render", "scene": {"cubes": [], "image": {"width": 8, "height": 8}}}'
+    made = json.load(urllib.request.urlopen(urllib.request.Request(sys.argv[2] + "/v1/jobs", data=scene,
+        headers={"Content-Type": "application/json"})))
+    with urllib.request.urlopen(sys.argv[2] + made["events"]) as events: events.read()
+    return made["id"]
 for path, methods in document["paths"].items():
     for method in set(methods) - {"parameters"}:
-        request = urllib.request.Request(sys.argv[2] + path.replace("{name}", "cumulus"), method=method.upper(),
+        named = path.replace("{name}", "cumulus").replace("{id}", job() if "{id}" in path else "")
+        request = urllib.request.Request(sys.argv[2] + named, method=method.upper(),
             data=b"{}" if method == "post" else None, headers={"Content-Type": "application/json"})
         try: status = urllib.request.urlopen(request).status
         except urllib.error.HTTPError as error: status = error.code
-        assert status == (422 if method == "post" else 200), (path, method, status)
+        assert status == {"post": 422, "delete": 204}.get(method, 200), (path, method, status)
         assert str(status) in methods[method]["responses"], (path, method, status)
 PYTHON
 
@@ -109,7 +116,7 @@ assert answer["reference"]["width"] == 16, answer
 times = [rung["time_ms"] for rung in answer["rungs"]]
 left_out = answer["left_out"]  # on a busy machine, for want of time
 assert times and times == sorted(times) and len(times) + len(left_out) == 8, answer
-assert all("that were left" in rung["reason"] for rung in left_out), answer' || fail "accuracy as JSON"
+assert all("were left" in rung["reason"] for rung in left_out), answer' || fail "accuracy as JSON"
 contains "accuracy is not kept" 'Cache-Control: no-store' "$(cat "$work/head")"
 curl -s -H "$json" -H 'Accept: image/png' -d "$scene" \
     "$url/v1/accuracy?theme=dark&rungs=harris,transport-16&samples=16&size=16&runs=2" -o "$work/plot.png"
@@ -135,6 +142,25 @@ head -c 110000000 /dev/zero >"$work/huge"
 same "body over the limit" 413 "$(code -H "$json" --data-binary @"$work/huge" "$url/v1/plan")"
 same "and without asking" 413 "$(code -H "$json" -H 'Expect:' --data-binary @"$work/huge" "$url/v1/plan")"
 rm "$work/huge"
+
+# --- jobs: asked for now, fetched later, the same bytes
+curl -s -o "$work/now.png" -H "$json" -d "$scene" "$url/v1/render"
+curl -s -D "$work/head" -o /dev/null -H "$json" -d "{\"kind\":\"render\",\"scene\":$scene}" "$url/v1/jobs"
+job=$url$(tr -d '\r' <"$work/head" | sed -n 's/^Location: //p')
+contains "the last event" '"state":"done","progress":1' "$(curl -sN --max-time 20 "$job/events")"
+contains "a job's state" '"state":"done"' "$(curl -s "$job")"
+same "a job's result" 200 "$(curl -s -o "$work/later.png" -w '%{http_code}' "$job/result")"
+cmp -s "$work/now.png" "$work/later.png" || fail "a job's picture has other bytes"
+same "a result is dropped" "204 404" "$(code -X DELETE "$job") $(code "$job")"
+moving='{"clouds":[{"velocity":[1,0,0],"cubes":[{"particles":60,"size":[2,1,2],"center":[0,0,0],"radius":0.5}]}],
+    "sequence":{"from":0,"to":2,"frames":3},"image":{"width":64,"height":48},"accuracy":{"rung":"harris"}}'
+curl -s -D "$work/head" -o /dev/null -H "$json" -d "{\"kind\":\"sequence\",\"scene\":$moving,\"format\":\"apng\"}" "$url/v1/jobs"
+job=$url$(tr -d '\r' <"$work/head" | sed -n 's/^Location: //p')
+contains "a sequence" '"state":"done"' "$(curl -sN --max-time 60 "$job/events" | tail -3)"
+echo "$moving" >"$work/moving.json"
+"$awan" render "$work/moving.json" -o "$work/moving.apng" --software >/dev/null
+curl -s -o "$work/job.apng" "$job/result"
+cmp -s "$work/moving.apng" "$work/job.apng" || fail "a sequence has other bytes than the command line's"
 
 # Two requests on one connection.
 contains "keep-alive" 'Re-using existing connection' \
@@ -165,6 +191,43 @@ AWAN_ALLOW_HOST=env.example start --software --config "$work/awan.conf"
 same "host of the environment" 200 "$(code -H 'Host: env.example:80' "$url/healthz")"
 same "host of the file, overruled" 421 "$(code -H 'Host: file.example' "$url/healthz")"
 stop 0 TERM
+
+# --- beyond this machine only with a token, or where something else guards it
+"$awan" serve --listen 0.0.0.0:0 2>"$work/second"
+same "open by mistake" 2 "$?"
+contains "open by mistake" "--token-file" "$(cat "$work/second")"
+echo short >"$work/token"
+"$awan" serve --listen 0.0.0.0:0 --token-file "$work/token" 2>"$work/second"
+same "a token that can be guessed" 5 "$?"
+echo 0123456789abcdef >"$work/token"
+listen=0.0.0.0:0 start --software --token-file "$work/token" --log json --deadline 0.5 --max-body 1 --queue 3
+url=${url/0.0.0.0/127.0.0.1}
+same "health without a token" 200 "$(code "$url/healthz")"
+same "without a token" 401 "$(code -H "$json" -d "$scene" "$url/v1/plan")"
+contains "what is wanted" 'WWW-Authenticate: Bearer' "$(curl -si "$url/metrics")"
+same "with another" 401 "$(code -H 'Authorization: Bearer 0123456789abcdee' "$url/metrics")"
+token='Authorization: bearer 0123456789abcdef'
+same "with the token" 200 "$(code -H "$token" -H "$json" -d "$scene" "$url/v1/plan")"
+same "body over --max-body" 413 "$(code -H "$token" -H "$json" --data-binary @"$work/long.json" "$url/v1/plan")"
+truth='{"cubes":[{"particles":60,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],"image":{"width":2048,"height":2048},"accuracy":{"rung":"truth"}}'
+contains "what would fit" '\"time_ms\"' "$(curl -s -H "$token" -H "$json" -d "$truth" "$url/v1/render")"
+curl -s -o "$work/kept1" -H "$token" -H "$json" -d "$scene" "$url/v1/render"
+contains "kept" 'Awan-Cache: hit' "$(curl -s -D - -o "$work/kept2" -H "$token" -H "$json" -d "$scene" "$url/v1/render")"
+cmp -s "$work/kept1" "$work/kept2" || fail "what is kept has other bytes"
+contains "kept, counted" 'awan_cache_hits_total 1' "$(curl -s -H "$token" "$url/metrics")"
+same "an id in the log" 200 "$(code -H 'X-Request-Id: log-1' "$url/healthz")"
+stop 0 TERM
+python3 - "$work/log" <<'PYTHON' || fail "the log"
+import json, sys
+lines = [json.loads(line) for line in open(sys.argv[1]) if line.startswith("{")]
+names = ["time", "client", "id", "method", "target", "route", "status", "bytes_in", "bytes_out", "seconds", "stages", "reason"]
+assert all(list(line) == names for line in lines), lines[0]
+assert any(line["id"] == "log-1" and line["route"] == "/healthz" and line["status"] == 200 for line in lines)
+assert any(line["reason"] == "hopeless" and line["status"] == 504 for line in lines), lines
+assert any(line["reason"] == "cache hit" for line in lines)
+assert any(line["status"] == 401 and line["reason"] == "access" for line in lines)
+assert any("encode" in line["stages"] for line in lines)
+PYTHON
 
 "$awan" serve --config "$work/none.conf" 2>"$work/second"
 same "file that is not there" 5 "$?"

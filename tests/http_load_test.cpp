@@ -93,6 +93,26 @@ TEST(Connections, MakeRoomForNewOnes) {
     EXPECT_TRUE(idle[0].closes_within(1s)) << "the one that waited longest goes";
 }
 
+TEST(Connections, SlowBodiesMakeRoomToo) {
+    HttpOptions options;
+    options.max_connections = 4;
+    const Running server(options);
+    std::vector<RawClient> stuck;
+    for (int i = 0; i < 4; ++i) {
+        stuck.push_back(server.client());
+        stuck.back().send(with("Content-Length: 1000\r\n", std::string(i == 2 ? 1u : 500u, ' ')));
+    }
+    // Until all of their heads have been read.
+    std::this_thread::sleep_for(200ms);
+    const auto start = Clock::now();
+    EXPECT_EQ(server.ask(get("/healthz")).status, 200) << "a few places are left for this";
+    EXPECT_LT(Clock::now() - start, 2s);
+    std::this_thread::sleep_for(600ms);
+    EXPECT_EQ(server.ask(post("/v1/plan", kScene)).status, 200);
+    EXPECT_TRUE(stuck[2].closes_within(1s)) << "the slowest goes";
+    EXPECT_FALSE(stuck[0].closes_within(100ms));
+}
+
 TEST(Connections, TooManyAtWorkAreRefused) {
     HttpOptions options;
     options.max_connections = 2;
@@ -106,6 +126,8 @@ TEST(Connections, TooManyAtWorkAreRefused) {
     const Answer refused = server.ask(get("/v1/presets"));
     EXPECT_EQ(refused.status, 503);
     EXPECT_FALSE(refused.header("Retry-After").empty());
+    for (const char* path : {"/healthz", "/readyz", "/metrics"})
+        EXPECT_EQ(server.ask(get(path)).status, 200) << path;
     server.renderer.release();
     EXPECT_EQ(first.read().status, 200);
     EXPECT_EQ(second.read().status, 200);
@@ -179,12 +201,49 @@ TEST(GoneClients, FreeTheirPlaces) {
     EXPECT_EQ(server.renderer.cancelled(), 1) << "it was cancelled while it ran";
 }
 
+// A client that has sent its request may close its side and wait: it has not gone.
+TEST(GoneClients, AreNotThoseThatOnlySayTheyHaveSentAll) {
+    Running server;
+    server.renderer.hold();
+    RawClient client = server.client();
+    client.send(post("/v1/render", kScene));
+    ASSERT_TRUE(eventually([&] { return server.renderer.begun() == 1; }));
+    client.close_sending();
+    std::this_thread::sleep_for(100ms);
+    server.renderer.release();
+    Answer answer = client.read();
+    if (answer.status == 100) answer = client.read();
+    EXPECT_EQ(answer.status, 200);
+    EXPECT_TRUE(client.closes_within(1s));
+    EXPECT_EQ(server.renderer.cancelled(), 0);
+
+    RawClient at_once = server.client();
+    at_once.send(post("/v1/plan", kScene));
+    at_once.close_sending();
+    answer = at_once.read();
+    if (answer.status == 100) answer = at_once.read();
+    EXPECT_EQ(answer.status, 200);
+}
+
+TEST(GoneClients, AreNoFailuresOfTheServer) {
+    Running server;
+    server.renderer.hold();
+    RawClient client = server.client();
+    client.send(post("/v1/render", kScene));
+    ASSERT_TRUE(eventually([&] { return server.renderer.begun() == 1; }));
+    client.close();
+    EXPECT_TRUE(eventually([&] { return server.waiting() == 0; }));
+    const std::string text = server.metrics();
+    EXPECT_NE(text.find("{route=\"/v1/render\",status=\"499\"} 1"), std::string::npos) << text;
+    EXPECT_EQ(text.find("status=\"50"), std::string::npos);
+}
+
 // --- starting and stopping
 
 TEST(Listening, SecondServerOnOnePortIsRefused) {
     const Running server;
     Metrics metrics;
-    RenderThread renderer(FakeRenderer().opener(), 1);
+    RenderThread renderer(FakeRenderer().opener());
     Service service(renderer, metrics, {});
     HttpOptions options;
     options.port = server.port();
@@ -198,7 +257,7 @@ TEST(Listening, SecondServerOnOnePortIsRefused) {
 
 TEST(Listening, UnknownHostIsRefused) {
     Metrics metrics;
-    RenderThread renderer(FakeRenderer().opener(), 1);
+    RenderThread renderer(FakeRenderer().opener());
     Service service(renderer, metrics, {});
     HttpOptions options;
     options.host = "no such host";
@@ -220,8 +279,10 @@ TEST(Stopping, FinishesWhatIsInFlightAndRefusesTheRest) {
     ASSERT_TRUE(eventually([&] { return server.waiting() == 2; }));
 
     server.stop();
-    EXPECT_TRUE(eventually([&] { return !server.client().connected(); }))
-        << "new connections are refused";
+    EXPECT_TRUE(eventually([&] { return server.ask(get("/readyz")).status == 503; }));
+    const Answer refused = server.ask(post("/v1/plan", kScene));
+    EXPECT_EQ(refused.status, 503) << "who comes now is told to go elsewhere";
+    EXPECT_FALSE(refused.header("Retry-After").empty());
     kept.send(get("/healthz"));
     const Answer health = kept.read();
     EXPECT_EQ(health.status, 200);
@@ -246,7 +307,7 @@ TEST(Stopping, NewWorkOnKeptConnectionsIs503) {
     running.send(post("/v1/render", kScene));
     ASSERT_TRUE(eventually([&] { return server.renderer.begun() == 1; }));
     server.stop();
-    EXPECT_TRUE(eventually([&] { return !server.client().connected(); }));
+    EXPECT_TRUE(eventually([&] { return server.ask(get("/readyz")).status == 503; }));
     kept.send(post("/v1/plan", kScene));
     const Answer refused = kept.read();
     EXPECT_EQ(refused.status, 503);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -438,6 +439,23 @@ TEST(ImageFile, RejectsImagesWithoutTheirPixels) {
 }
 
 #ifndef AWAN_SANITIZED
+TEST(ImageFile, NothingIsEncodedForWhoHasGoneOrWaitsNoLonger) {
+    const Image image = plain({0, 0, 0, 1}, true);
+    Deadline passed;
+    passed.until = Deadline::Clock::now() - std::chrono::seconds(1);
+    Deadline gone;
+    gone.cancelled = std::make_shared<std::atomic<bool>>(true);
+    for (const auto& [deadline, code] : {std::pair(passed, ErrorCode::kOverDeadline),
+                                         std::pair(gone, ErrorCode::kCancelled)}) {
+        const auto png = encode_png(image, 0, deadline);
+        ASSERT_FALSE(png.ok());
+        EXPECT_EQ(png.error().code, code);
+        const auto exr = encode_exr(image, Precision::kFloat, {}, deadline);
+        ASSERT_FALSE(exr.ok());
+        EXPECT_EQ(exr.error().code, code);
+    }
+}
+
 TEST(ImageFile, AnAnswerOfTheUsualSizeIsEncodedInMilliseconds) {
     const Image image = image_of(800, 600, true, [](int x, int y) {
         const double cloud = std::exp(-(std::pow(x - 400, 2) + std::pow(y - 300, 2)) / 2e4);

@@ -57,6 +57,9 @@ class RawClient {
         fd_ = -1;
     }
 
+    // Sends no more, and goes on reading.
+    void close_sending() { shutdown(fd_, SHUT_WR); }
+
     bool send(std::string_view bytes) {
         while (!bytes.empty()) {
             const ssize_t n = ::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL);

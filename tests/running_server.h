@@ -15,7 +15,7 @@ namespace awan::test {
 
 inline constexpr const char* kScene =
     R"({"cubes":[{"particles":20,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],)"
-    R"("image":{"width":16,"height":8}})";
+    R"("image":{"width":16,"height":8},"accuracy":{"rung":"harris"}})";
 
 inline std::string many_particles(int count) {
     return R"({"cubes":[{"particles":)" + std::to_string(count) +
@@ -25,8 +25,8 @@ inline std::string many_particles(int count) {
 class Running {
   public:
     explicit Running(HttpOptions options = {}, std::size_t queue = 4)
-        : renderer_thread_(renderer.opener(), queue),
-          service_(renderer_thread_, metrics_, ServiceOptions{}),
+        : renderer_thread_(renderer.opener()),
+          service_(renderer_thread_, metrics_, options_of(renderer, queue)),
           http_(service_, metrics_, on_free_port(std::move(options))) {
         const Status failed = http_.bind();
         EXPECT_FALSE(failed) << failed->message;
@@ -43,7 +43,8 @@ class Running {
         if (thread_.joinable()) thread_.join();
     }
     int port() const { return http_.port(); }
-    std::size_t waiting() const { return renderer_thread_.waiting(); }
+    // POSTs that are answered or wait.
+    std::size_t waiting() const { return service_.in_progress(); }
     RawClient client() const { return RawClient(port()); }
     Answer ask(const std::string& bytes) const {
         RawClient c = client();
@@ -55,6 +56,12 @@ class Running {
     FakeRenderer renderer;
 
   private:
+    static ServiceOptions options_of(const FakeRenderer& renderer, std::size_t queue) {
+        ServiceOptions options;
+        options.lanes.line = queue;
+        options.on_processor = renderer.on_processor();
+        return options;
+    }
     static HttpOptions on_free_port(HttpOptions options) {
         options.port = 0;
         return options;

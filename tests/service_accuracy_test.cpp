@@ -92,7 +92,6 @@ TEST_F(ServiceTest, AccuracyHoldsNobodyUpButAnotherSweep) {
     Response answer;
     std::thread sweeping([&] { answer = service.answer(request); });
     EXPECT_TRUE(eventually([&] { return renderer.begun() == 1; }));
-    EXPECT_EQ(thread.waiting(), 1u) << "one place, for the render that runs";
     EXPECT_EQ(post("/v1/plan").status, 200);
     EXPECT_EQ(post("/v1/particles").status, 200);
     const Response second = service.answer(accuracy_request());
@@ -103,19 +102,32 @@ TEST_F(ServiceTest, AccuracyHoldsNobodyUpButAnotherSweep) {
     sweeping.join();
     EXPECT_TRUE(answer.abandoned);
     EXPECT_EQ(renderer.begun(), 1);
-    EXPECT_EQ(thread.waiting(), 0u);
+    EXPECT_EQ(service.in_progress(), 0u);
     renderer.release();
     EXPECT_EQ(service.answer(accuracy_request()).status, 200);
 }
 
-TEST_F(ServiceTest, AccuracyWaitsForAPlaceInAFullQueue) {
-    std::optional<RenderThread::Place> first = thread.take_place();
-    const RenderThread::Place second = thread.take_place();
+class NoQueue : public ServiceTest {
+  protected:
+    static ServiceOptions none() {
+        ServiceOptions options;
+        options.lanes.line = 0;
+        return options;
+    }
+    NoQueue() : ServiceTest(none()) {}
+};
+
+TEST_F(NoQueue, AccuracyWaitsForTheRendererAllTheSame) {
+    renderer.hold();
+    std::thread drawing([&] { EXPECT_EQ(post("/v1/render").status, 200); });
+    EXPECT_TRUE(eventually([&] { return renderer.begun() == 1; }));
     Response answer;
     std::thread sweeping([&] { answer = service.answer(accuracy_request()); });
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    EXPECT_EQ(renderer.begun(), 0);
-    first.reset();
+    expect_problem(post("/v1/render"), 429);
+    EXPECT_EQ(renderer.begun(), 1);
+    renderer.release();
+    drawing.join();
     sweeping.join();
     EXPECT_EQ(answer.status, 200) << answer.body;
 }

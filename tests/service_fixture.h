@@ -40,8 +40,12 @@ inline std::string whole_body(const Response& response) {
 class ServiceTest : public testing::Test {
   protected:
     explicit ServiceTest(ServiceOptions options = {})
-        : thread(renderer.opener(), 1), service(thread, metrics, options) {
+        : thread(renderer.opener()), service(thread, metrics, with_fake(std::move(options))) {
         thread.wait_until_started();
+    }
+    ServiceOptions with_fake(ServiceOptions options) const {
+        options.on_processor = renderer.on_processor();
+        return options;
     }
 
     Response get(const std::string& path, Headers headers = {}) {

@@ -59,9 +59,9 @@ TEST_F(ServiceTest, ContractNamesEveryRoute) {
     const Response contract = get("/openapi.json");
     ASSERT_EQ(contract.status, 200);
     EXPECT_EQ(contract.header("Content-Type"), "application/json");
-    for (const char* path : {"/v1/particles", "/v1/render", "/v1/plan", "/v1/accuracy",
-                             "/v1/presets", "/v1/presets/{name}", "/healthz", "/readyz", "/metrics",
-                             "/version", "/openapi.json", "/"})
+    for (const char* path : {"/v1/particles", "/v1/render", "/v1/plan", "/v1/accuracy", "/v1/jobs",
+                             "/v1/jobs/{id}/events", "/v1/presets", "/v1/presets/{name}",
+                             "/healthz", "/readyz", "/metrics", "/version", "/openapi.json", "/"})
         EXPECT_NE(contract.body.find("    \"" + std::string(path) + "\": {"), std::string::npos)
             << path;
     std::string rungs;
@@ -80,14 +80,15 @@ TEST_F(ServiceTest, MetricsCountByRouteAndNeverByWhatClientsWrite) {
     post("/v1/render", "{}");
     const std::string text = get("/metrics").body;
     for (const char* line :
-         {"awan_http_requests_total{route=\"/healthz\",status=\"2xx\"} 1\n",
-          "awan_http_requests_total{route=\"other\",status=\"4xx\"} 1\n",
-          "awan_http_requests_total{route=\"/v1/presets/{name}\",status=\"2xx\"} 1\n",
-          "awan_http_requests_total{route=\"/v1/render\",status=\"2xx\"} 1\n",
-          "awan_http_requests_total{route=\"/v1/render\",status=\"4xx\"} 1\n",
+         {"awan_http_requests_total{route=\"/healthz\",status=\"200\"} 1\n",
+          "awan_http_requests_total{route=\"other\",status=\"404\"} 1\n",
+          "awan_http_requests_total{route=\"/v1/presets/{name}\",status=\"200\"} 1\n",
+          "awan_http_requests_total{route=\"/v1/render\",status=\"200\"} 1\n",
+          "awan_http_requests_total{route=\"/v1/render\",status=\"422\"} 1\n",
           "awan_http_request_duration_seconds_bucket{route=\"/v1/render\",le=\"+Inf\"} 2\n",
-          "awan_stage_duration_seconds_count{stage=\"encode\"} 1\n", "awan_render_queue_length 0\n",
-          "awan_ready 1\n", "process_resident_memory_bytes "})
+          "awan_stage_duration_seconds_count{stage=\"encode\"} 1\n", "awan_in_progress 0\n",
+          "awan_lanes{of=\"processor\"} 2\n", "awan_cache_hits_total 0\n", "awan_ready 1\n",
+          "process_resident_memory_bytes "})
         EXPECT_NE(text.find(line), std::string::npos) << line;
     EXPECT_EQ(text.find("made-up"), std::string::npos);
     EXPECT_GT(resident_bytes(), 1u << 20);
@@ -136,6 +137,8 @@ TEST(Errors, ExitCodesAreThoseOfTheContract) {
     EXPECT_EQ(exit_code_of(ErrorCode::kMalformed), 3);
     EXPECT_EQ(exit_code_of(ErrorCode::kUnsupported), 3);
     EXPECT_EQ(exit_code_of(ErrorCode::kNoRenderer), 4);
+    EXPECT_EQ(exit_code_of(ErrorCode::kOutOfMemory), 4);
+    EXPECT_EQ(status_of(ErrorCode::kOutOfMemory), 503);
     EXPECT_EQ(exit_code_of(ErrorCode::kIo), 5);
 }
 

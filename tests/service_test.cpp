@@ -5,6 +5,7 @@
 #include <set>
 #include <thread>
 
+#include "server/service/result_cache.h"
 #include "server/service/work_budget.h"
 #include "service_fixture.h"
 #include "tests/patience.h"
@@ -15,9 +16,9 @@ namespace {
 // --- routes
 
 TEST_F(ServiceTest, UnknownPathsAre404) {
-    for (const char* path :
-         {"/nowhere", "/v1", "/v1/", "/v1/render/", "/v1/accuracy/", "/v1/jobs", "/v1/jobs/1",
-          "/v1/presets/", "/v1/presets/none", "/presets/cumulus.json", "", "*"}) {
+    for (const char* path : {"/nowhere", "/v1", "/v1/", "/v1/render/", "/v1/accuracy/", "/v1/jobs/",
+                             "/v1/jobs/1/nothing", "/v1/presets/", "/v1/presets/none",
+                             "/presets/cumulus.json", "", "*"}) {
         expect_problem(get(path), 404);
         expect_problem(post(path), 404);
     }
@@ -83,6 +84,9 @@ TEST_F(ServiceTest, SceneTypesAreTaken) {
 TEST_F(ServiceTest, BrokenDocumentsAre400) {
     for (const char* body : {"", " ", "{", "nonsense", "{\"cubes\":[}", "\xff\xfe"})
         expect_problem(post("/v1/plan", body), 400);
+    // What follows a NUL must not be passed over.
+    for (const std::string& after : {std::string(1, '\0'), std::string("\0 nonsense", 10)})
+        expect_problem(post("/v1/plan", kScene + after), 400);
     expect_problem(post("/v1/plan", "2\n1\n", {}, "text/x-awn"), 400);
     expect_problem(post("/v1/plan", "a,b\n1,2\n", {}, "text/csv"), 400);
     expect_problem(post("/v1/plan", "ply\n", {}, "application/x-ply"), 400);
@@ -241,16 +245,107 @@ TEST_F(ServiceTest, WhatCannotBeDoneInTimeIsRefusedAtOnce) {
 
 // --- load
 
-TEST_F(ServiceTest, FullQueueRefusesBeforeAnythingIsComputed) {
-    const auto first = thread.take_place();
-    const auto second = thread.take_place();
-    EXPECT_FALSE(thread.take_place()) << "a queue of one has a place for one that runs and one";
-    const Response refused = post("/v1/render");
+// A scene of a rung that needs no device.
+const std::string kMarched =
+    R"({"cubes":[{"particles":20,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],"seed":7,)"
+    R"("image":{"width":16,"height":8},"accuracy":{"rung":"transport-16"}})";
+
+TEST_F(ServiceTest, FullLineRefusesBeforeAnythingIsComputed) {
+    ServiceOptions options = with_fake({});
+    options.lanes.line = 1;
+    Service small(thread, metrics, options);
+    renderer.hold();
+    std::vector<std::thread> clients;
+    for (std::size_t i = 0; i < 3; ++i) {
+        clients.emplace_back([&] {
+            EXPECT_EQ(small.answer(make_request("POST", "/v1/render", kMarched)).status, 200);
+        });
+        EXPECT_TRUE(eventually([&] { return small.in_progress() == i + 1; }));
+    }
+    EXPECT_TRUE(eventually([&] { return renderer.begun() == 2; })) << "one a lane";
+    const std::string generated = metrics.text({});
+    const Response ready = small.answer(make_request("GET", "/readyz"));
+    expect_problem(ready, 503);
+    EXPECT_NE(ready.body.find("saturated"), std::string::npos) << ready.body;
+    EXPECT_EQ(small.answer(make_request("GET", "/healthz")).status, 200);
+    const Response refused = small.answer(make_request("POST", "/v1/plan", kMarched));
     expect_problem(refused, 429);
     EXPECT_FALSE(refused.header("Retry-After").empty());
-    EXPECT_EQ(metrics.text(0, true).find("stage=\"generate\""), std::string::npos);
-    EXPECT_EQ(post("/v1/plan").status, 200);
+    renderer.release();
+    for (std::thread& client : clients) client.join();
+    EXPECT_EQ(small.answer(make_request("GET", "/readyz")).status, 200);
 }
+
+// --- lanes: long work stands in nobody's way
+
+TEST_F(ServiceTest, PreviewsDoNotWaitForLongWork) {
+    const std::string path_traced =
+        R"({"cubes":[{"particles":20,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],)"
+        R"("image":{"width":1024,"height":1024},"accuracy":{"rung":"truth"}})";
+    renderer.hold();
+    std::vector<std::thread> clients;
+    for (int i = 0; i < 3; ++i)
+        clients.emplace_back([&] { EXPECT_EQ(post("/v1/render", path_traced).status, 200); });
+    EXPECT_TRUE(eventually([&] { return renderer.begun() == 1 && service.in_progress() == 3; }));
+    EXPECT_EQ(post("/v1/plan", kMarched).status, 200);
+    EXPECT_EQ(post("/v1/particles", kMarched).status, 200);
+    EXPECT_EQ(renderer.begun(), 1) << "long ones wait for the lane of long ones";
+    renderer.release();
+    for (std::thread& client : clients) client.join();
+}
+
+TEST_F(ServiceTest, WhatNeedsNoDeviceDoesNotWaitForIt) {
+    renderer.hold();
+    std::thread drawing([&] { EXPECT_EQ(post("/v1/render").status, 200); });
+    EXPECT_TRUE(eventually([&] { return renderer.begun() == 1; }));
+    std::thread marching([&] { EXPECT_EQ(post("/v1/render", kMarched).status, 200); });
+    EXPECT_TRUE(eventually([&] { return renderer.begun() == 2; }));
+    renderer.release();
+    drawing.join();
+    marching.join();
+}
+
+// --- answers that are kept
+
+TEST_F(ServiceTest, KeptAnswersCostNothing) {
+    ServiceOptions options = with_fake({});
+    options.cache_bytes = 1 << 20;
+    Service keeping(thread, metrics, options);
+    const auto ask = [&](const std::string& scene) {
+        return keeping.answer(make_request("POST", "/v1/render", scene));
+    };
+    const Response first = ask(kMarched);
+    EXPECT_EQ(first.header("Awan-Cache"), "miss");
+    const Response again = ask(" " + kMarched);
+    EXPECT_EQ(again.header("Awan-Cache"), "hit");
+    EXPECT_EQ(again.body, first.body);
+    for (const char* name : {"ETag", "Awan-Rung", "Awan-Error", "Content-Type"})
+        EXPECT_EQ(again.header(name), first.header(name));
+    EXPECT_EQ(renderer.begun(), 1);
+    EXPECT_EQ(ask(kScene).header("Awan-Cache"), "miss") << "another scene";
+    const std::string text = keeping.answer(make_request("GET", "/metrics")).body;
+    EXPECT_NE(text.find("awan_cache_hits_total 1\n"), std::string::npos);
+    EXPECT_NE(text.find("awan_cache_misses_total 2\n"), std::string::npos);
+    EXPECT_NE(text.find("awan_cache_entries 2\n"), std::string::npos);
+    EXPECT_EQ(post("/v1/render").header("Awan-Cache"), "") << "a service that keeps none";
+}
+
+TEST(ResultCache, KeepsWhatFitsAndDropsTheOldest) {
+    ResultCache cache(1 << 16);
+    const std::string body(4000, 'x');
+    for (int i = 0; i < 40; ++i) {
+        cache.keep(std::to_string(i), {{"A", "b"}}, body);
+        EXPECT_TRUE(cache.find("0") || i > 20) << i;
+        EXPECT_LE(cache.bytes_in_use(), 1u << 16);
+    }
+    EXPECT_FALSE(cache.find("1"));
+    ASSERT_TRUE(cache.find("39"));
+    EXPECT_EQ(*cache.find("39")->body, body);
+    cache.keep("large", {}, std::string(1 << 14, 'x'));
+    EXPECT_FALSE(cache.find("large")) << "one answer must not push out all others";
+}
+
+// --- deadlines
 
 TEST_F(ServiceTest, PassedDeadlineIs504) {
     Request request = make_request("POST", "/v1/particles", kScene);
@@ -277,8 +372,10 @@ TEST_F(ServiceTest, RenderWhoseDeadlinePassesInTheQueueNeverBegins) {
 TEST_F(ServiceTest, NobodyIsAnsweredWhoHasGone) {
     Request request = make_request("POST", "/v1/render", kScene);
     request.deadline.cancelled = std::make_shared<std::atomic<bool>>(true);
-    EXPECT_TRUE(service.answer(request).abandoned);
-    EXPECT_EQ(thread.waiting(), 0u);
+    const Response nothing = service.answer(request);
+    EXPECT_TRUE(nothing.abandoned);
+    EXPECT_EQ(nothing.status, 499) << "in metrics and log it is no failure of the server's";
+    EXPECT_EQ(service.in_progress(), 0u);
 }
 
 TEST_F(ServiceTest, DrainingRefusesNewWorkOnly) {
@@ -322,6 +419,16 @@ TEST(WorkBudget, LeasesAreGivenBack) {
         EXPECT_TRUE(half);
         EXPECT_FALSE(budget.take(51));
         EXPECT_TRUE(budget.take(50));
+        auto some = budget.take(20);
+        EXPECT_TRUE(some.grow(30));
+        EXPECT_FALSE(some.grow(1));
+        EXPECT_EQ(budget.taken(), 100u);
+    }
+    EXPECT_EQ(budget.taken(), 0u);
+    {
+        auto alone = budget.take(20);
+        EXPECT_TRUE(alone.grow(1'000'000)) << "what is more than all of it runs alone";
+        EXPECT_FALSE(budget.take(1));
     }
     EXPECT_TRUE(budget.take(1'000'000));
     EXPECT_TRUE(budget.take(100));
@@ -329,21 +436,22 @@ TEST(WorkBudget, LeasesAreGivenBack) {
 
 // --- without a renderer
 
-TEST(NoRenderer, EverythingButRendersWorks) {
+TEST(NoRenderer, EverythingButSplatsWorks) {
     Metrics metrics;
-    RenderThread thread(
-        []() -> Result<Renderer> {
-            return Error{ErrorCode::kNoRenderer, "", "no EGL here"};
-        },
-        1);
+    RenderThread thread([]() -> Result<Renderer> {
+        return Error{ErrorCode::kNoRenderer, "", "no EGL here"};
+    });
     thread.wait_until_started();
     Service service(thread, metrics, {});
-    expect_problem(service.answer(make_request("POST", "/v1/render", kScene)), 503);
+    const Response splats = service.answer(make_request("POST", "/v1/render", kScene));
+    expect_problem(splats, 503);
+    EXPECT_NE(splats.body.find("no EGL here"), std::string::npos);
+    const Response marched = service.answer(make_request("POST", "/v1/render", kMarched));
+    EXPECT_EQ(marched.status, 200) << marched.body;
+    EXPECT_EQ(marched.header("Awan-Rung"), "transport-16");
     EXPECT_EQ(service.answer(make_request("POST", "/v1/plan", kScene)).status, 200);
     EXPECT_EQ(service.answer(make_request("POST", "/v1/particles", kScene)).status, 200);
-    const Response ready = service.answer(make_request("GET", "/readyz"));
-    expect_problem(ready, 503);
-    EXPECT_NE(ready.body.find("no EGL here"), std::string::npos);
+    EXPECT_EQ(service.answer(make_request("GET", "/readyz")).status, 200);
     const Response version = service.answer(make_request("GET", "/version"));
     EXPECT_NE(version.body.find("no EGL here"), std::string::npos);
     // A scene that cannot be is told so even here.
@@ -351,33 +459,81 @@ TEST(NoRenderer, EverythingButRendersWorks) {
 }
 
 TEST(NoRenderer, ThrowingOpenerIsNoRenderer) {
-    RenderThread thread([]() -> Result<Renderer> { throw std::runtime_error("driver"); }, 1);
+    RenderThread thread([]() -> Result<Renderer> { throw std::runtime_error("driver"); });
     thread.wait_until_started();
     EXPECT_EQ(thread.info().reason, "driver");
 }
 
 TEST(RenderThread, ThrowingRenderIsAnInternalErrorWithoutDetails) {
     Metrics metrics;
-    RenderThread thread(
-        []() -> Result<Renderer> {
-            Renderer renderer;
-            renderer.render = [](const Scene&, Planned, const Deadline&) -> Result<Rendered> {
-                throw std::runtime_error("secret");
-            };
-            return renderer;
-        },
-        1);
+    RenderThread thread([]() -> Result<Renderer> {
+        Renderer renderer;
+        renderer.render = [](const Scene&, Planned, const Deadline&) -> Result<Rendered> {
+            throw std::runtime_error("secret");
+        };
+        return renderer;
+    });
     Service service(thread, metrics, {});
     const Response response = service.answer(make_request("POST", "/v1/render", kScene));
     expect_problem(response, 500);
     EXPECT_EQ(response.body.find("secret"), std::string::npos);
-    EXPECT_EQ(thread.waiting(), 0u);
+    EXPECT_EQ(service.in_progress(), 0u);
+}
+
+// What failed once by the renderer's fault, say a lost context, must not fail for ever, nor give half a picture.
+TEST(RenderThread, OpensTheRendererAgainAfterAFailure) {
+    FakeRenderer fake;
+    std::atomic<int> opened{0};
+    std::atomic<int> failures{2};
+    RenderThread thread([&]() -> Result<Renderer> {
+        ++opened;
+        Renderer renderer = *fake.opener()();
+        const auto draw = renderer.render;
+        renderer.render = [&, draw](const Scene& scene, Planned planned,
+                                    const Deadline& deadline) -> Result<Rendered> {
+            if (failures == 2) {
+                --failures;
+                return Error{ErrorCode::kInternal, "", "OpenGL error 0x0507 in draw"};
+            }
+            if (failures == 1) {
+                --failures;
+                throw std::bad_alloc();
+            }
+            return draw(scene, std::move(planned), deadline);
+        };
+        return renderer;
+    });
+    Metrics metrics;
+    Service service(thread, metrics, {});
+    const Request request = make_request("POST", "/v1/render", kScene);
+    expect_problem(service.answer(request), 500);
+    const Response no_memory = service.answer(request);
+    expect_problem(no_memory, 503);
+    EXPECT_FALSE(no_memory.header("Retry-After").empty());
+    EXPECT_EQ(service.answer(request).status, 200);
+    EXPECT_EQ(service.answer(request).status, 200);
+    EXPECT_EQ(opened, 3);
+    EXPECT_EQ(thread.reopened(), 2u);
+}
+
+TEST(Memory, ThatRunsOutIs503AndNotTheEnd) {
+    FakeRenderer fake;
+    RenderThread thread(fake.opener());
+    Metrics metrics;
+    ServiceOptions options;
+    options.on_processor = [](const Scene&, Planned, int, const Progress&,
+                              const Deadline&) -> Result<Rendered> { throw std::bad_alloc(); };
+    Service service(thread, metrics, options);
+    const Response response = service.answer(make_request("POST", "/v1/render", kMarched));
+    expect_problem(response, 503);
+    EXPECT_FALSE(response.header("Retry-After").empty());
+    EXPECT_EQ(service.answer(make_request("POST", "/v1/plan", kMarched)).status, 200);
 }
 
 // With the device itself: a picture, and the renderer's name behind its tag.
 TEST(RealRenderer, Renders) {
     Metrics metrics;
-    RenderThread thread(DeviceChoice::kSoftware, 1, 1);
+    RenderThread thread(device_renderer(DeviceChoice::kSoftware, 1));
     thread.wait_until_started();
     ASSERT_EQ(thread.info().state, RenderThread::Info::State::kReady) << thread.info().reason;
     Service service(thread, metrics, {});
@@ -388,7 +544,7 @@ TEST(RealRenderer, Renders) {
     EXPECT_EQ(again.body, response.body);
 
     FakeRenderer fake;
-    RenderThread fake_thread(fake.opener(), 1);
+    RenderThread fake_thread(fake.opener());
     Service other(fake_thread, metrics, {});
     EXPECT_NE(other.answer(make_request("POST", "/v1/render", kScene)).header("ETag"),
               response.header("ETag"));

@@ -22,6 +22,8 @@ enum class ErrorCode {
     kNoRenderer,
     // HTTP 504, exit code 4: the time allowed ran out.
     kOverDeadline,
+    // HTTP 503, exit code 4: the system has not enough memory or threads for it now.
+    kOutOfMemory,
     // No answer, exit code 4: nobody waits for it any more.
     kCancelled,
     // Exit code 5: a file could not be read or written.

@@ -15,6 +15,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/thrown.h"
 #include "core/formats/tone.h"
 #include "core/scene/limits.h"
 #include "core/scene/outside.h"
@@ -50,10 +51,11 @@ Error encoder_error(const std::string& what) {
     return {ErrorCode::kInternal, "", "the image could not be encoded: " + what};
 }
 
-// Opens an encoder, lets `rows` feed it, and closes it.
+// Opens an encoder, lets `rows(output, y, end)` feed it rows y..end-1, `at_once` of them or fewer, and closes it.
+// Compressing is most of what large pictures of floats cost, so the deadline is looked at in between.
 template <typename Rows>
 Result<std::string> encode(const char* format, const OIIO::ImageSpec& spec, const Image& image,
-                           Rows rows) {
+                           int at_once, const Deadline& deadline, Rows rows) {
     if (image.width < 1 || image.height < 1 || image.pixels.size() != 4 * image.pixel_count())
         return encoder_error("it has no pixels, or not as many as it says");
     try {
@@ -62,11 +64,17 @@ Result<std::string> encode(const char* format, const OIIO::ImageSpec& spec, cons
         const std::string name = std::string("image.") + format;
         const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name, &proxy);
         if (!output) return encoder_error(OIIO::geterror());
-        if (!output->open(name, spec) || !rows(*output) || !output->close())
-            return encoder_error(output->geterror());
+        if (!output->open(name, spec)) return encoder_error(output->geterror());
+        for (int y = 0; y < image.height; y += at_once) {
+            if (const auto over = deadline.over()) return *over;
+            if (!rows(*output, y, std::min(y + at_once, image.height)))
+                return encoder_error(output->geterror());
+        }
+        if (!output->close()) return encoder_error(output->geterror());
         return bytes;
     } catch (const std::exception& e) {
-        return encoder_error(e.what());
+        const Error error = error_of_thrown(e);
+        return error.code == ErrorCode::kInternal ? encoder_error(error.message) : error;
     }
 }
 
@@ -119,7 +127,8 @@ std::vector<std::uint8_t> display_pixels(const Image& image, double exposure_sto
     return pixels;
 }
 
-Result<std::string> encode_png(const Image& image, double exposure_stops) {
+Result<std::string> encode_png(const Image& image, double exposure_stops,
+                               const Deadline& deadline) {
     const int channels = image.opaque ? 3 : 4;
     OIIO::ImageSpec spec = spec_of(image, channels, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
@@ -137,19 +146,15 @@ Result<std::string> encode_png(const Image& image, double exposure_stops) {
     const auto gain = static_cast<float>(std::exp2(exposure_stops));
     std::vector<std::uint8_t> row(static_cast<std::size_t>(channels) *
                                   static_cast<std::size_t>(std::max(image.width, 0)));
-    return encode("png", spec, image, [&](OIIO::ImageOutput& output) {
-        for (int y = 0; y < image.height; ++y) {
-            if (image.opaque)
-                opaque_row(row_of(image, y), image.width, gain, table, row.data());
-            else
-                transparent_row(row_of(image, y), image.width, gain, table, row.data());
-            if (!output.write_scanline(y, 0, OIIO::TypeDesc::UINT8, row.data())) return false;
-        }
-        return true;
+    return encode("png", spec, image, 1, deadline, [&](OIIO::ImageOutput& output, int y, int) {
+        (image.opaque ? opaque_row : transparent_row)(row_of(image, y), image.width, gain, table,
+                                                      row.data());
+        return output.write_scanline(y, 0, OIIO::TypeDesc::UINT8, row.data());
     });
 }
 
-Result<std::string> encode_exr(const Image& image, Precision precision, const PictureNotes& notes) {
+Result<std::string> encode_exr(const Image& image, Precision precision, const PictureNotes& notes,
+                               const Deadline& deadline) {
     const bool half = precision == Precision::kHalf;
     OIIO::ImageSpec spec = spec_of(image, 4, half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
     spec.attribute("oiio:ColorSpace", "Linear");
@@ -169,17 +174,12 @@ Result<std::string> encode_exr(const Image& image, Precision precision, const Pi
     constexpr int kRows = 64;
     std::vector<float> rows(4 * static_cast<std::size_t>(std::max(image.width, 0)) *
                             static_cast<std::size_t>(kRows));
-    return encode("exr", spec, image, [&](OIIO::ImageOutput& output) {
-        for (int y = 0; y < image.height; y += kRows) {
-            const int end = std::min(y + kRows, image.height);
-            const float* const first = row_of(image, y);
-            std::transform(first, row_of(image, end), rows.begin(),
-                           [=](float value) { return storable(value, largest); });
-            if (!output.write_scanlines(y, end, 0, OIIO::TypeDesc::FLOAT, rows.data()))
-                return false;
-        }
-        return true;
-    });
+    return encode("exr", spec, image, kRows, deadline,
+                  [&](OIIO::ImageOutput& output, int y, int end) {
+                      std::transform(row_of(image, y), row_of(image, end), rows.begin(),
+                                     [=](float value) { return storable(value, largest); });
+                      return output.write_scanlines(y, end, 0, OIIO::TypeDesc::FLOAT, rows.data());
+                  });
 }
 
 // The share of the sun's light that the lit side of a thick cloud reflects, as the transport rungs and the truth have

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/deadline.h"
 #include "core/base/image.h"
 #include "core/scene/scene.h"
 
@@ -12,8 +13,9 @@ namespace awan {
 
 // 8-bit sRGB after exposure (stops, radiance * 2^stops) and the tone curve of
 // core/shaders/tone.glsl; RGB when image.opaque, else RGBA with straight (not premultiplied) alpha
-// as PNG wants it.
-Result<std::string> encode_png(const Image& image, double exposure_stops);
+// as PNG wants it. Errors: kOverDeadline, kCancelled, kOutOfMemory.
+Result<std::string> encode_png(const Image& image, double exposure_stops,
+                               const Deadline& deadline = {});
 
 // The pixels of it, row by row: 3 bytes each when image.opaque, else 4.
 std::vector<std::uint8_t> display_pixels(const Image& image, double exposure_stops);
@@ -27,9 +29,9 @@ struct PictureNotes {
     double error = 0, error_forecast = 0;
 };
 
-// Linear radiance, premultiplied alpha, channels R G B A, no tone curve, ZIP compression.
+// Linear radiance, premultiplied alpha, channels R G B A, no tone curve, ZIP compression. Errors as of encode_png.
 Result<std::string> encode_exr(const Image& image, Precision precision,
-                               const PictureNotes& notes = {});
+                               const PictureNotes& notes = {}, const Deadline& deadline = {});
 
 // Exposure in stops for "auto": what a photographer would meter on the sunlit side of a thick cloud, which is half of
 // the sun's light, as from a white wall at 45 degrees, and the sky's mean radiance. It is brought to kMeteredLevel

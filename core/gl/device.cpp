@@ -1,5 +1,8 @@
 #include "core/gl/device.h"
 
+#include <sys/mman.h>
+
+#include <cstddef>
 #include <utility>
 
 #include "core/gl/egl_context.h"
@@ -28,6 +31,16 @@ Device::Programs& Device::programs() {
 
 namespace {
 
+// Address space that opening a device takes with Mesa's llvmpipe: threads, and the code that LLVM makes of the shaders.
+constexpr std::size_t kOpeningBytes = std::size_t{384} << 20;
+
+// Under a limit (ulimit -v), LLVM ends the whole process where it gets no memory. So it is asked for before.
+bool has_room() {
+    void* const room =
+        mmap(nullptr, kOpeningBytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    return room != MAP_FAILED && munmap(room, kOpeningBytes) == 0;
+}
+
 std::string gl_text(GLenum name) {
     const GLubyte* text = glGetString(name);
     return text == nullptr ? "" : reinterpret_cast<const char*>(text);
@@ -36,6 +49,9 @@ std::string gl_text(GLenum name) {
 }  // namespace
 
 Result<Device> Device::open(DeviceChoice choice) {
+    if (!has_room())
+        return Error{ErrorCode::kOutOfMemory, "",
+                     "there is not enough memory to open OpenGL: it takes 384 MiB of addresses"};
     auto context = gl::EglContext::open(choice);
     if (!context.ok()) return context.error();
     DeviceInfo info{gl_text(GL_RENDERER), gl_text(GL_VERSION), context->platform(), true};

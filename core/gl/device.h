@@ -26,7 +26,7 @@ enum class DeviceChoice { kAuto, kSoftware };
 // The context and its programs. Move-only.
 class Device {
   public:
-    // Fails with kNoRenderer and the EGL step and code that failed.
+    // Fails with kNoRenderer and the EGL step and code that failed, or kOutOfMemory.
     static Result<Device> open(DeviceChoice choice);
     Device(Device&&) noexcept;
     Device& operator=(Device&&) noexcept;

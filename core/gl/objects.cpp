@@ -137,7 +137,7 @@ Status gl_status(const char* step) {
     }
     std::array<char, 120> text{};
     std::snprintf(text.data(), text.size(), "OpenGL error 0x%04x in %s", error, step);
-    return Error{error == GL_OUT_OF_MEMORY ? ErrorCode::kTooLarge : ErrorCode::kInternal, "",
+    return Error{error == GL_OUT_OF_MEMORY ? ErrorCode::kOutOfMemory : ErrorCode::kInternal, "",
                  text.data()};
 }
 

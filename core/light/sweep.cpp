@@ -123,11 +123,13 @@ void sweep(const SweepGrid& grid, const Ordinates& ordinates, const SweepSource&
     run_team(all, [&](std::size_t i) {
         const std::size_t index = i < teams[0].size() ? 0 : 1;
         const std::size_t member = index == 0 ? i : i - teams[0].size();
-        if (member == 0) begin(index);
-        all.wait();
-        take(index, member, false);
-        all.wait();
-        take(index, member, true);
+        as_member(teams[index], [&] {
+            if (member == 0) begin(index);
+            all.wait();
+            take(index, member, false);
+            all.wait();
+            take(index, member, true);
+        });
     });
 }
 

@@ -101,9 +101,25 @@ int run_convert(const ConvertCommand& command);
 
 struct ServeCommand {
     HttpOptions http;
-    // Requests computed at once.
-    std::size_t working = 2;
+    // Requests that compute at once; 0: as many as there are threads, at least 2.
+    std::size_t lanes = 0;
+    // Of these, kept for what is expected to take at most a second.
+    std::size_t short_lanes = 1;
+    // That wait, of each weight.
     std::size_t queue = limits::kRenderQueue;
+    // MiB for all scenes that are being worked on; 0: half of what the machine or its container has, at most
+    // limits::kWorkBytes. MiB of kept answers.
+    std::size_t memory_mib = 0, cache_mib = limits::kCacheBytes >> 20;
+    // Seconds from a whole request to its answer.
+    double deadline_seconds = std::chrono::duration<double>(limits::kRequestDeadline).count();
+    // MiB of a request's body.
+    std::size_t body_mib = limits::kMaxBodyBytes >> 20;
+    std::size_t connections = limits::kMaxConnections;
+    // A file with the token that clients must show, or "".
+    std::string token_file;
+    // Whoever reaches it may ask, token or not, on other addresses than this machine's own too.
+    bool open_to_all = false;
+    LogFormat log = LogFormat::kNone;
     int threads = 1;
     DeviceChoice device = DeviceChoice::kAuto;
 };

@@ -1,11 +1,15 @@
 // awan: the command line. Flags become plain values here; commands.cpp and serve.cpp do the work.
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <functional>
+#include <iostream>
 #include <thread>
 
+#include "core/base/thrown.h"
 #include "core/pipeline.h"
 #include "core/scene/limits.h"
 #include "core/scene/rungs.h"
@@ -77,9 +81,9 @@ std::vector<std::string> rung_names() {
 
 Run add_serve(CLI::App& app) {
     auto command = std::make_shared<ServeCommand>();
-    command->working = static_cast<std::size_t>(processors());
     command->threads = processors();
     auto listen = std::make_shared<std::string>("127.0.0.1:8080");
+    auto log = std::make_shared<std::string>("off");
     CLI::App* serve = app.add_subcommand("serve", "answer HTTP");
     // --config is the program's, and may stand after `serve`
     serve->fallthrough();
@@ -87,10 +91,28 @@ Run add_serve(CLI::App& app) {
         ->check([](const std::string& text) {
             return parse_listen(text) ? std::string() : text + " is not host:port";
         });
-    add(*serve, "--workers", command->working, "requests computed at once")
-        ->check(CLI::Range(1, 256));
-    add(*serve, "--queue", command->queue, "renders that may wait; more are answered 429")
+    add(*serve, "--lanes", command->lanes,
+        "requests that compute at once; 0: one a thread, at least 2")
+        ->check(CLI::Range(0, 256));
+    add(*serve, "--short-lanes", command->short_lanes,
+        "of these, kept for what is expected to take at most a second; below the lanes")
+        ->check(CLI::Range(0, 255));
+    add(*serve, "--queue", command->queue,
+        "requests that may wait for a lane, short and long ones each; more are answered 429")
         ->check(CLI::Range(0, 1024));
+    add(*serve, "--deadline", command->deadline_seconds,
+        "seconds from a whole request to its answer; what would take longer is answered 504")
+        ->check(CLI::Range(0.1, 86400.0));
+    add(*serve, "--max-body", command->body_mib, "MiB of a request's body; more is answered 413")
+        ->check(CLI::Range(1, 4096));
+    add(*serve, "--memory", command->memory_mib,
+        "MiB for all scenes that are worked on, as estimated; 0: half of what there is, at most "
+        "3072")
+        ->check(CLI::Range(0, 1 << 20));
+    add(*serve, "--cache", command->cache_mib, "MiB of answers to renders that are kept; 0: none")
+        ->check(CLI::Range(0, 1 << 20));
+    add(*serve, "--max-connections", command->connections, "connections at once")
+        ->check(CLI::Range(1, 100'000));
     add_threads(*serve, command->threads);
     add(*serve, "--allow-host", command->http.allowed_hosts,
         "a further name of this server (Host header); may be repeated")
@@ -98,11 +120,23 @@ Run add_serve(CLI::App& app) {
     add(*serve, "--allow-origin", command->http.allowed_origins,
         "an origin, scheme://host:port, whose pages may post; may be repeated")
         ->delimiter(',');
+    add(*serve, "--token-file", command->token_file,
+        "a file whose first line clients have to show: Authorization: Bearer ...");
+    serve
+        ->add_flag("--open", command->open_to_all,
+                   "listen beyond this machine without a token: something else guards it")
+        ->envname("AWAN_OPEN");
+    add(*serve, "--log", *log, "a line for every answer to standard error: off, text or json")
+        ->check(CLI::IsMember({"off", "text", "json"}));
     add_device(*serve, command->device);
-    return [command, listen] {
+    serve->footer("A flag wins over its environment variable, and that over the file of --config.");
+    return [command, listen, log] {
         const auto address = parse_listen(*listen);
         command->http.host = address->host;
         command->http.port = address->port;
+        command->log = *log == "json"   ? LogFormat::kJson
+                       : *log == "text" ? LogFormat::kText
+                                        : LogFormat::kNone;
         return run_serve(*command);
     };
 }
@@ -249,8 +283,12 @@ Run add_convert(CLI::App& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    // A heap for each thread takes 64 MiB of addresses, which are short under a limit, and keeps what it once took.
+    mallopt(M_ARENA_MAX, 4);
     // Writing to a pipe that was closed then fails, with a message, instead of ending the process.
     std::signal(SIGPIPE, SIG_IGN);
+    // So does writing more than a file may hold (ulimit -f).
+    std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Awan renders clouds.", "awan");
     app.footer(
         "Every flag has an environment variable; awan COMMAND --help names it.\n"
@@ -277,7 +315,9 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         const bool help = e.get_exit_code() == 0;
         app.exit(e);
-        if (help) return kExitFine;
+        if (help && std::cout.flush()) return kExitFine;
+        if (help)
+            return report_error("", Error{ErrorCode::kIo, "", "cannot write standard output"});
         return dynamic_cast<const CLI::FileError*>(&e) ? exit_code_of(ErrorCode::kIo) : kExitUsage;
     }
     try {
@@ -285,7 +325,7 @@ int main(int argc, char** argv) {
             if (app.got_subcommand(name)) return run();
         // E.g. std::bad_alloc, or a thread that cannot be made.
     } catch (const std::exception& e) {
-        return report_error("", Error{ErrorCode::kInternal, "", e.what()});
+        return report_error("", error_of_thrown(e));
     }
     return kExitUsage;
 }

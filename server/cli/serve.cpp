@@ -9,10 +9,14 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <exception>
+#include <fstream>
 #include <thread>
 
 #include "core/light/machine_speed.h"
 #include "server/cli/cli.h"
+#include "server/cli/files.h"
+#include "server/cli/support.h"
 #include "server/http/connection.h"
 
 namespace awan {
@@ -24,6 +28,9 @@ void give_memory_back() {
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
     mallopt(M_TRIM_THRESHOLD, 1 << 20);
 }
+
+// Characters of a token. What can be guessed is no secret.
+constexpr std::size_t kShortestToken = 16;
 
 // Blocked in every thread and read from a descriptor, so that no code runs inside a signal handler.
 sigset_t block_stop_signals() {
@@ -54,10 +61,10 @@ void watch_signals(const Descriptor& signals, const Descriptor& over, HttpServer
 }
 
 // A descriptor a connection: the soft limit is often 1024, the hard one far more.
-void raise_descriptor_limit() {
+void raise_descriptor_limit(std::size_t connections) {
     rlimit descriptors{};
     if (getrlimit(RLIMIT_NOFILE, &descriptors) != 0) return;
-    const rlim_t wanted = limits::kMaxConnections + 4 * limits::kSpareDescriptors;
+    const rlim_t wanted = connections + 4 * limits::kSpareDescriptors;
     if (descriptors.rlim_cur >= wanted) return;
     descriptors.rlim_cur = std::min(wanted, descriptors.rlim_max);
     setrlimit(RLIMIT_NOFILE, &descriptors);
@@ -75,9 +82,48 @@ void say_renderer(const RenderThread& renderer) {
     if (info.state == RenderThread::Info::State::kReady) {
         std::fprintf(stderr, "awan: renders with %s\n", info.device.renderer.c_str());
     } else {
-        std::fprintf(stderr, "awan: no renderer, /v1/render answers 503: %s\n",
+        std::fprintf(stderr,
+                     "awan: no renderer, /v1/render answers 503 where a plan is of splats: %s\n",
                      info.reason.c_str());
     }
+}
+
+// What memory there is: the machine's, the container's (cgroup v2), or the process's own limit, whichever is least.
+std::size_t memory_there_is() {
+    double bytes =
+        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    double container = 0;
+    if (std::ifstream file("/sys/fs/cgroup/memory.max"); file >> container)
+        bytes = std::min(bytes, container);
+    rlimit space{};
+    if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY)
+        bytes = std::min(bytes, static_cast<double>(space.rlim_cur));
+    return static_cast<std::size_t>(bytes);
+}
+
+// The token of a file: its first line.
+Result<std::string> read_token(const std::string& path) {
+    auto text = read_input(path);
+    if (!text) return text.error();
+    text->resize(std::min(text->find_first_of("\r\n"), text->size()));
+    const bool plain =
+        std::all_of(text->begin(), text->end(), [](char c) { return c > ' ' && c <= '~'; });
+    if (text->size() < kShortestToken || !plain)
+        return Error{ErrorCode::kIo, "",
+                     "--token-file " + path + ": its first line must be a token of at least " +
+                         std::to_string(kShortestToken) + " printable characters"};
+    return text;
+}
+
+// Names and addresses that only programs of this machine can reach.
+bool is_loopback(const std::string& host) {
+    return host == "localhost" || host.starts_with("127.") || host == "[::1]" || host == "::1";
+}
+
+// How many threads may wait at once: those in lanes, those in the lines of the lanes and of the renderer, those that
+// follow jobs, and some more, to be told that these are full.
+std::size_t workers_for(const LanesOptions& lanes) {
+    return lanes.lanes + 2 * lanes.line + 2 + limits::kEventStreams;
 }
 
 }  // namespace
@@ -109,20 +155,50 @@ std::optional<ListenAddress> parse_listen(const std::string& text) {
 
 int run_serve(const ServeCommand& command) {
     give_memory_back();
+    HttpOptions http = command.http;
+    if (!command.token_file.empty()) {
+        auto token = read_token(command.token_file);
+        if (!token) return report_error("", token.error());
+        http.token = *std::move(token);
+    }
+    if (http.token.empty() && !command.open_to_all && !is_loopback(http.host))
+        return bad_usage("--listen " + http.host +
+                         " is reached from other machines: name a token that they have to show, "
+                         "--token-file FILE, or say --open where something else guards it");
     const sigset_t stop_signals = block_stop_signals();
     std::signal(SIGPIPE, SIG_IGN);
-    raise_descriptor_limit();
+    raise_descriptor_limit(command.connections);
 
-    Metrics metrics;
-    RenderThread renderer(command.device, command.threads, command.queue);
     ServiceOptions service_options;
     service_options.threads = command.threads;
     service_options.speed = rounded(measure_speed());
-    service_options.working = command.working;
-    Service service(renderer, metrics, service_options);
+    LanesOptions& lanes = service_options.lanes;
+    lanes.lanes = command.lanes > 0
+                      ? command.lanes
+                      : std::max<std::size_t>(static_cast<std::size_t>(command.threads), 2);
+    lanes.for_short = std::min(command.short_lanes, lanes.lanes - 1);
+    lanes.line = command.queue;
+    service_options.work_bytes = command.memory_mib > 0
+                                     ? command.memory_mib << 20
+                                     : std::min(limits::kWorkBytes, memory_there_is() / 2);
+    service_options.jobs = lanes.lanes;
+    service_options.cache_bytes = command.cache_mib << 20;
+    const auto lights = std::make_shared<LightCache>(kLightCacheBytes);
+    service_options.on_processor = processor_renderer(lights);
 
-    HttpOptions http = command.http;
-    http.workers = command.working + command.queue + 1;
+    http.workers = workers_for(lanes);
+    http.max_connections = command.connections;
+    http.max_body_bytes = command.body_mib << 20;
+    http.max_body_bytes_in_all = std::max(limits::kMaxBodyBytesInAll, http.max_body_bytes);
+    http.request_deadline =
+        std::chrono::milliseconds(std::llround(1000 * command.deadline_seconds));
+    AccessLog log(STDERR_FILENO, command.log);
+    if (command.log != LogFormat::kNone)
+        http.log = [&log](const AccessRecord& record) { log.add(record); };
+
+    Metrics metrics;
+    RenderThread renderer(device_renderer(command.device, command.threads, lights));
+    Service service(renderer, metrics, service_options);
     HttpServer server(service, metrics, http);
     if (const Status failed = server.bind()) return report_error("", *failed);
     std::fprintf(stderr, "awan: listening on http://%s:%d/\n", http.host.c_str(), server.port());
@@ -131,11 +207,17 @@ int run_serve(const ServeCommand& command) {
     const Descriptor over(eventfd(0, EFD_CLOEXEC));
     std::thread herald([&] { say_renderer(renderer); });
     std::thread watcher([&] { watch_signals(signals, over, server); });
-    server.run();
+    std::exception_ptr thrown;
+    try {
+        server.run();
+    } catch (...) {
+        thrown = std::current_exception();
+    }
     herald.join();
     const std::uint64_t one = 1;
     if (write(over.get(), &one, sizeof one) < 0) std::fputs("awan: eventfd failed\n", stderr);
     watcher.join();
+    if (thrown) std::rethrow_exception(thrown);
     return kExitFine;
 }
 

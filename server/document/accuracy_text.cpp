@@ -105,7 +105,8 @@ std::string accuracy_to_csv(std::span<const NamedAccuracy> reports) {
     const bool several = reports.size() > 1;
     std::string out = several ? "scene," : "";
     out +=
-        "rung,time_ms,light_ms,draw_ms,error,error_noise,bias,bias_noise,flip,stated,predicted_error,"
+        "rung,time_ms,light_ms,draw_ms,error,error_noise,bias,bias_noise,flip,stated,predicted_"
+        "error,"
         "predicted_time_ms,memory_bytes,runs,pareto\n";
     for (const NamedAccuracy& named : reports)
         for (const RungCost& rung : named.report.rungs) {
@@ -114,7 +115,8 @@ std::string accuracy_to_csv(std::span<const NamedAccuracy> reports) {
             for (const double value :
                  {rung.time_ms, rung.light_ms, rung.draw_ms, rung.error.nrmse,
                   rung.error.nrmse_noise, rung.error.bias, rung.error.bias_noise, rung.flip,
-                  rung.stated_error, rung.predicted_error, rung.predicted_time_ms, rung.memory_bytes})
+                  rung.stated_error, rung.predicted_error, rung.predicted_time_ms,
+                  rung.memory_bytes})
                 cell(value, out);
             out += ',' + std::to_string(rung.runs) + (rung.pareto ? ",true\n" : ",false\n");
         }

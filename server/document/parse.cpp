@@ -9,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/base/thrown.h"
 #include "core/formats/numbers.h"
 #include "core/scene/limits.h"
 #include "core/scene/rules.h"
@@ -488,11 +489,17 @@ class SceneReader {
 }  // namespace
 
 Result<SceneDraft> parse_scene(std::string_view text) {
+    // To the reader, a NUL is the end of the text, and whatever follows it would be passed over.
+    if (text.find('\0') != std::string_view::npos)
+        return Error{ErrorCode::kMalformed, "", "the text holds a NUL, which JSON does not allow"};
     SceneReader reader(text);
     try {
         json::sax_parse(TextIterator(reader.text), TextIterator(), &reader);
     } catch (const std::exception& e) {
-        return Error{ErrorCode::kInternal, "", std::string("reading JSON failed: ") + e.what()};
+        Error error = error_of_thrown(e);
+        if (error.code == ErrorCode::kInternal)
+            error.message = "reading JSON failed: " + error.message;
+        return error;
     }
     if (reader.error) return std::move(*reader.error);
     return std::move(reader.draft);

@@ -21,6 +21,27 @@ bool own_origin(std::string_view origin, std::string_view host) {
     return false;
 }
 
+// Takes as long wherever the first difference is.
+bool same_secret(std::string_view a, std::string_view b) {
+    if (a.size() != b.size()) return false;
+    unsigned difference = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        difference |= static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]);
+    return difference == 0;
+}
+
+bool needs_token(const RequestHead& head) {
+    const std::string_view path = std::string_view(head.target).substr(0, head.target.find('?'));
+    return path != "/healthz" && path != "/readyz" && head.method != "OPTIONS";
+}
+
+bool shows_token(const RequestHead& head, std::string_view token) {
+    constexpr std::string_view kScheme = "Bearer ";
+    const std::string_view shown = head.header("Authorization");
+    return shown.size() > kScheme.size() && same(shown.substr(0, kScheme.size()), kScheme) &&
+           same_secret(without_blanks(shown.substr(kScheme.size())), token);
+}
+
 }  // namespace
 
 std::string_view without_port(std::string_view authority) {
@@ -39,6 +60,8 @@ std::optional<FramingError> check_access(const RequestHead& head, const AccessRu
         return FramingError{421,
                             "this server does not answer for that Host; "
                             "awan serve --allow-host names more"};
+    if (!rules.token.empty() && needs_token(head) && !shows_token(head, rules.token))
+        return FramingError{401, "this server wants its token: Authorization: Bearer ..."};
     if (head.method == "GET" || head.method == "HEAD") return std::nullopt;
     for (const auto& [name, value] : head.headers)
         if (same(name, "Origin") && !own_origin(value, head.host) &&

@@ -1,4 +1,4 @@
-// Who may call: the Host a request names and the Origin of the page that sent it. Pure functions.
+// Who may call: the Host a request names, the Origin of the page that sent it, the token that it shows. Pure functions.
 #pragma once
 
 #include <optional>
@@ -16,10 +16,13 @@ struct AccessRules {
     std::vector<std::string> hosts;
     // scheme://host[:port].
     std::vector<std::string> origins;
+    // "": none is needed.
+    std::string token;
 };
 
 // 421 for a foreign Host: a page on evil.example whose name has been rebound to 127.0.0.1 must not
-// talk to this server. 403 for anything but GET and HEAD from a foreign Origin, "null" included.
+// talk to this server. 403 for anything but GET and HEAD from a foreign Origin, "null" included. 401 without the token
+// (Authorization: Bearer, RFC 6750), except for /healthz, /readyz and OPTIONS, which tell nothing.
 std::optional<FramingError> check_access(const RequestHead& head, const AccessRules& rules);
 
 // The Origin to name in Access-Control-Allow-Origin: an allowed one that is not this server's own.

@@ -56,7 +56,13 @@ class HttpCodec::Impl : public httplib::Server {
         // httplib ends streams when its listening socket is closed. It has none here.
         svr_sock_ = 0;
         set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& out) {
-            fill(answer_(request), out);
+            // httplib would answer 500 and tell what was thrown.
+            try {
+                fill(answer_(request), out);
+            } catch (const std::exception&) {
+                out.status = 503;
+                out.headers.emplace("Retry-After", "1");
+            }
             return HandlerResponse::Handled;
         });
         // After httplib has added its own headers, before it writes them.

@@ -37,6 +37,26 @@ void Descriptor::close() {
     fd_ = -1;
 }
 
+void begin_answer(Connection& c) {
+    auto nobody = Connection::Voice::kNone;
+    // A probe is one call that does not wait.
+    while (!c.voice.compare_exchange_weak(nobody, Connection::Voice::kAnswer) &&
+           nobody != Connection::Voice::kAnswer)
+        nobody = Connection::Voice::kNone;
+}
+
+void find_out_whether_gone(Connection& c) {
+    // HTTP/1.0 knows no interim answers.
+    if (c.head.http10) return;
+    auto nobody = Connection::Voice::kNone;
+    if (!c.voice.compare_exchange_strong(nobody, Connection::Voice::kProbe)) return;
+    constexpr std::string_view kProbe = "HTTP/1.1 100 Continue\r\n\r\n";
+    const ssize_t n =
+        send(c.socket.get(), kProbe.data(), kProbe.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+    if (n != static_cast<ssize_t>(kProbe.size())) c.gone->store(true);
+    c.voice = Connection::Voice::kNone;
+}
+
 Received receive(const Connection& connection, std::size_t limit, std::string& to) {
     char buffer[64u << 10];
     const ssize_t n =
@@ -83,7 +103,7 @@ bool ConnectionSink::write(std::string_view bytes) {
         const std::size_t n = std::min(bytes.size(), kSlice);
         connection_.out.append(bytes.substr(0, n));
         bytes.remove_prefix(n);
-        if (connection_.out.size() >= kGather && !send_or_wait()) return false;
+        if ((!gathers_ || connection_.out.size() >= kGather) && !send_or_wait()) return false;
     }
     return true;
 }

@@ -50,8 +50,11 @@ struct Connection {
     using Clock = std::chrono::steady_clock;
 
     Descriptor socket;
-    // The address of this end, as a Host header would have it.
+    // The address of this end, as a Host header would have it, and that of the other.
     std::string local_address;
+    std::string client;
+    // It came when there was no room any more, and is told so; only whether the server lives is answered.
+    bool in_reserve = false;
     Stand stand = Stand::kHead;
     // When it is cut (not while kWorking).
     Clock::time_point until;
@@ -63,10 +66,16 @@ struct Connection {
     std::size_t scanned = 0;
     RequestHead head;
     std::string body;
+    Clock::time_point body_since;
     // Bytes counted for it in the budget of all bodies.
     std::size_t body_charged = 0;
-    // Becomes true when the client has closed its side.
+    // Becomes true when the client has gone.
     std::shared_ptr<std::atomic<bool>> gone;
+    // The client has closed its side: it sends no more. It may have gone, or wait for its answer.
+    bool half_closed = false;
+    // Who writes: nobody, the thread that polls (a word to find out), or the one that answers.
+    enum class Voice { kNone, kProbe, kAnswer };
+    std::atomic<Voice> voice{Voice::kNone};
     // When its request was complete.
     Clock::time_point read_at;
     bool admitted = false;
@@ -78,9 +87,22 @@ struct Connection {
     // Bytes counted for it among all parked bytes.
     std::size_t parked = 0;
     bool close_after = false;
+    // A worker has it, and hands it back.
+    bool with_worker = false;
+    // Of the worker that has answered it: whether all went well, and which one was answered before.
+    bool alive = true;
+    Connection* done_before = nullptr;
 
     bool unsent() const { return sent < out.size(); }
 };
+
+// From now on only the one that answers writes.
+void begin_answer(Connection& connection);
+
+// What has closed its side has either gone or waits for its answer: only when something is sent to it does the
+// difference show. An interim answer that clients must pass over (RFC 9110, section 15.2) finds it out, where none is
+// begun; a client that has gone refuses it with a reset.
+void find_out_whether_gone(Connection& connection);
 
 enum class Received { kBytes, kNothing, kClosed };
 
@@ -104,6 +126,8 @@ class ConnectionSink : public ByteSink {
         : connection_(connection), parked_(parked_in_all), never_wait_(never_wait), until_(until) {}
 
     bool write(std::string_view bytes) override;
+    // From now on every write goes out at once.
+    void gather_nothing() { gathers_ = false; }
     // To be called once after the last write.
     bool flush();
 
@@ -113,6 +137,7 @@ class ConnectionSink : public ByteSink {
     Connection& connection_;
     std::atomic<std::size_t>& parked_;
     bool never_wait_;
+    bool gathers_ = true;
     Connection::Clock::time_point until_;
 };
 

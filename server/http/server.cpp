@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <thread>
+#include <utility>
 
 #include "server/http/state.h"
 
@@ -26,11 +28,18 @@ constexpr std::chrono::milliseconds kAcceptPause{100};
 // Connections beyond the table, kept just long enough to tell them so.
 constexpr std::size_t kTurnedAway = 32;
 
-std::string local_address(int fd) {
+// How long a body may come before its connection may have to make room for another, if it is the slowest.
+constexpr std::chrono::milliseconds kBodyGrace{500};
+
+// After memory ran out outside any connection.
+constexpr std::chrono::milliseconds kMemoryPause{20};
+
+// Of this end of a socket (getsockname) or the other (getpeername), without the port.
+std::string address_of(int fd, int (*which)(int, sockaddr*, socklen_t*)) {
     sockaddr_storage address{};
     socklen_t size = sizeof address;
     char text[INET6_ADDRSTRLEN] = "";
-    if (getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) != 0) return {};
+    if (which(fd, reinterpret_cast<sockaddr*>(&address), &size) != 0) return {};
     if (address.ss_family == AF_INET) {
         const auto* in = reinterpret_cast<const sockaddr_in*>(&address);
         inet_ntop(AF_INET, &in->sin_addr, text, sizeof text);
@@ -58,11 +67,27 @@ HttpServer::State::State(Service& s, Metrics& m, HttpOptions o)
 
 // --- The turn of the loop
 
+// Memory may run out at any time. Then one connection ends, never the thread: if there is enough for it, with a word.
+template <typename What>
+void HttpServer::State::guarded(Connection& c, const What& what) {
+    try {
+        try {
+            what();
+        } catch (const std::exception&) {
+            if (c.socket.get() < 0 || c.with_worker) return;
+            const auto body = std::exchange(c.body, {});
+            refuse(c, 503, "there is not enough memory for this now", "memory");
+        }
+    } catch (const std::exception&) {
+        end(c);
+    }
+}
+
 void HttpServer::State::poll_once() {
     std::vector<pollfd> polled;
     std::vector<Connection*> whose;
     polled.push_back({wake.get(), POLLIN, 0});
-    // poll passes over -1: no listener while draining, and none while it must wait.
+    // poll passes over -1: no listener while it must wait.
     const bool accepting = Clock::now() >= accept_after;
     polled.push_back({accepting ? listener.get() : -1, POLLIN, 0});
     Clock::time_point soonest = draining ? drain_until : Clock::time_point::max();
@@ -70,8 +95,8 @@ void HttpServer::State::poll_once() {
     for (Connection& c : connections) {
         short events = POLLIN;
         if (c.stand == Stand::kWriting) events = POLLOUT;
-        if (c.stand == Stand::kWorking) events = POLLRDHUP;
-        // A client that has gone is told once; after that poll would report it for ever.
+        // Once the client has closed its side, poll would report it for ever; a reset it reports in any case.
+        if (c.stand == Stand::kWorking) events = c.half_closed ? 0 : POLLRDHUP;
         const bool deaf = c.stand == Stand::kWorking && c.gone->load();
         if (c.stand != Stand::kWorking) soonest = std::min(soonest, c.until);
         polled.push_back({deaf ? -1 : c.socket.get(), events, 0});
@@ -90,18 +115,24 @@ void HttpServer::State::poll_once() {
     const auto now = Clock::now();
     for (std::size_t i = 0; i < whose.size(); ++i) {
         Connection& c = *whose[i];
-        if (polled[i + 2].revents && c.socket.get() == polled[i + 2].fd)
-            on_event(c, polled[i + 2].revents);
-        if (c.socket.get() >= 0 && c.stand != Stand::kWorking && now >= c.until) on_timeout(c);
+        guarded(c, [&] {
+            if (polled[i + 2].revents && c.socket.get() == polled[i + 2].fd)
+                on_event(c, polled[i + 2].revents);
+            if (c.socket.get() >= 0 && c.stand != Stand::kWorking && now >= c.until) on_timeout(c);
+        });
     }
-    if (polled[1].revents && !stopping) accept_all();
+    if (polled[1].revents) accept_all();
     connections.remove_if([](const Connection& c) { return c.socket.get() < 0; });
 }
 
 void HttpServer::State::on_event(Connection& c, short events) {
     switch (c.stand) {
         case Stand::kWorking:
-            c.gone->store(true);
+            if (events & (POLLHUP | POLLERR)) {
+                c.gone->store(true);
+            } else if (!std::exchange(c.half_closed, true)) {
+                find_out_whether_gone(c);
+            }
             return;
         case Stand::kWriting:
             if (!send_unsent(c, parked)) return end(c);
@@ -128,7 +159,6 @@ void HttpServer::State::on_event(Connection& c, short events) {
             return advance(c);
         }
     }
-    (void)events;
 }
 
 void HttpServer::State::on_timeout(Connection& c) {
@@ -141,14 +171,18 @@ void HttpServer::State::on_timeout(Connection& c) {
 }
 
 void HttpServer::State::take_back_done() {
-    std::vector<Done> taken;
+    Connection* taken = nullptr;
     {
         const std::lock_guard lock(done_mutex);
-        taken.swap(done);
+        taken = std::exchange(done, nullptr);
     }
-    for (const Done& d : taken) {
-        taken_back(*d.connection, d.alive);
-        advance(*d.connection);
+    while (taken) {
+        Connection& c = *std::exchange(taken, taken->done_before);
+        c.with_worker = false;
+        guarded(c, [&] {
+            taken_back(c, c.alive);
+            advance(c);
+        });
     }
 }
 
@@ -169,26 +203,43 @@ void HttpServer::State::accept_all() {
         const bool full = connections.size() >= options.max_connections && !make_room();
         if (full && connections.size() >= options.max_connections + kTurnedAway) continue;
         Connection& c = connections.emplace_back();
-        c.local_address = local_address(socket.get());
+        c.local_address = address_of(socket.get(), getsockname);
+        c.client = address_of(socket.get(), getpeername);
         c.socket = std::move(socket);
         c.since = Clock::now();
         c.until = c.since + options.head_deadline;
-        if (full) refuse(c, 503, "there are too many connections", "connections");
+        c.in_reserve = full;
     }
 }
 
 // Closes the connection that has waited longest for a head, one that has sent nothing before one
-// that has begun: the newcomer is likelier to have something to say. False when all are at work.
+// that has begun, and where there is none, the one whose body comes slowest: the newcomer is likelier to have
+// something to say. False when all are at work.
 bool HttpServer::State::make_room() {
+    const auto now = Clock::now();
     Connection* longest = nullptr;
+    Connection* slowest = nullptr;
+    const auto rank = [](const Connection& x) { return std::pair(!x.in.empty(), x.since); };
+    const auto rate = [&](const Connection& x) {
+        const std::chrono::duration<double> taken = now - x.body_since;
+        return static_cast<double>(x.body.size()) / taken.count();
+    };
     for (Connection& c : connections) {
-        if (c.stand != Stand::kHead || c.socket.get() < 0) continue;
-        const auto rank = [](const Connection& x) { return std::pair(!x.in.empty(), x.since); };
-        if (!longest || rank(c) < rank(*longest)) longest = &c;
+        if (c.socket.get() < 0 || c.in_reserve) continue;
+        if (c.stand == Stand::kHead && (!longest || rank(c) < rank(*longest))) longest = &c;
+        if (c.stand == Stand::kBody && now - c.body_since > kBodyGrace &&
+            (!slowest || rate(c) < rate(*slowest)))
+            slowest = &c;
     }
-    if (!longest) return false;
-    metrics.connection_refused("connections");
-    end(*longest);
+    if (longest) {
+        metrics.connection_refused("connections");
+        end(*longest);
+        return true;
+    }
+    if (!slowest) return false;
+    refuse(*slowest, 503, "there are too many connections, and this body came slowest",
+           "connections");
+    end(*slowest);
     return true;
 }
 
@@ -206,7 +257,6 @@ void HttpServer::State::begin_drain() {
     draining = true;
     drain_until = Clock::now() + options.drain_deadline;
     service.drain();
-    listener.close();
 }
 
 bool HttpServer::State::drained() const {
@@ -239,6 +289,7 @@ Status HttpServer::bind() {
     s.rules.hosts.insert(s.rules.hosts.end(), s.options.allowed_hosts.begin(),
                          s.options.allowed_hosts.end());
     s.rules.origins = s.options.allowed_origins;
+    s.rules.token = s.options.token;
     return std::nullopt;
 }
 
@@ -253,22 +304,21 @@ void HttpServer::run() {
                                      [&s]() -> std::function<void(Connection*)> {
                                          auto codec = std::make_shared<HttpCodec>();
                                          return [&s, codec](Connection* connection) {
-                                             const bool alive =
-                                                 s.answer(*connection, *codec, false);
-                                             const std::lock_guard lock(s.done_mutex);
-                                             s.done.push_back({connection, alive});
-                                             const std::uint64_t one = 1;
-                                             // A failed write means that the pipe is full: the thread is awake
-                                             // already.
-                                             if (write(s.wake.get(), &one, sizeof one) < 0) return;
+                                             s.answer_on_worker(*connection, *codec);
                                          };
                                      });
         s.workers = &workers;
         for (;;) {
             if (s.stopping && !s.draining) s.begin_drain();
             if (s.draining && (s.drained() || Clock::now() >= s.drain_until)) break;
-            s.poll_once();
+            try {
+                s.poll_once();
+            } catch (const std::exception&) {
+                // No memory to look at connections with, or to accept one.
+                std::this_thread::sleep_for(kMemoryPause);
+            }
         }
+        s.listener.close();
         // Whoever has not finished by now is told that nobody waits; the workers end with that.
         for (Connection& c : s.connections)
             if (c.stand == Stand::kWorking) c.gone->store(true);

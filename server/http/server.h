@@ -8,11 +8,13 @@
 // to take of an answer waits with its connection, not with a worker.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/base/result.h"
+#include "server/http/access_log.h"
 #include "server/limits.h"
 #include "server/service/service.h"
 
@@ -23,9 +25,9 @@ struct HttpOptions {
     std::string host = "127.0.0.1";
     // 0: any free port.
     int port = 8080;
-    // Threads that answer POSTs, one request each. Most of them wait for the render queue, so there
-    // should be more than it has places: else it never fills and everybody waits for a worker.
-    std::size_t workers = limits::kRenderQueue + 8;
+    // Threads that answer POSTs, one request each. Most of them wait in the lines for lanes, so there should be more
+    // than those have places: else they never fill and everybody waits for a worker.
+    std::size_t workers = 3 * limits::kRenderQueue + 8;
     // Names by which clients may call this server (Host header), without port, beside localhost,
     // 127.0.0.1, [::1], `host` and the address they reached. A foreign Host is answered 421: it
     // guards against DNS rebinding.
@@ -33,6 +35,10 @@ struct HttpOptions {
     // Origins (scheme://host:port) of pages that may post, beside this server's own. Others get
     // 403.
     std::vector<std::string> allowed_origins;
+    // That clients have to show, see access.h; "": none.
+    std::string token;
+    // Called with every answer, from any thread; see access_log.h. May be empty; must not throw.
+    std::function<void(const AccessRecord&)> log;
 
     // Overridable so that tests need not wait; defaults from limits.h.
     std::size_t max_connections = limits::kMaxConnections;
@@ -61,8 +67,8 @@ class HttpServer {
     // The port it listens on; after bind().
     int port() const;
 
-    // Serves until stop(); then finishes what is in flight (at most drain_deadline). Call from one
-    // thread.
+    // Serves until stop(); then finishes what is in flight (at most drain_deadline), and tells whoever comes meanwhile
+    // that it stops. Call from one thread. Throws std::system_error where the system has no thread for it.
     void run();
     // Thread-safe, but not for signal handlers: call it from another thread.
     void stop();

@@ -47,12 +47,14 @@ struct HttpServer::State {
     Clock::time_point accept_after;
     Workers<Connection*>* workers = nullptr;
     std::mutex done_mutex;
-    struct Done {
-        Connection* connection;
-        bool alive;
-    };
-    // Guarded by done_mutex.
-    std::vector<Done> done;
+    // The one that was answered last, and so on by done_before; guarded by done_mutex. Needs no memory: a worker that
+    // has answered must be able to say so.
+    Connection* done = nullptr;
+
+    // What a thread that has run out of memory does with the connection that it was busy with.
+    template <typename What>
+    void guarded(Connection& c, const What& what);
+    void answer_on_worker(Connection& c, HttpCodec& with) noexcept;
 
     void accept_all();
     bool make_room();
@@ -70,6 +72,8 @@ struct HttpServer::State {
     void dispatch(Connection& c);
     bool answer(Connection& c, HttpCodec& with, bool here);
     void answer_here(Connection& c, const HttpCodec::Answer& what);
+    void log(const Connection& c, const Response& response, std::string_view id,
+             std::size_t bytes_in);
     void refuse(Connection& c, int status, std::string_view detail, std::string_view reason);
     void taken_back(Connection& c, bool alive);
     void written(Connection& c);

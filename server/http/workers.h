@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <deque>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -13,12 +14,18 @@ namespace awan {
 template <typename Job>
 class Workers {
   public:
-    // Each thread calls `make_worker` once and then what it gave for every job it takes.
+    // `make_worker` is called once a thread, and what it gave for every job that the thread takes; that must not throw.
+    // Where the system has not so many threads there are fewer; throws std::system_error where it has none.
     Workers(std::size_t threads, std::size_t queue_length,
             const std::function<std::function<void(Job)>()>& make_worker)
         : queue_length_(queue_length) {
-        for (std::size_t i = 0; i < threads; ++i)
-            threads_.emplace_back([this, make_worker] { run(make_worker()); });
+        try {
+            threads_.reserve(threads);
+            for (std::size_t i = 0; i < threads; ++i)
+                threads_.emplace_back([this, worker = make_worker()] { run(worker); });
+        } catch (const std::exception&) {
+            if (threads_.empty()) throw;
+        }
     }
     // Finishes what is queued, then ends the threads.
     ~Workers() {
@@ -32,13 +39,17 @@ class Workers {
     Workers(const Workers&) = delete;
     Workers& operator=(const Workers&) = delete;
 
-    // False when the queue is full.
-    bool push(Job job) {
-        const std::lock_guard lock(mutex_);
-        if (queue_.size() >= queue_length_) return false;
-        queue_.push_back(job);
-        changed_.notify_one();
-        return true;
+    // False when the queue is full, or there is no memory for it.
+    bool push(Job job) noexcept {
+        try {
+            const std::lock_guard lock(mutex_);
+            if (queue_.size() >= queue_length_) return false;
+            queue_.push_back(job);
+            changed_.notify_one();
+            return true;
+        } catch (const std::exception&) {
+            return false;
+        }
     }
 
   private:

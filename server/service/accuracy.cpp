@@ -18,8 +18,6 @@ using Clock = Deadline::Clock;
 // The share of a request's time that a sweep may take. The rest is for predictions that were too low, and for the
 // plot.
 constexpr double kShareOfDeadline = 0.75;
-// Seconds for Retry-After: about half of a sweep.
-constexpr int kRetrySeconds = 15;
 // What a query may ask of the reference at most: pixels along its longer side, paths a pixel, runs of each rung.
 constexpr int kLargestSide = 512;
 constexpr std::uint32_t kMostSamples = 1u << 20;
@@ -92,36 +90,37 @@ Result<Query> read_query(const Request& request) {
     return query;
 }
 
-// A place in the render queue as soon as there is one: a sweep has time, and must not be lost for
-// a moment's crowd.
-Result<RenderThread::Place> wait_for_place(RenderThread& renderer, const Deadline& deadline) {
-    for (;;) {
-        RenderThread::Place place = renderer.take_place();
-        if (place) return place;
-        if (auto over = deadline.over()) return *over;
-        std::this_thread::sleep_for(kLook);
-    }
-}
-
 // One render of a sweep, with nothing kept from another. What needs no device is rendered here. What
-// does holds its place in the queue no longer than it has to, so that other requests are served
-// between two of them.
-Result<Rendered> render_one(Service::State& state, const Scene& scene, const Deadline& deadline,
-                            double& queue_ms) {
+// does waits for the renderer as all do, so that other requests are served between two of them. The line may be full at
+// a moment; a sweep has time, and must not be lost for that.
+Result<Rendered> render_one(Service::State& state, const Scene& scene, const std::string& client,
+                            const Deadline& deadline, double& queue_ms) {
     const ServiceOptions& options = state.options;
     auto planned = plan_scene(scene, options.threads, deadline, options.speed);
     if (!planned) return planned.error();
-    const Rung* const rung = find_rung(planned->plan.rung);
-    if (rung != nullptr && rung->method != Method::kSplats)
+    if (!needs_device(planned->plan))
         return render_planned(scene, *std::move(planned),
                               {nullptr, options.threads, nullptr, {}, options.speed}, deadline);
     const auto start = Clock::now();
-    const auto place = wait_for_place(state.renderer, deadline);
-    if (!place) return place.error();
+    const double expected_ms = planned->plan.predicted.time_ms;
+    Lanes::Pass pass(state.device_lane);
+    for (;;) {
+        const auto entry = pass.enter({weight_of(expected_ms), expected_ms, client}, deadline);
+        if (entry == Lanes::Entry::kIn) break;
+        if (const auto over = deadline.over()) return *over;
+        std::this_thread::sleep_for(kLook);
+    }
     queue_ms += ms_since(start);
-    RenderJobResult job = state.renderer.render(*place, scene, *std::move(planned), deadline);
+    RenderJobResult job = state.renderer.render(scene, *std::move(planned), deadline);
     queue_ms += job.queue_ms;
     return std::move(job.rendered);
+}
+
+// Where there is no renderer, what can be measured without: all rungs but the splats and, as always, truth.
+void leave_out_splats(AccuracyOptions& options) {
+    if (!options.rungs.empty()) return;
+    for (const Rung& rung : ladder())
+        if (rung.method == Method::kMarch) options.rungs.emplace_back(rung.name);
 }
 
 }  // namespace
@@ -140,16 +139,18 @@ Response answer_accuracy(Service::State& state, const Request& request, const Sc
     if (const Status over = state.renderer.wait_until_started(request.deadline))
         return fail(*over, request);
     const RenderThread::Info info = state.renderer.info();
-    if (info.state == RenderThread::Info::State::kNoRenderer)
-        return problem(503, "there is no renderer here: " + info.reason, "", request.id);
-    WorkGate::Pass sweep(state.sweeps);
-    if (!sweep.try_enter())
-        return problem_retry(429, "another request measures what accuracy costs", kRetrySeconds,
-                             request.id);
-    const WorkBudget::Lease lease = state.budget.take(work_bytes(*scene, true));
-    if (!lease) return busy(state, request, "other requests use the memory this one needs");
-
     AccuracyOptions& options = query->options;
+    if (info.state == RenderThread::Info::State::kNoRenderer) leave_out_splats(options);
+    const std::unique_lock sweep(state.sweeping, std::try_to_lock);
+    if (!sweep) {
+        const std::chrono::duration<double, std::milli> left =
+            state.sweeps_until.load() - Clock::now();
+        return problem_retry(429, "another request measures what accuracy costs",
+                             seconds_from_ms(left.count()), request.id);
+    }
+    const WorkBudget::Lease lease = state.budget.take(work_bytes(*scene, true));
+    if (!lease) return no_memory(state, request);
+
     options.threads = state.options.threads;
     options.speed = state.options.speed;
     const double left_ms =
@@ -157,12 +158,14 @@ Response answer_accuracy(Service::State& state, const Request& request, const Sc
             ? std::chrono::duration<double, std::milli>(limits::kRequestDeadline).count()
             : std::chrono::duration<double, std::milli>(request.deadline.until - start).count();
     options.time_ms = std::max(kShareOfDeadline * left_ms, 1.0);
+    state.sweeps_until =
+        Clock::now() + std::chrono::milliseconds(static_cast<int>(options.time_ms));
     double queue_ms = 0;
     const auto render = [&](const Scene& one, const Deadline& deadline) {
-        return render_one(state, one, deadline, queue_ms);
+        return render_one(state, one, request.client, deadline, queue_ms);
     };
     NamedAccuracy named;
-    auto report = measure_accuracy(scene, options, render, Progress{}, request.deadline);
+    auto report = measure_accuracy(scene, options, render, request.progress, request.deadline);
     if (!report) return fail(report.error(), request);
     named.report = *std::move(report);
     const double measured_ms = ms_since(start);
@@ -189,6 +192,7 @@ Response answer_accuracy(Service::State& state, const Request& request, const Sc
         {"rungs", std::max(measured_ms - reference_ms - queue_ms, 0.0)},
         {"encode", ms_since(encode_start)}};
     response.headers.emplace_back("Server-Timing", server_timing(timing));
+    response.stages.assign(std::begin(timing), std::end(timing));
     return response;
 }
 

@@ -52,16 +52,35 @@ void append_histogram(std::string& out, const std::string& name, const std::stri
     out += "\n" + name + "_count{" + label + "} " + count + "\n";
 }
 
+void append_lanes(const Gauges& now, std::string& out) {
+    append_head(out, "awan_lanes", "gauge",
+                "Lanes, and how many are taken, by what computes in them.");
+    const auto line = [&](const char* name, const char* labels, std::size_t value) {
+        out += std::string(name) + "{" + labels + "} " + std::to_string(value) + "\n";
+    };
+    line("awan_lanes", "of=\"processor\"", now.lanes.lanes);
+    line("awan_lanes", "of=\"renderer\"", now.device_lane.lanes);
+    append_head(out, "awan_lanes_taken", "gauge", "Lanes that are taken.");
+    line("awan_lanes_taken", "of=\"processor\"", now.lanes.running);
+    line("awan_lanes_taken", "of=\"renderer\"", now.device_lane.running);
+    append_head(out, "awan_waiting", "gauge", "Requests that wait for a lane, by forecast.");
+    line("awan_waiting", "of=\"processor\",weight=\"short\"", now.lanes.waiting_short);
+    line("awan_waiting", "of=\"processor\",weight=\"long\"", now.lanes.waiting_long);
+    line("awan_waiting", "of=\"renderer\",weight=\"short\"", now.device_lane.waiting_short);
+    line("awan_waiting", "of=\"renderer\",weight=\"long\"", now.device_lane.waiting_long);
+}
+
 }  // namespace
 
 struct Metrics::State {
     mutable std::mutex mutex;
-    // How many requests, by route and hundreds of the status.
+    // How many requests, by route and status.
     std::map<std::pair<std::string, int>, std::uint64_t> requests;
     // How long they took, by route; and how long stages took, by stage.
     std::map<std::string, Histogram, std::less<>> seconds;
     std::map<std::string, Histogram, std::less<>> stages;
     std::map<std::string, std::uint64_t, std::less<>> refused;
+    std::uint64_t cache_hits = 0, cache_misses = 0;
 };
 
 Metrics::Metrics() : state_(std::make_unique<State>()) {}
@@ -69,7 +88,7 @@ Metrics::~Metrics() = default;
 
 void Metrics::request_done(std::string_view route, int status, double seconds) {
     const std::lock_guard lock(state_->mutex);
-    ++state_->requests[{std::string(route), status / 100}];
+    ++state_->requests[{std::string(route), status}];
     state_->seconds[std::string(route)].add(seconds);
 }
 
@@ -83,13 +102,24 @@ void Metrics::connection_refused(std::string_view reason) {
     ++state_->refused[std::string(reason)];
 }
 
-std::string Metrics::text(std::size_t renders_waiting, bool ready) const {
-    std::string out;
+void Metrics::cache_asked(bool hit) {
     const std::lock_guard lock(state_->mutex);
-    append_head(out, "awan_http_requests_total", "counter", "Answers by route and status class.");
+    ++(hit ? state_->cache_hits : state_->cache_misses);
+}
+
+std::string Metrics::text(const Gauges& now) const {
+    std::string out;
+    const auto one = [&](std::string_view name, std::string_view type, std::string_view help,
+                         std::uint64_t value) {
+        append_head(out, name, type, help);
+        out.append(name).append(" ").append(std::to_string(value)).append("\n");
+    };
+    const std::lock_guard lock(state_->mutex);
+    append_head(out, "awan_http_requests_total", "counter",
+                "Answers by route and status; 499: the client had gone.");
     for (const auto& [key, count] : state_->requests)
         out += "awan_http_requests_total{route=\"" + key.first + "\",status=\"" +
-               std::to_string(key.second) + "xx\"} " + std::to_string(count) + "\n";
+               std::to_string(key.second) + "\"} " + std::to_string(count) + "\n";
     append_head(out, "awan_http_request_duration_seconds", "histogram",
                 "From the end of the body to the answer being ready.");
     for (const auto& [route, histogram] : state_->seconds)
@@ -103,14 +133,28 @@ std::string Metrics::text(std::size_t renders_waiting, bool ready) const {
     for (const auto& [reason, count] : state_->refused)
         out += "awan_connections_refused_total{reason=\"" + reason + "\"} " +
                std::to_string(count) + "\n";
-    append_head(out, "awan_render_queue_length", "gauge", "Renders planned, queued or running.");
-    out += "awan_render_queue_length " + std::to_string(renders_waiting) + "\n";
-    append_head(out, "awan_ready", "gauge", "1 when /readyz says 200.");
-    out += ready ? "awan_ready 1\n" : "awan_ready 0\n";
+    one("awan_in_progress", "gauge", "POSTs that are being answered or wait.", now.in_progress);
+    append_lanes(now, out);
+    one("awan_work_bytes", "gauge", "Memory that scenes at work have of their budget, estimated.",
+        now.work_bytes);
+    one("awan_work_bytes_limit", "gauge", "That budget.", now.work_bytes_most);
+    one("awan_cache_hits_total", "counter", "Renders answered from those that are kept.",
+        state_->cache_hits);
+    one("awan_cache_misses_total", "counter", "Renders that were not among those kept.",
+        state_->cache_misses);
+    one("awan_cache_bytes", "gauge", "Memory of the answers that are kept.", now.cache_bytes);
+    one("awan_cache_entries", "gauge", "Answers that are kept.", now.cache_entries);
+    one("awan_jobs_waiting", "gauge", "Jobs that have not begun.", now.jobs_waiting);
+    one("awan_jobs_running", "gauge", "Jobs that run.", now.jobs_running);
+    one("awan_job_result_bytes", "gauge", "Results of jobs that are kept.", now.job_bytes);
+    one("awan_ready", "gauge", "1 when /readyz says 200.", now.ready ? 1 : 0);
+    one("awan_renderer", "gauge", "1 when the splat rungs can be drawn.", now.renderer ? 1 : 0);
+    one("awan_renderer_reopened_total", "counter", "How often the renderer was opened again.",
+        now.renderer_reopened);
     append_head(out, "awan_build_info", "gauge", "Always 1; the version is its label.");
     out += std::string("awan_build_info{version=\"") + engine_version() + "\"} 1\n";
-    append_head(out, "process_resident_memory_bytes", "gauge", "Resident memory size in bytes.");
-    out += "process_resident_memory_bytes " + std::to_string(resident_bytes()) + "\n";
+    one("process_resident_memory_bytes", "gauge", "Resident memory size in bytes.",
+        resident_bytes());
     return out;
 }
 

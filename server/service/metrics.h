@@ -6,7 +6,23 @@
 #include <string>
 #include <string_view>
 
+#include "server/service/lanes.h"
+
 namespace awan {
+
+// What stands at this moment.
+struct Gauges {
+    bool ready = false;
+    // The splat rungs can be drawn.
+    bool renderer = false;
+    std::size_t renderer_reopened = 0;
+    std::size_t in_progress = 0;
+    Lanes::Load lanes{};
+    Lanes::Load device_lane{};
+    std::size_t work_bytes = 0, work_bytes_most = 0;
+    std::size_t cache_bytes = 0, cache_entries = 0;
+    std::size_t jobs_waiting = 0, jobs_running = 0, job_bytes = 0;
+};
 
 // What /metrics shows.
 class Metrics {
@@ -25,7 +41,10 @@ class Metrics {
     // "connections", "requests", "memory".
     void connection_refused(std::string_view reason);
 
-    std::string text(std::size_t renders_waiting, bool ready) const;
+    // An answer was looked for among those that are kept.
+    void cache_asked(bool hit);
+
+    std::string text(const Gauges& now) const;
 
   private:
     struct State;

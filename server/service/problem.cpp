@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "server/document/json.h"
 #include "server/limits.h"
@@ -20,6 +21,7 @@ int status_of(ErrorCode code) {
         case ErrorCode::kTooLarge:
             return 413;
         case ErrorCode::kNoRenderer:
+        case ErrorCode::kOutOfMemory:
         case ErrorCode::kCancelled:
             return 503;
         case ErrorCode::kOverDeadline:
@@ -39,6 +41,7 @@ int exit_code_of(ErrorCode code) {
         case ErrorCode::kTooLarge:
             return 3;
         case ErrorCode::kNoRenderer:
+        case ErrorCode::kOutOfMemory:
         case ErrorCode::kCancelled:
         case ErrorCode::kOverDeadline:
         case ErrorCode::kInternal:
@@ -53,6 +56,8 @@ std::string_view status_title(int status) {
     switch (status) {
         case 400:
             return "Bad Request";
+        case 401:
+            return "Unauthorized";
         case 403:
             return "Forbidden";
         case 404:
@@ -63,6 +68,10 @@ std::string_view status_title(int status) {
             return "Not Acceptable";
         case 408:
             return "Request Timeout";
+        case 409:
+            return "Conflict";
+        case 410:
+            return "Gone";
         case 411:
             return "Length Required";
         case 413:
@@ -118,6 +127,10 @@ Response problem_retry(int status, std::string_view detail, int retry_after_seco
     Response response = problem(status, detail, "", request_id);
     response.headers.emplace_back("Retry-After", std::to_string(std::max(1, retry_after_seconds)));
     return response;
+}
+
+int seconds_from_ms(double ms) {
+    return static_cast<int>(std::clamp(std::ceil(ms / 1000), 1.0, 600.0));
 }
 
 std::string request_id_from(std::string_view client_id) {

@@ -28,6 +28,12 @@ Response problem(const Error& error, std::string_view request_id);
 Response problem_retry(int status, std::string_view detail, int retry_after_seconds,
                        std::string_view request_id);
 
+// Milliseconds as Retry-After has them: whole seconds, 1 to 600.
+int seconds_from_ms(double ms);
+
+// The status in metrics and log of an answer whose client had gone before it, as nginx has it.
+inline constexpr int kClientGone = 499;
+
 // The client's id when it is 1..128 of [A-Za-z0-9._-], else a new one of 16 hex digits.
 std::string request_id_from(std::string_view client_id);
 

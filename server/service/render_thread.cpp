@@ -1,7 +1,6 @@
 #include "server/service/render_thread.h"
 
 #include <algorithm>
-#include <cmath>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -9,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "core/base/thrown.h"
 #include "core/scene/validate.h"
 
 namespace awan {
@@ -50,8 +50,8 @@ Status draw_once(Device& device) {
 
 }  // namespace
 
-OpenRenderer device_renderer(DeviceChoice choice, int threads) {
-    return [choice, threads]() -> Result<Renderer> {
+OpenRenderer device_renderer(DeviceChoice choice, int threads, std::shared_ptr<LightCache> lights) {
+    return [choice, threads, lights = std::move(lights)]() -> Result<Renderer> {
         auto opened = Device::open(choice);
         if (!opened) return opened.error();
         auto device = std::make_shared<Device>(std::move(opened).value());
@@ -60,7 +60,6 @@ OpenRenderer device_renderer(DeviceChoice choice, int threads) {
                          "the first picture failed: " + failed->message};
         Renderer renderer;
         renderer.info = device->info();
-        const auto lights = std::make_shared<LightCache>(kLightCacheBytes);
         renderer.render = [device, lights, threads](const Scene& scene, Planned planned,
                                                     const Deadline& deadline) {
             return render_planned(scene, std::move(planned),
@@ -70,49 +69,70 @@ OpenRenderer device_renderer(DeviceChoice choice, int threads) {
     };
 }
 
+RenderOnProcessor processor_renderer(std::shared_ptr<LightCache> lights) {
+    return [lights = std::move(lights)](const Scene& scene, Planned planned, int threads,
+                                        const Progress& progress, const Deadline& deadline) {
+        return render_planned(scene, std::move(planned),
+                              {nullptr, threads, lights.get(), progress, {}}, deadline);
+    };
+}
+
+bool needs_device(const Plan& plan) {
+    return plan.predicted.rung != nullptr && plan.predicted.rung->method == Method::kSplats;
+}
+
 struct RenderThread::State {
     mutable std::mutex mutex;
     // Notified when the queue, a result or `info` changes.
     mutable std::condition_variable changed;
-    // How many places there are, and how many are taken.
-    std::size_t places = 0;
-    std::size_t taken = 0;
     std::deque<Job*> queue;
     Info info;
-    // The running mean of a render's time.
-    double typical_ms = 50;
+    std::size_t opened = 0;
     bool stopping = false;
     std::thread thread;
 
     void run(const OpenRenderer& open);
-    void serve(const Renderer& renderer);
+    std::optional<Renderer> open_again(const OpenRenderer& open);
+    Result<Rendered> render(const std::optional<Renderer>& renderer, Job& job);
 };
 
-void RenderThread::State::run(const OpenRenderer& open) {
+std::optional<Renderer> RenderThread::State::open_again(const OpenRenderer& open) {
     std::optional<Renderer> renderer;
     Info outcome;
     outcome.state = Info::State::kNoRenderer;
     try {
-        auto opened = open();
-        if (opened) {
-            renderer = std::move(opened).value();
+        auto result = open();
+        if (result) {
+            renderer = std::move(result).value();
             outcome.state = Info::State::kReady;
             outcome.device = renderer->info;
         } else {
-            outcome.reason = opened.error().message;
+            outcome.reason = result.error().message;
         }
     } catch (const std::exception& e) {
         outcome.reason = e.what();
     }
-    {
-        const std::lock_guard lock(mutex);
-        info = outcome;
-        changed.notify_all();
-    }
-    serve(renderer ? *renderer : Renderer{});
+    const std::lock_guard lock(mutex);
+    info = std::move(outcome);
+    ++opened;
+    changed.notify_all();
+    return renderer;
 }
 
-void RenderThread::State::serve(const Renderer& renderer) {
+Result<Rendered> RenderThread::State::render(const std::optional<Renderer>& renderer, Job& job) {
+    if (const auto over = job.deadline->over()) return *over;
+    try {
+        if (!renderer) return Error{ErrorCode::kNoRenderer, "", "no renderer: " + info.reason};
+        return renderer->render(*job.scene, std::move(*job.planned), *job.deadline);
+    } catch (const std::exception& e) {
+        return error_of_thrown(e);
+    }
+}
+
+void RenderThread::State::run(const OpenRenderer& open) {
+    std::optional<Renderer> renderer = open_again(open);
+    // Where there never was one, none will be found.
+    const bool worth_it = renderer.has_value();
     std::unique_lock lock(mutex);
     for (;;) {
         changed.wait(lock, [&] { return stopping || !queue.empty(); });
@@ -120,27 +140,15 @@ void RenderThread::State::serve(const Renderer& renderer) {
         Job* job = queue.front();
         queue.pop_front();
         job->queue_ms = ms_since(job->queued_at);
-        Planned planned = std::move(*job->planned);
-        const std::string no_renderer = info.reason;
 
         lock.unlock();
-        const auto start = Clock::now();
-        std::optional<Result<Rendered>> result;
-        if (const auto over = job->deadline->over()) {
-            result = *over;
-        } else if (!renderer.render) {
-            result = Error{ErrorCode::kNoRenderer, "", "no renderer: " + no_renderer};
-        } else {
-            try {
-                result = renderer.render(*job->scene, std::move(planned), *job->deadline);
-            } catch (const std::exception&) {
-                result = Error{ErrorCode::kInternal, "", "the render threw an exception"};
-            }
-        }
-        const double took_ms = ms_since(start);
+        if (!renderer && worth_it) renderer = open_again(open);
+        std::optional<Result<Rendered>> result(render(renderer, *job));
+        const bool at_fault = !result->ok() && (result->error().code == ErrorCode::kInternal ||
+                                                result->error().code == ErrorCode::kOutOfMemory);
+        if (at_fault) renderer.reset();
 
         lock.lock();
-        if (result->ok()) typical_ms += 0.2 * (took_ms - typical_ms);
         job->result = std::move(result);
         changed.notify_all();
     }
@@ -149,15 +157,10 @@ void RenderThread::State::serve(const Renderer& renderer) {
     changed.notify_all();
 }
 
-RenderThread::RenderThread(OpenRenderer open, std::size_t queue_length)
-    : state_(std::make_unique<State>()) {
-    state_->places = queue_length + 1;
+RenderThread::RenderThread(OpenRenderer open) : state_(std::make_unique<State>()) {
     state_->thread =
         std::thread([state = state_.get(), open = std::move(open)] { state->run(open); });
 }
-
-RenderThread::RenderThread(DeviceChoice choice, int threads, std::size_t queue_length)
-    : RenderThread(device_renderer(choice, threads), queue_length) {}
 
 RenderThread::~RenderThread() {
     {
@@ -173,9 +176,9 @@ RenderThread::Info RenderThread::info() const {
     return state_->info;
 }
 
-std::size_t RenderThread::waiting() const {
+std::size_t RenderThread::reopened() const {
     const std::lock_guard lock(state_->mutex);
-    return state_->taken;
+    return state_->opened > 1 ? state_->opened - 1 : 0;
 }
 
 void RenderThread::wait_until_started() const {
@@ -191,23 +194,8 @@ Status RenderThread::wait_until_started(const Deadline& deadline) const {
     return std::nullopt;
 }
 
-RenderThread::Place RenderThread::take_place() {
-    const std::lock_guard lock(state_->mutex);
-    if (state_->taken == state_->places) return Place{};
-    ++state_->taken;
-    return Place(state_.get());
-}
-
-RenderThread::Place::~Place() {
-    if (!state_) return;
-    const std::lock_guard lock(state_->mutex);
-    --state_->taken;
-}
-
-RenderJobResult RenderThread::render(const Place& place, const Scene& scene, Planned planned,
+RenderJobResult RenderThread::render(const Scene& scene, Planned planned,
                                      const Deadline& deadline) {
-    assert(place.state_ == state_.get());
-    (void)place;
     Job job;
     job.scene = &scene;
     job.planned = std::move(planned);
@@ -229,12 +217,6 @@ RenderJobResult RenderThread::render(const Place& place, const Scene& scene, Pla
         }
     }
     return {std::move(*job.result), job.queue_ms};
-}
-
-int RenderThread::retry_after_seconds() const {
-    const std::lock_guard lock(state_->mutex);
-    const double ms = state_->typical_ms * static_cast<double>(state_->taken);
-    return static_cast<int>(std::clamp(std::ceil(ms / 1000), 1.0, 60.0));
 }
 
 }  // namespace awan

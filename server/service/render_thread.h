@@ -1,4 +1,4 @@
-// One thread owns the GL context; requests reach it through a bounded queue.
+// One thread owns the GL context; pictures of the splat rungs reach it one by one.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace awan {
 
-// What came of a render, and how long it waited in the queue.
+// What came of a render, and how long it waited for the thread.
 struct RenderJobResult {
     Result<Rendered> rendered;
     double queue_ms = 0;
@@ -22,23 +22,33 @@ struct Renderer {
 };
 using OpenRenderer = std::function<Result<Renderer>()>;
 
+// Renders a rung that needs no device, on so many threads; thread-safe.
+using RenderOnProcessor = std::function<Result<Rendered>(const Scene&, Planned, int threads,
+                                                         const Progress&, const Deadline&)>;
+
 // Lights that are kept while cameras move: about ten of the largest rungs', hundreds of the common.
 inline constexpr std::size_t kLightCacheBytes = 256u << 20;
 
-// Opens the device and draws once, so that the first request finds it warm. One render runs at a time; the rungs that
-// need no device use `threads`.
-OpenRenderer device_renderer(DeviceChoice choice, int threads);
+// Opens the device and draws once, so that the first request finds it warm. What of a render needs no device runs on
+// `threads` threads, with lights that `lights` keeps (null: none).
+OpenRenderer device_renderer(DeviceChoice choice, int threads,
+                             std::shared_ptr<LightCache> lights = nullptr);
 
-// The thread and its queue. Thread-safe.
+// With lights that `lights` keeps (null: none).
+RenderOnProcessor processor_renderer(std::shared_ptr<LightCache> lights = nullptr);
+
+// Whether a plan can be carried out without a device.
+bool needs_device(const Plan& plan);
+
+// The thread. Thread-safe. A render that fails by the renderer's fault (it threw, ran out of memory, lost its context)
+// closes the renderer, and it is opened anew for the next one.
 class RenderThread {
     struct State;
 
   public:
     // Starts the thread, which opens the renderer; everything in it happens on that thread. Never
-    // blocks; info() says how it went. `queue_length`: renders that may wait beside the one that
-    // runs.
-    RenderThread(OpenRenderer open, std::size_t queue_length);
-    RenderThread(DeviceChoice choice, int threads, std::size_t queue_length);
+    // blocks; info() says how it went.
+    explicit RenderThread(OpenRenderer open);
     // Stops; what is queued fails with kCancelled.
     ~RenderThread();
     RenderThread(const RenderThread&) = delete;
@@ -53,42 +63,17 @@ class RenderThread {
     };
     // How the renderer stands. Never waits for a render.
     Info info() const;
-    // How many places are taken: by renders that are planned, queued or running.
-    std::size_t waiting() const;
+    // How often it has been opened again after a failure.
+    std::size_t reopened() const;
     // Waits until the renderer is open or could not be opened; for the command line and tests.
     void wait_until_started() const;
     // The same for a request: the error when `deadline` is over before.
     Status wait_until_started(const Deadline& deadline) const;
 
-    // A place in the queue. It is taken before a scene is planned, so that a full queue refuses a
-    // request before it has cost anything. Must not outlive the RenderThread.
-    class Place {
-      public:
-        Place() = default;
-        Place(Place&& other) noexcept : state_(std::exchange(other.state_, nullptr)) {}
-        Place& operator=(Place&& other) noexcept {
-            std::swap(state_, other.state_);
-            return *this;
-        }
-        ~Place();
-        explicit operator bool() const { return state_ != nullptr; }
-
-      private:
-        friend class RenderThread;
-        explicit Place(State* state) : state_(state) {}
-        State* state_ = nullptr;
-    };
-    // False when the queue is full.
-    Place take_place();
-
     // Runs the two passes on the render thread and waits for them. A job whose deadline passes or
-    // whose client goes while it waits is answered then and never started.
-    // Precondition: `place` was taken here.
-    RenderJobResult render(const Place& place, const Scene& scene, Planned planned,
-                           const Deadline& deadline);
-
-    // A fair guess of when the queue has room, seconds >= 1, for Retry-After.
-    int retry_after_seconds() const;
+    // whose client goes while it waits is answered then and never started. Errors: kNoRenderer where there is none,
+    // those of render_planned, kInternal and kOutOfMemory for what was thrown.
+    RenderJobResult render(const Scene& scene, Planned planned, const Deadline& deadline);
 
   private:
     std::unique_ptr<State> state_;

@@ -2,8 +2,6 @@
 // goes on in accuracy.cpp.
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
 #include <span>
 #include <vector>
 
@@ -28,40 +26,22 @@ constexpr std::string_view kJson = "application/json";
 constexpr std::string_view kCsv = "text/csv";
 constexpr std::string_view kPly = "application/x-ply";
 constexpr std::string_view kAwn = "text/x-awn";
-constexpr std::string_view kPng = "image/png";
-constexpr std::string_view kExr = "image/x-exr";
+
 constexpr std::array kParticleOffers = {kJson, kCsv, kPly, kAwn};
 constexpr std::array kPlanOffers = {kJson};
-constexpr std::array kAccuracyOffers = {kJson, kCsv, kPng};
-constexpr std::array kImageOffers = {kPng, kExr};
-constexpr std::array kImageOffersExrFirst = {kExr, kPng};
+constexpr std::array kAccuracyOffers = {kJson, kCsv, std::string_view("image/png")};
+constexpr std::array<std::string_view, 2> kRenderOffers = {"image/png", "image/x-exr"};
+
+// Documents over this many bytes, or scenes over this many particles, and sequences, whose rung is settled on three of
+// their frames, take long before anything is planned.
+constexpr std::size_t kLongDocument = 1u << 20;
+constexpr std::uint64_t kManyParticles = 200'000;
 
 std::span<const std::string_view> offers_of(std::string_view path) {
     if (path == "/v1/particles") return kParticleOffers;
-    if (path == "/v1/render") return kImageOffers;
+    if (path == "/v1/render") return kRenderOffers;
     if (path == kAccuracyPath) return kAccuracyOffers;
     return kPlanOffers;
-}
-
-Result<Scene> read(const Request& request) {
-    const auto format = scene_format_of_type(media_type(request.header("Content-Type")));
-    auto draft = read_scene(*format, request.body);
-    if (!draft) return draft.error();
-    return validate(std::move(draft).value());
-}
-
-Response ok(std::string_view content_type, std::string_view etag) {
-    Response response;
-    response.headers = {{"Content-Type", std::string(content_type)},
-                        {"ETag", std::string(etag)},
-                        {"Cache-Control", "no-cache"},
-                        {"Vary", "Accept"}};
-    return response;
-}
-
-// Predicted times are of this machine, and so is every rung that is chosen by them.
-std::string speed_text(const Service::State& state) {
-    return std::to_string(state.options.speed.slowness);
 }
 
 // --- /v1/particles
@@ -95,11 +75,11 @@ struct ParticleText {
 };
 
 Response answer_particles(Service::State& state, const Request& request, const Scene& scene,
-                          std::string_view type, WorkGate::Pass& pass) {
+                          std::string_view type, Lanes::Pass& pass) {
     const std::string etag = make_etag({"particles", fingerprint(scene), engine_version(), type});
     if (none_match_names(joined_header(request, "If-None-Match"), etag))
         return not_modified(etag, true);
-    Response response = ok(type, etag);
+    Response response = ok_answer(type, etag);
     if (type == kAwn) {
         auto layout = write_awn(*scene);
         if (!layout) return fail(layout.error(), request);
@@ -108,18 +88,20 @@ Response answer_particles(Service::State& state, const Request& request, const S
     }
     auto text = std::make_shared<ParticleText>();
     text->lease = state.budget.take(work_bytes(*scene, false));
-    if (!text->lease) return busy(state, request, "other requests use the memory this one needs");
+    if (!text->lease) return no_memory(state, request);
 
     const auto start = Clock::now();
-    auto particles = generate(scene, state.options.threads, request.deadline);
+    auto particles = generate(scene, threads_of_one(state), request.deadline);
     if (!particles) return fail(particles.error(), request);
-    state.metrics.stage_done("generate", ms_since(start));
+    const double generate_ms = ms_since(start);
+    state.metrics.stage_done("generate", generate_ms);
     pass.leave();
 
     text->type = type;
     text->particles = std::move(particles).value();
     text->seed = scene->seed;
     response.headers.emplace_back("Awan-Particles", std::to_string(text->particles.size()));
+    response.stages = {{"queue", pass.waited_ms()}, {"generate", generate_ms}};
     if (text->particles.size() <= limits::kParticlesPerPiece) {
         text->append_piece(response.body);
     } else {
@@ -130,178 +112,82 @@ Response answer_particles(Service::State& state, const Request& request, const S
 
 // --- /v1/plan
 
-Response answer_plan(Service::State& state, const Request& request, const Scene& scene) {
+Response answer_plan(Service::State& state, const Request& request, const Scene& scene,
+                     const Lanes::Pass& pass) {
     const std::string etag =
         make_etag({"plan", fingerprint(scene), engine_version(), speed_text(state)});
     if (none_match_names(joined_header(request, "If-None-Match"), etag))
         return not_modified(etag, true);
     const WorkBudget::Lease lease = state.budget.take(work_bytes(*scene, false));
-    if (!lease) return busy(state, request, "other requests use the memory this one needs");
+    if (!lease) return no_memory(state, request);
     auto planned = plan_only(scene, state.options.threads, request.deadline, state.options.speed);
     if (!planned) return fail(planned.error(), request);
     state.metrics.stage_done("generate", planned->times.generate_ms);
     state.metrics.stage_done("survey", planned->times.survey_ms);
-    Response response = ok(kJson, etag);
+    Response response = ok_answer(kJson, etag);
     response.body = plan_to_json(planned->survey, planned->plan);
-    return response;
-}
-
-// --- /v1/render
-
-struct Timing {
-    double queue_ms = 0;
-    StageTimes stages;
-    double encode_ms = 0;
-};
-
-// The stages, in order, then those effects whose share of them can be told apart.
-std::string report(Metrics& metrics, const Timing& timing) {
-    std::vector<std::pair<const char*, double>> entries = {
-        {"queue", timing.queue_ms},          {"generate", timing.stages.generate_ms},
-        {"survey", timing.stages.survey_ms}, {"light", timing.stages.light_ms},
-        {"draw", timing.stages.draw_ms},     {"measure", timing.stages.measure_ms},
-        {"encode", timing.encode_ms}};
-    for (const auto& [name, ms] : entries) metrics.stage_done(name, ms);
-    for (int i = 0; i < kEffectCount; ++i) {
-        const auto effect = static_cast<Effect>(i);
-        const double ms = timing.stages.effects.of(effect);
-        if (ms > 0) entries.emplace_back(effect_name(effect), ms);
-    }
-    return server_timing(entries);
-}
-
-std::string effects_on(const Plan& plan) {
-    std::string names;
-    for (const EffectDecision& decision : plan.effects)
-        if (decision.on)
-            names += (names.empty() ? "" : ", ") + std::string(effect_name(decision.effect));
-    return names;
-}
-
-Result<std::string> encode(const Rendered& rendered, const Scene& scene, std::string_view type) {
-    if (type == kExr) return encode_exr(rendered.image, scene->image.precision, notes_of(rendered));
-    return encode_png(rendered.image, scene->image.exposure.value_or(auto_exposure(scene)));
-}
-
-// A number as text for a header.
-std::string number_text(const char* format, double value) {
-    std::array<char, 64> text{};
-    const int length = std::snprintf(text.data(), text.size(), format, value);
-    return {text.data(), static_cast<std::size_t>(std::min<int>(length, text.size() - 1))};
-}
-
-std::string seconds_text(double ms) {
-    return number_text("%.2g s", ms / 1000);
-}
-
-// A prediction may be this many times too long. What would be too slow even then is refused before it costs anything.
-constexpr double kHopeless = 3;
-
-// Why a plan cannot be carried out before the deadline, and what could be; nothing when it may.
-std::optional<std::string> hopeless(const Plan& plan, const Deadline& deadline) {
-    if (deadline.until == Clock::time_point::max() || plan.predicted.rung == nullptr)
-        return std::nullopt;
-    const double left_ms =
-        std::chrono::duration<double, std::milli>(deadline.until - Clock::now()).count();
-    if (!(plan.predicted.time_ms > kHopeless * std::max(left_ms, 0.0))) return std::nullopt;
-    const RungForecast* best = nullptr;
-    for (const RungForecast& forecast : plan.forecasts)
-        if (forecast.time_ms < 0.7 * left_ms && (best == nullptr || forecast.error < best->error))
-            best = &forecast;
-    std::string detail = "rung " + plan.rung + " would take about " +
-                         seconds_text(plan.predicted.time_ms) + " and " + seconds_text(left_ms) +
-                         " are left; ask for a smaller picture";
-    if (best != nullptr)
-        detail += number_text(", or for \"accuracy\": {\"time_ms\": %.0f}", 0.7 * left_ms) +
-                  ", which would be rung " + best->rung->name;
-    return detail;
-}
-
-void add_errors(const Rendered& rendered, Response& response) {
-    const RungForecast& predicted = rendered.plan.predicted;
-    if (std::isfinite(rendered.stated_error))
-        response.headers.emplace_back("Awan-Error", number_text("%.3g", rendered.stated_error));
-    if (predicted.rung == nullptr) return;
-    if (std::isfinite(predicted.error))
-        response.headers.emplace_back("Awan-Error-Forecast", number_text("%.3g", predicted.error));
-    if (std::isfinite(predicted.time_ms))
-        response.headers.emplace_back("Awan-Time", number_text("%.1f", predicted.time_ms));
-}
-
-Response answer_render(Service::State& state, const Request& request, const Scene& scene,
-                       double waited_ms, WorkGate::Pass& pass) {
-    // What the client prefers; where it has no preference, what the document says.
-    const bool exr = scene->image.format == ImageFormat::kExr;
-    const std::string_view type =
-        *best_offer(joined_header(request, "Accept"), exr ? kImageOffersExrFirst : kImageOffers);
-
-    if (const Status over = state.renderer.wait_until_started(request.deadline))
-        return fail(*over, request);
-    const RenderThread::Info info = state.renderer.info();
-    if (info.state == RenderThread::Info::State::kNoRenderer)
-        return problem(503, "there is no renderer here: " + info.reason, "", request.id);
-    const std::string etag =
-        make_etag({"render", fingerprint(scene), engine_version(), info.device.renderer,
-                   info.device.version, type, scene->accuracy.rung ? "" : speed_text(state)});
-    if (none_match_names(joined_header(request, "If-None-Match"), etag))
-        return not_modified(etag, true);
-
-    const RenderThread::Place place = state.renderer.take_place();
-    if (!place) return busy(state, request, "the render queue is full");
-    const WorkBudget::Lease lease = state.budget.take(work_bytes(*scene, true));
-    if (!lease) return busy(state, request, "other requests use the memory this one needs");
-
-    Timing timing;
-    auto planned = plan_scene(scene, state.options.threads, request.deadline, state.options.speed,
-                              &state.tiles, &state.settling_lights);
-    if (!planned) return fail(planned.error(), request);
-    if (const auto reason = hopeless(planned->plan, request.deadline))
-        return problem(504, *reason, "", request.id);
-    // The passes run on the render thread; others may compute meanwhile.
-    pass.leave();
-    RenderJobResult job =
-        state.renderer.render(place, scene, std::move(planned).value(), request.deadline);
-    timing.queue_ms = waited_ms + job.queue_ms;
-    if (!job.rendered) return fail(job.rendered.error(), request);
-
-    const auto encode_queued = Clock::now();
-    if (const Status over = pass.enter(request.deadline)) return fail(*over, request);
-    timing.queue_ms += ms_since(encode_queued);
-    const auto start = Clock::now();
-    auto bytes = encode(*job.rendered, scene, type);
-    timing.encode_ms = ms_since(start);
-    if (!bytes) return fail(bytes.error(), request);
-    timing.stages = job.rendered->times;
-
-    Response response = ok(type, etag);
-    response.headers.emplace_back("Server-Timing", report(state.metrics, timing));
-    response.headers.emplace_back("Awan-Effects", effects_on(job.rendered->plan));
-    response.headers.emplace_back("Awan-Rung", job.rendered->plan.rung);
-    add_errors(*job.rendered, response);
-    response.headers.emplace_back("Awan-Particles", std::to_string(job.rendered->survey.particles));
-    response.body = std::move(bytes).value();
+    response.stages = {{"queue", pass.waited_ms()},
+                       {"generate", planned->times.generate_ms},
+                       {"survey", planned->times.survey_ms}};
     return response;
 }
 
 }  // namespace
 
+Result<Scene> read_request_scene(const Request& request) {
+    const auto format = scene_format_of_type(media_type(request.header("Content-Type")));
+    auto draft = read_scene(*format, request.body);
+    if (!draft) return draft.error();
+    return validate(std::move(draft).value());
+}
+
 Response fail(const Error& error, const Request& request) {
     Response response = problem(error, request.id);
     response.abandoned = error.code == ErrorCode::kCancelled;
+    if (response.abandoned) response.reason = "client gone";
+    if (error.code == ErrorCode::kOverDeadline) response.reason = "deadline";
+    if (error.code == ErrorCode::kOutOfMemory) response.reason = "memory";
     return response;
 }
 
-Response busy(Service::State& state, const Request& request, std::string_view detail) {
-    return problem_retry(429, detail, state.renderer.retry_after_seconds(), request.id);
+Response no_memory(Service::State& state, const Request& request) {
+    Response response =
+        problem_retry(429, "other requests use the memory this one needs",
+                      seconds_from_ms(state.lanes.wait_ms(Weight::kLong)), request.id);
+    response.reason = "memory";
+    return response;
 }
 
-std::string server_timing(std::span<const std::pair<const char*, double>> milliseconds) {
-    std::string header;
-    for (const auto& [name, ms] : milliseconds) {
-        header += header.empty() ? "" : ", ";
-        header += name + number_text(";dur=%.3f", ms);
-    }
-    return header;
+std::optional<Response> not_let_in(Lanes::Entry entry, const Lanes& lanes, Weight weight,
+                                   const Request& request) {
+    if (entry == Lanes::Entry::kIn) return std::nullopt;
+    if (entry == Lanes::Entry::kOver) return fail(*request.deadline.over(), request);
+    const bool full = entry == Lanes::Entry::kFull;
+    Response response =
+        problem_retry(429,
+                      full ? "too many requests wait"
+                           : "its turn would come after its deadline, by what runs and waits",
+                      seconds_from_ms(lanes.wait_ms(weight)), request.id);
+    response.reason = full ? "queue full" : "too late";
+    return response;
+}
+
+int threads_of_one(const Service::State& state) {
+    const auto running = static_cast<int>(std::max<std::size_t>(state.lanes.load().running, 1));
+    return (state.options.threads + running - 1) / running;
+}
+
+Response ok_answer(std::string_view content_type, std::string_view etag) {
+    Response response;
+    response.headers = {{"Content-Type", std::string(content_type)},
+                        {"ETag", std::string(etag)},
+                        {"Cache-Control", "no-cache"},
+                        {"Vary", "Accept"}};
+    return response;
+}
+
+std::string speed_text(const Service::State& state) {
+    return std::to_string(state.options.speed.slowness);
 }
 
 std::optional<Response> check_scene_request(const Request& request) {
@@ -324,15 +210,26 @@ std::optional<Response> check_scene_request(const Request& request) {
 }
 
 Response answer_scene_request(Service::State& state, const Request& request) {
-    const auto start = Clock::now();
-    WorkGate::Pass pass(state.gate);
-    if (const Status over = pass.enter(request.deadline)) return fail(*over, request);
-    const double waited_ms = ms_since(start);
-    auto scene = read(request);
+    const bool large = request.body.size() > kLongDocument;
+    const LaneWork work{large ? Weight::kLong : Weight::kShort, kTypical_ms, request.client};
+    Lanes::Pass pass(state.lanes);
+    if (auto refused =
+            not_let_in(pass.enter(work, request.deadline), state.lanes, work.weight, request))
+        return std::move(*refused);
+    WorkBudget::Lease reading = state.budget.take(reading_bytes(request.body.size()));
+    if (!reading) return no_memory(state, request);
+    auto scene = read_request_scene(request);
+    reading = {};
     if (!scene) return fail(scene.error(), request);
+    // Reading a long document may take seconds.
+    if (const Status over = request.deadline.over()) return fail(*over, request);
+    if ((*scene)->sequence || particle_count(**scene) > kManyParticles)
+        if (auto refused = not_let_in(pass.expect(2 * kShort_ms, request.deadline), state.lanes,
+                                      Weight::kLong, request))
+            return std::move(*refused);
 
-    if (request.path == "/v1/render") return answer_render(state, request, *scene, waited_ms, pass);
-    if (request.path == "/v1/plan") return answer_plan(state, request, *scene);
+    if (request.path == "/v1/render") return answer_render(state, request, *scene, pass);
+    if (request.path == "/v1/plan") return answer_plan(state, request, *scene, pass);
     const auto type = best_offer(joined_header(request, "Accept"), offers_of(request.path));
     if (request.path == kAccuracyPath) {
         // A sweep takes long, and there is one at most: others compute beside it.

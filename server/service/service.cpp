@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/thrown.h"
 #include "server/document/json.h"
 #include "server/header_text.h"
 #include "server/service/negotiation.h"
@@ -16,6 +17,27 @@ using Clock = Deadline::Clock;
 
 // Seconds for Retry-After. By then another instance, or this one started anew, is up.
 constexpr int kDrainRetrySeconds = 5;
+
+// Counts the requests that are being answered.
+class InProgress {
+  public:
+    explicit InProgress(std::atomic<std::size_t>* count) : count_(count) {
+        if (count_) ++*count_;
+    }
+    ~InProgress() {
+        if (count_) --*count_;
+    }
+    InProgress(const InProgress&) = delete;
+    InProgress& operator=(const InProgress&) = delete;
+
+  private:
+    std::atomic<std::size_t>* count_;
+};
+
+ServiceOptions with_defaults(ServiceOptions options) {
+    if (!options.on_processor) options.on_processor = processor_renderer();
+    return options;
+}
 
 std::string_view find_header(const std::vector<std::pair<std::string, std::string>>& headers,
                              std::string_view name) {
@@ -32,13 +54,41 @@ struct Route {
     const Page* page = nullptr;
     const Preset* preset = nullptr;
 
-    std::string_view allow() const { return post ? "POST, OPTIONS" : "GET, HEAD, OPTIONS"; }
+    // Of jobs: one of them may be deleted.
+    bool job = false, deletable = false;
+
+    std::string_view allow() const {
+        if (deletable) return "GET, HEAD, DELETE, OPTIONS";
+        return post ? "POST, OPTIONS" : "GET, HEAD, OPTIONS";
+    }
+    bool takes(std::string_view method) const {
+        if (post) return method == "POST";
+        return method == "GET" || method == "HEAD" || (deletable && method == "DELETE");
+    }
 };
+
+Route job_route(std::string_view rest) {
+    Route route{"/v1/jobs/{id}", true, false};
+    route.job = true;
+    const std::size_t slash = rest.find('/');
+    const std::string_view below = slash == std::string_view::npos ? "" : rest.substr(slash);
+    if (below.empty()) {
+        route.deletable = true;
+    } else if (below == "/events") {
+        route.pattern = "/v1/jobs/{id}/events";
+    } else if (below == "/result") {
+        route.pattern = "/v1/jobs/{id}/result";
+    } else {
+        return {};
+    }
+    return rest.substr(0, slash).empty() ? Route{} : route;
+}
 
 Route find_route(const Service::State& state, std::string_view path) {
     for (const std::string_view post : std::initializer_list<std::string_view>{
-             "/v1/particles", "/v1/render", "/v1/plan", kAccuracyPath})
+             "/v1/particles", "/v1/render", "/v1/plan", kAccuracyPath, kJobsPath})
         if (path == post) return {post, true, true};
+    if (path.starts_with("/v1/jobs/")) return job_route(path.substr(9));
     for (const std::string_view get :
          {"/healthz", "/readyz", "/metrics", "/version", "/v1/presets"})
         if (path == get) return {get, true, false};
@@ -83,9 +133,30 @@ std::string not_ready(const Service::State& state) {
     if (state.draining) return "the server is stopping";
     const RenderThread::Info info = state.renderer.info();
     if (info.state == RenderThread::Info::State::kStarting) return "the renderer is starting";
-    if (info.state == RenderThread::Info::State::kNoRenderer)
-        return "there is no renderer: " + info.reason;
+    if (state.lanes.load().full) return "saturated: as many requests wait as may";
     return {};
+}
+
+int retry_seconds(const Service::State& state) {
+    return seconds_from_ms(state.lanes.wait_ms(Weight::kShort));
+}
+
+Gauges gauges(const Service::State& state) {
+    Gauges now;
+    now.ready = not_ready(state).empty();
+    now.renderer = state.renderer.info().state == RenderThread::Info::State::kReady;
+    now.renderer_reopened = state.renderer.reopened();
+    now.in_progress = state.in_progress;
+    now.lanes = state.lanes.load();
+    now.device_lane = state.device_lane.load();
+    now.work_bytes = state.budget.taken();
+    now.work_bytes_most = state.budget.bytes();
+    now.cache_bytes = state.results.bytes_in_use();
+    now.cache_entries = state.results.entries();
+    now.jobs_waiting = state.jobs->load().waiting;
+    now.jobs_running = state.jobs->load().running;
+    now.job_bytes = state.jobs->load().bytes;
+    return now;
 }
 
 Response get(Service::State& state, const Route& route, const Request& request) {
@@ -99,11 +170,12 @@ Response get(Service::State& state, const Route& route, const Request& request) 
     if (route.pattern == "/readyz") {
         const std::string reason = not_ready(state);
         if (reason.empty()) return text_answer("text/plain; charset=utf-8", "ready\n");
-        return problem_retry(503, reason, kDrainRetrySeconds, request.id);
+        const int seconds = state.draining ? kDrainRetrySeconds : retry_seconds(state);
+        return problem_retry(503, reason, seconds, request.id);
     }
     if (route.pattern == "/metrics")
         return text_answer("text/plain; version=0.0.4; charset=utf-8",
-                           state.metrics.text(state.renderer.waiting(), not_ready(state).empty()));
+                           state.metrics.text(gauges(state)));
     // Here the path is /version.
     const RenderThread::Info info = state.renderer.info();
     const bool ready = info.state == RenderThread::Info::State::kReady;
@@ -116,7 +188,6 @@ Response get(Service::State& state, const Route& route, const Request& request) 
 // What can be said before the body: unknown paths, wrong methods, a server that stops, wrong types.
 std::optional<Response> check(const Service::State& state, const Route& route,
                               const Request& request) {
-    const bool reading = request.method == "GET" || request.method == "HEAD";
     if (request.method == "OPTIONS" && (route.known || request.path == "*")) {
         Response response;
         response.status = 204;
@@ -125,7 +196,7 @@ std::optional<Response> check(const Service::State& state, const Route& route,
         return response;
     }
     if (!route.known) return problem(404, "there is nothing at this path", "", request.id);
-    if (route.post ? request.method != "POST" : !reading) {
+    if (!route.takes(request.method)) {
         Response response =
             problem(405, "this path takes " + std::string(route.allow()) + " only", "", request.id);
         response.headers.emplace_back("Allow", route.allow());
@@ -134,15 +205,25 @@ std::optional<Response> check(const Service::State& state, const Route& route,
     if (!route.post) return std::nullopt;
     if (state.draining && !request.admitted)
         return problem_retry(503, "the server is stopping", kDrainRetrySeconds, request.id);
-    return check_scene_request(request);
+    return route.pattern == kJobsPath ? check_job_request(request) : check_scene_request(request);
+}
+
+Response route_answer(Service::State& state, const Route& route, const Request& request) {
+    if (route.job) return tell_job(state, request);
+    if (!route.post) return get(state, route, request);
+    return route.pattern == kJobsPath ? submit_job(state, request)
+                                      : answer_scene_request(state, request);
 }
 
 Response finished(Service::State& state, const Route& route, const Request& request,
                   Response response, double seconds) {
+    response.route = route.pattern;
     for (const auto& [name, value] :
          {std::pair<std::string_view, std::string_view>("X-Request-Id", request.id),
           {"X-Content-Type-Options", "nosniff"}})
         if (find_header(response.headers, name).empty()) response.headers.emplace_back(name, value);
+    // Nobody reads the status of an answer whose client has gone; 499 is what nginx counts it as.
+    if (response.abandoned) response.status = kClientGone;
     state.metrics.request_done(route.pattern, response.status, seconds);
     return response;
 }
@@ -172,21 +253,36 @@ Response not_modified(std::string_view etag, bool varies) {
 }
 
 Service::Service(RenderThread& renderer, Metrics& metrics, ServiceOptions options)
-    : state_(std::make_unique<State>(renderer, metrics, options)) {
+    : state_(std::make_unique<State>(renderer, metrics, with_defaults(std::move(options)))) {
     std::vector<PresetEntry> entries;
     for (const Preset& preset : state_->presets) entries.push_back(preset.entry);
     state_->presets_json = presets_to_json(entries.data(), entries.size());
     state_->presets_etag = make_etag({state_->presets_json});
+    JobsOptions jobs;
+    jobs.runners = state_->options.jobs;
+    state_->jobs = std::make_unique<Jobs>(
+        jobs, [state = state_.get()](const JobWork& work, const Request& request) {
+            return answer_job_work(*state, work, request);
+        });
 }
 
 Service::~Service() = default;
+
+bool Service::waits_for_events(std::string_view target) {
+    const std::string_view path = target.substr(0, target.find('?'));
+    return path.starts_with("/v1/jobs/") && path.ends_with("/events");
+}
 
 void Service::drain() {
     state_->draining = true;
 }
 
 int Service::retry_after_seconds() const {
-    return state_->renderer.retry_after_seconds();
+    return retry_seconds(*state_);
+}
+
+std::size_t Service::in_progress() const {
+    return state_->in_progress;
 }
 
 std::optional<Response> Service::refuse(const Request& request) {
@@ -200,20 +296,19 @@ Response Service::answer(const Request& request) {
     const auto start = Clock::now();
     Route route;
     Response response;
+    const InProgress counted(request.method == "POST" ? &state_->in_progress : nullptr);
     try {
         route = find_route(*state_, request.path);
         if (auto refused = check(*state_, route, request)) {
             response = std::move(*refused);
         } else {
-            response =
-                route.post ? answer_scene_request(*state_, request) : get(*state_, route, request);
+            response = route_answer(*state_, route, request);
         }
-    } catch (const std::bad_alloc&) {
-        response = problem_retry(503, "there is not enough memory for this now",
-                                 retry_after_seconds(), request.id);
-    } catch (const std::exception&) {
-        response = problem(Error{ErrorCode::kInternal, "", ""}, request.id);
+    } catch (const std::exception& e) {
+        response = fail(error_of_thrown(e), request);
     }
+    if (response.status == 503 && response.header("Retry-After").empty())
+        response.headers.emplace_back("Retry-After", std::to_string(retry_seconds(*state_)));
     const std::chrono::duration<double> took = Clock::now() - start;
     return finished(*state_, route, request, std::move(response), took.count());
 }

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "core/base/deadline.h"
+#include "core/base/progress.h"
 #include "server/limits.h"
+#include "server/service/lanes.h"
 #include "server/service/metrics.h"
 #include "server/service/render_thread.h"
 
@@ -30,6 +32,10 @@ struct Request {
     std::string id;
     // Its `cancelled` becomes true when the client goes away.
     Deadline deadline;
+    // How far it has come, for whoever watches. May be empty.
+    Progress progress;
+    // Whose turn it is (server/service/lanes.h): the client's address.
+    std::string client;
     // It came before the server began to drain, and is finished.
     bool admitted = false;
 
@@ -48,6 +54,10 @@ struct Response {
     std::function<bool(std::string& piece)> stream;
     // Nobody waits for it any more: it need not be written.
     bool abandoned = false;
+    // Of the metrics and the log: the route's pattern; what each stage took, ms; why there is no other answer ("").
+    std::string_view route = "other";
+    std::vector<std::pair<const char*, double>> stages;
+    std::string_view reason;
 
     // "" when absent; names ignore case.
     std::string_view header(std::string_view name) const;
@@ -59,10 +69,16 @@ struct ServiceOptions {
     int threads = 1;
     // Scales the times that are predicted.
     MachineSpeed speed;
-    // Requests that generate, survey or encode at once; more wait.
-    std::size_t working = 2;
+    // Of the requests that compute. The renderer has a line of its own, as long.
+    LanesOptions lanes;
     // See server/service/work_budget.h.
     std::size_t work_bytes = limits::kWorkBytes;
+    // Of answers that are kept; see server/service/result_cache.h.
+    std::size_t cache_bytes = 0;
+    // Renders what needs no device; empty: processor_renderer().
+    RenderOnProcessor on_processor;
+    // Jobs that run at once, each in lanes as any request.
+    std::size_t jobs = 2;
 };
 
 // Answers requests.
@@ -74,8 +90,10 @@ class Service {
     Service& operator=(const Service&) = delete;
 
     // Thread-safe. Never throws: a bug inside becomes a 500 without details of the exception.
-    // Anything but POST is answered from memory and never waits for a render or another request.
+    // Anything but POST is answered from memory and never waits for a render or another request; but what
+    // waits_for_events says is a stream that waits for what it tells.
     Response answer(const Request& request);
+    static bool waits_for_events(std::string_view target);
 
     // What answer() would say whatever the body is: for clients that ask before they send it
     // (Expect: 100-continue) or announce a long one. Nothing: the body is wanted.
@@ -87,6 +105,9 @@ class Service {
 
     // When a client that was refused for load may come again, seconds.
     int retry_after_seconds() const;
+
+    // How many POSTs are being answered, waiting ones among them.
+    std::size_t in_progress() const;
 
     struct State;
 

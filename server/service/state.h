@@ -1,88 +1,58 @@
 // What the rooms of the service share (service.cpp, scene.cpp); nobody else includes it.
 #pragma once
 
-#include <condition_variable>
+#include <atomic>
 #include <mutex>
 #include <optional>
 #include <span>
 
 #include "core/light/light_cache.h"
 #include "server/limits.h"
+#include "server/service/jobs.h"
 #include "server/service/pages.h"
+#include "server/service/result_cache.h"
 #include "server/service/service.h"
 #include "server/service/work_budget.h"
 
 namespace awan {
 
-// Lets so many threads compute at once: more would only share the processors and hold memory
-// longer.
-class WorkGate {
-  public:
-    explicit WorkGate(std::size_t places) : free_(std::max<std::size_t>(places, 1)) {}
-
-    // One thread's pass through the gate; leave() may come before the end of the scope.
-    class Pass {
-      public:
-        explicit Pass(WorkGate& gate) : gate_(gate) {}
-        ~Pass() { leave(); }
-        Pass(const Pass&) = delete;
-        Pass& operator=(const Pass&) = delete;
-
-        Status enter(const Deadline& deadline) {
-            std::unique_lock lock(gate_.mutex_);
-            while (gate_.free_ == 0) {
-                if (auto over = deadline.over()) return over;
-                gate_.freed_.wait_for(lock, std::chrono::milliseconds(20));
-            }
-            --gate_.free_;
-            inside_ = true;
-            return std::nullopt;
-        }
-        // Does not wait; false when there is no place.
-        bool try_enter() {
-            const std::lock_guard lock(gate_.mutex_);
-            if (gate_.free_ == 0) return false;
-            --gate_.free_;
-            inside_ = true;
-            return true;
-        }
-        void leave() {
-            if (!std::exchange(inside_, false)) return;
-            const std::lock_guard lock(gate_.mutex_);
-            ++gate_.free_;
-            gate_.freed_.notify_one();
-        }
-
-      private:
-        WorkGate& gate_;
-        bool inside_ = false;
-    };
-
-  private:
-    std::mutex mutex_;
-    std::condition_variable freed_;
-    std::size_t free_;
-};
-
 struct Service::State {
     State(RenderThread& r, Metrics& m, ServiceOptions o)
-        : renderer(r), metrics(m), options(o), budget(o.work_bytes), gate(o.working) {}
+        : renderer(r),
+          metrics(m),
+          options(std::move(o)),
+          budget(options.work_bytes),
+          results(options.cache_bytes),
+          lanes(options.lanes),
+          device_lane({1, 0, options.lanes.line, options.lanes.patience}) {}
 
     RenderThread& renderer;
     Metrics& metrics;
     const ServiceOptions options;
     std::atomic<bool> draining{false};
+    std::atomic<std::size_t> in_progress{0};
     WorkBudget budget;
-    WorkGate gate;
-    // At most one measurement of accuracy: two at once would measure each other.
-    WorkGate sweeps{1};
+    ResultCache results;
+    // Everything that computes has a lane; what the renderer draws has its line, in which the others' lanes are free.
+    Lanes lanes;
+    Lanes device_lane;
+    // Held by the one measurement of accuracy that may run, beside the lanes: two at once would measure each other.
+    std::mutex sweeping;
+    // By when it is over, at most.
+    std::atomic<Deadline::Clock::time_point> sweeps_until{Deadline::Clock::time_point::min()};
     DetailTiles tiles;
     // Of the frames by which the rungs of sequences are settled: for the frames that are asked for next.
     LightCache settling_lights{limits::kSettlingLightBytes};
+    // Held from looking for an Idempotency-Key to the job being there.
+    std::mutex submitting;
+    // Streams that tell how jobs go.
+    std::atomic<std::size_t> streams{0};
     const std::vector<Page> pages = make_pages();
     const std::vector<Preset> presets = make_presets();
     std::string presets_json;
     std::string presets_etag;
+    // Last: when it goes, what its jobs use is still there.
+    std::unique_ptr<Jobs> jobs;
 };
 
 // All values of a header that may be repeated, as one list.
@@ -101,10 +71,47 @@ Status check_accuracy_query(const Request& request);
 Response answer_accuracy(Service::State& state, const Request& request, const Scene& scene,
                          std::string_view type);
 
+// The scene of a request's body, by its Content-Type; then whether it can be.
+Result<Scene> read_request_scene(const Request& request);
+
+// /v1/jobs and what is below it (job_routes.cpp). answer_job_work runs a job.
+inline constexpr std::string_view kJobsPath = "/v1/jobs";
+std::optional<Response> check_job_request(const Request& request);
+Response submit_job(Service::State& state, const Request& request);
+Response tell_job(Service::State& state, const Request& request);
+Response answer_job_work(Service::State& state, const JobWork& work, const Request& request);
+
+// The frames of a sequence as an animation, "webp" or "apng" (sequence_job.cpp).
+Response answer_sequence(Service::State& state, const Request& request, const std::string& format);
+
+// Draws what is planned: with the device, in whose line it waits while another computes in its lane, or in its lane.
+// pass: in a lane, before and after. `refused`: what is to be said where it got no lane; then there is no picture.
+struct Drawn {
+    std::optional<Response> refused;
+    Result<Rendered> rendered;
+    double queue_ms = 0;
+};
+Drawn draw_in_lanes(Service::State& state, const Request& request, const Scene& scene,
+                    Planned planned, double encode_ms, Lanes::Pass& pass);
+
+// POST /v1/render (render.cpp). pass: in a lane, after so many ms.
+Response answer_render(Service::State& state, const Request& request, const Scene& scene,
+                       Lanes::Pass& pass);
+
 // An error as an answer; nobody waits for that of a cancelled request.
 Response fail(const Error& error, const Request& request);
-// 429: come again.
-Response busy(Service::State& state, const Request& request, std::string_view detail);
+// What is said when there is not the memory that this one needs beside the others.
+Response no_memory(Service::State& state, const Request& request);
+// What is said to a request that did not get a lane; nothing to one that did.
+std::optional<Response> not_let_in(Lanes::Entry entry, const Lanes& lanes, Weight weight,
+                                   const Request& request);
+// Threads that a piece of work has: the machine's, shared among all that compute.
+int threads_of_one(const Service::State& state);
+
+// 200 with what all answers to scenes have.
+Response ok_answer(std::string_view content_type, std::string_view etag);
+// Predicted times are of this machine, and so is every rung that is chosen by them.
+std::string speed_text(const Service::State& state);
 // `queue;dur=0.100, draw;dur=12.500`, for Server-Timing.
 std::string server_timing(std::span<const std::pair<const char*, double>> milliseconds);
 

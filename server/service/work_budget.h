@@ -34,6 +34,15 @@ class WorkBudget {
         }
         explicit operator bool() const { return budget_ != nullptr; }
 
+        // More for the same work. False, and nothing is taken, when so much is not left; what would make it more than
+        // the whole budget is taken as the rest of it. Precondition: it holds some.
+        bool grow(std::size_t bytes) {
+            bytes = std::min(bytes, budget_->bytes_ - bytes_);
+            if (!budget_->try_take(bytes)) return false;
+            bytes_ += bytes;
+            return true;
+        }
+
       private:
         friend class WorkBudget;
         Lease(WorkBudget* budget, std::size_t bytes) : budget_(budget), bytes_(bytes) {}
@@ -44,23 +53,38 @@ class WorkBudget {
     // False when so much is not left. What is more than the whole budget is taken as the whole
     // budget: then it runs alone.
     Lease take(std::size_t bytes) {
-        const std::lock_guard lock(mutex_);
         bytes = std::min(bytes, bytes_);
-        if (taken_ + bytes > bytes_) return Lease{};
-        taken_ += bytes;
-        return Lease(this, bytes);
+        return try_take(bytes) ? Lease(this, bytes) : Lease{};
+    }
+
+    std::size_t bytes() const { return bytes_; }
+    std::size_t taken() const {
+        const std::lock_guard lock(mutex_);
+        return taken_;
     }
 
   private:
+    bool try_take(std::size_t bytes) {
+        const std::lock_guard lock(mutex_);
+        if (taken_ + bytes > bytes_) return false;
+        taken_ += bytes;
+        return true;
+    }
     void give_back(std::size_t bytes) {
         const std::lock_guard lock(mutex_);
         taken_ -= bytes;
     }
 
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     const std::size_t bytes_;
     std::size_t taken_ = 0;
 };
+
+// An estimate of what a document takes while it is read, beside its own bytes. Short ones take none: there is one a
+// lane.
+inline std::size_t reading_bytes(std::size_t body_bytes) {
+    return body_bytes <= limits::kFreeBodyBytes ? 0 : body_bytes * limits::kBytesPerBodyByte;
+}
 
 // An estimate of what a scene takes while it is worked on.
 inline std::size_t work_bytes(const SceneDraft& scene, bool with_image) {

@@ -1,0 +1,233 @@
+// /v1/jobs: work that is asked for now and fetched later.
+#include <algorithm>
+
+#include "server/document/job_text.h"
+#include "server/service/negotiation.h"
+#include "server/service/problem.h"
+#include "server/service/state.h"
+
+namespace awan {
+namespace {
+
+// Without anything to tell, a stream says that it lives, which also finds out whether anybody listens.
+constexpr std::chrono::seconds kStillHere{1};
+
+// What a kind of job makes: its formats, the first by default, and the request whose answer is its result.
+struct JobKind {
+    std::string_view name, path;
+    // Word and media type.
+    std::vector<std::pair<std::string_view, std::string_view>> formats;
+};
+
+const std::vector<JobKind>& job_kinds() {
+    static const std::vector<JobKind> kinds = {
+        {"render", "/v1/render", {{"", ""}, {"png", "image/png"}, {"exr", "image/x-exr"}}},
+        {"accuracy",
+         "/v1/accuracy",
+         {{"json", "application/json"}, {"csv", "text/csv"}, {"png", "image/png"}}},
+        {"sequence", "", {{"webp", "image/webp"}, {"apng", "image/apng"}}}};
+    return kinds;
+}
+
+Error wrong(const std::string& pointer, std::string message) {
+    return {ErrorCode::kInvalidScene, pointer, std::move(message)};
+}
+
+// The request whose answer is the job's result.
+Result<JobWork> work_of(const JobText& text, const Request& request) {
+    const auto kind = std::find_if(job_kinds().begin(), job_kinds().end(),
+                                   [&](const JobKind& k) { return k.name == text.kind; });
+    if (kind == job_kinds().end())
+        return wrong("/kind", "must be \"render\", \"accuracy\" or \"sequence\"");
+    const auto format = text.format.empty()
+                            ? kind->formats.begin()
+                            : std::find_if(kind->formats.begin(), kind->formats.end(),
+                                           [&](const auto& f) { return f.first == text.format; });
+    if (format == kind->formats.end()) {
+        std::string known;
+        for (const auto& [word, type] : kind->formats)
+            if (!word.empty()) known += (known.empty() ? "\"" : ", \"") + std::string(word) + '"';
+        return wrong("/format", "must be one of " + known);
+    }
+    JobWork work;
+    work.id = request_id_from("");
+    work.kind = text.kind;
+    work.format = format->first;
+    work.request.method = "POST";
+    work.request.path = kind->path;
+    work.request.headers = {{"Content-Type", "application/json"}};
+    if (!format->second.empty()) work.request.headers.emplace_back("Accept", format->second);
+    work.request.body = text.scene;
+    work.request.id = request.id;
+    work.request.client = request.client;
+    return work;
+}
+
+Response accepted(std::string_view id, const JobView& view, std::string_view kind) {
+    Response response;
+    response.status = 202;
+    response.headers = {{"Content-Type", "application/json"},
+                        {"Cache-Control", "no-store"},
+                        {"Location", "/v1/jobs/" + std::string(id)}};
+    response.body = job_to_json({id, kind, name_of(view.state), view.progress, view.age_seconds,
+                                 view.result ? view.result->status : 0});
+    return response;
+}
+
+// Whether the scene can be, before anything is promised. In a lane, as everything that computes.
+std::optional<Response> refuse_scene(Service::State& state, const Request& request,
+                                     const JobWork& work) {
+    const Weight weight = request.body.size() > (1u << 20) ? Weight::kLong : Weight::kShort;
+    Lanes::Pass pass(state.lanes);
+    if (auto refused =
+            not_let_in(pass.enter({weight, kTypical_ms, request.client}, request.deadline),
+                       state.lanes, weight, request))
+        return refused;
+    const WorkBudget::Lease reading = state.budget.take(reading_bytes(request.body.size()));
+    if (!reading) return no_memory(state, request);
+    auto scene = read_request_scene(work.request);
+    if (!scene) {
+        Error error = scene.error();
+        error.pointer = "/scene" + error.pointer;
+        return fail(error, request);
+    }
+    if (work.kind == "sequence" && !(*scene)->sequence)
+        return fail(wrong("/scene/sequence", "a job of a sequence needs one"), request);
+    return std::nullopt;
+}
+
+// Server-sent events (WHATWG HTML, 9.2): `state` with what GET of the job says, at every change; the last one tells the
+// end.
+struct EventStream {
+    Service::State& state;
+    std::string id, kind;
+    Deadline::Clock::time_point until = Deadline::Clock::now() + limits::kEventsDeadline;
+    std::optional<std::uint64_t> version;
+
+    EventStream(Service::State& s, std::string i, std::string k)
+        : state(s), id(std::move(i)), kind(std::move(k)) {}
+    ~EventStream() { --state.streams; }
+    EventStream(const EventStream&) = delete;
+    EventStream& operator=(const EventStream&) = delete;
+
+    // False when that was the last.
+    bool append(std::string& out) {
+        const auto view =
+            version ? state.jobs->wait(id, *version, kStillHere) : state.jobs->view(id);
+        if (!view) return false;
+        if (version && *version == view->version) {
+            out += ":\n\n";
+        } else {
+            out += "event: state\nid: " + std::to_string(view->version) + "\ndata: " +
+                   job_to_json({id, kind, name_of(view->state), view->progress, view->age_seconds,
+                                view->result ? view->result->status : 0}) +
+                   "\n\n";
+        }
+        version = view->version;
+        return !view->finished() && !state.draining && Deadline::Clock::now() < until;
+    }
+};
+
+Response stream_events(Service::State& state, const Request& request, const JobWork& work) {
+    if (++state.streams > limits::kEventStreams) {
+        --state.streams;
+        return problem_retry(429, "too many follow jobs; ask for the job now and then", 5,
+                             request.id);
+    }
+    const auto events = std::make_shared<EventStream>(state, work.id, work.kind);
+    Response response;
+    response.headers = {{"Content-Type", "text/event-stream"}, {"Cache-Control", "no-store"}};
+    response.stream = [events](std::string& piece) { return events->append(piece); };
+    return response;
+}
+
+Response tell_result(const JobView& view, const Request& request) {
+    if (view.state == JobState::kCancelled)
+        return problem(410, "the job was cancelled", "", request.id);
+    if (!view.finished()) {
+        Response response =
+            problem_retry(409, "the job has not finished; ask for its state", 1, request.id);
+        return response;
+    }
+    Response response = *view.result;
+    // The answer is of this request now.
+    std::erase_if(response.headers, [](const auto& h) { return h.first == "X-Request-Id"; });
+    const std::string_view tag = response.header("ETag");
+    if (response.status == 200 && !tag.empty() &&
+        none_match_names(joined_header(request, "If-None-Match"), tag))
+        return not_modified(tag, false);
+    return response;
+}
+
+}  // namespace
+
+std::optional<Response> check_job_request(const Request& request) {
+    if (media_type(request.header("Content-Type")) != "application/json") {
+        Response response =
+            problem(415, "a job comes as application/json, in UTF-8", "", request.id);
+        response.headers.emplace_back("Accept", "application/json");
+        return response;
+    }
+    if (request.header("Idempotency-Key").size() > limits::kMaxKeyBytes)
+        return problem(400,
+                       "an Idempotency-Key has at most " + std::to_string(limits::kMaxKeyBytes) +
+                           " characters",
+                       "", request.id);
+    return std::nullopt;
+}
+
+Response submit_job(Service::State& state, const Request& request) {
+    const std::string key(request.header("Idempotency-Key"));
+    const std::string digest = make_etag({request.body});
+    const auto text = parse_job(request.body);
+    if (!text) return fail(text.error(), request);
+    auto work = work_of(*text, request);
+    if (!work) return fail(work.error(), request);
+    if (auto refused = refuse_scene(state, request, *work)) return std::move(*refused);
+    // Two with one key may come at the same time.
+    const std::lock_guard lock(state.submitting);
+    if (!key.empty())
+        if (const auto before = state.jobs->with_key(key)) {
+            if (before->second != digest)
+                return problem(422, "this Idempotency-Key came with another body before", "",
+                               request.id);
+            if (const auto view = state.jobs->view(before->first))
+                return accepted(before->first, *view, work->kind);
+        }
+    work->idempotency_key = key;
+    work->digest = digest;
+    const std::string id = work->id;
+    const std::string kind = work->kind;
+    if (!state.jobs->submit(*std::move(work)))
+        return problem_retry(429, "so many jobs wait already",
+                             seconds_from_ms(state.lanes.wait_ms(Weight::kLong)), request.id);
+    return accepted(id, state.jobs->view(id).value_or(JobView{}), kind);
+}
+
+Response tell_job(Service::State& state, const Request& request) {
+    const std::string_view rest = std::string_view(request.path).substr(kJobsPath.size() + 1);
+    const std::string_view id = rest.substr(0, rest.find('/'));
+    const auto view = state.jobs->view(id);
+    const auto work = state.jobs->work(id);
+    if (!view || !work)
+        return problem(404, "there is no such job, or its result was dropped", "", request.id);
+    if (request.method == "DELETE") {
+        state.jobs->remove(id);
+        Response response;
+        response.status = 204;
+        return response;
+    }
+    if (rest.ends_with("/events")) return stream_events(state, request, *work);
+    if (rest.ends_with("/result")) return tell_result(*view, request);
+    Response response = accepted(id, *view, work->kind);
+    response.status = 200;
+    std::erase_if(response.headers, [](const auto& h) { return h.first == "Location"; });
+    return response;
+}
+
+Response answer_job_work(Service::State& state, const JobWork& work, const Request& request) {
+    if (work.kind == "sequence") return answer_sequence(state, request, work.format);
+    return answer_scene_request(state, request);
+}
+
+}  // namespace awan
