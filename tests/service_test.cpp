@@ -15,8 +15,8 @@ namespace {
 
 TEST_F(ServiceTest, UnknownPathsAre404) {
     for (const char* path :
-         {"/nowhere", "/v1", "/v1/", "/v1/render/", "/v1/accuracy/", "/v1/jobs", "/v1/jobs/1",
-          "/v1/presets/", "/v1/presets/none", "/presets/cumulus.json", "", "*"}) {
+         {"/nowhere", "/v1", "/v1/", "/v1/render//", "/v1/jobs", "/v1/jobs/1", "/v1/presets/none",
+          "/presets/cumulus.json", "", "*"}) {
         expect_problem(get(path), 404);
         expect_problem(post(path), 404);
     }

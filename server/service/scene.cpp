@@ -12,11 +12,10 @@
 #include "core/formats/particle_files.h"
 #include "core/generate/generate.h"
 #include "core/scene/fingerprint.h"
-#include "core/scene/validate.h"
 #include "server/document/json.h"
-#include "server/document/scene_text.h"
 #include "server/service/negotiation.h"
 #include "server/service/problem.h"
+#include "server/service/scene_request.h"
 #include "server/service/state.h"
 
 namespace awan {
@@ -41,13 +40,6 @@ std::span<const std::string_view> offers_of(std::string_view path) {
     if (path == "/v1/render") return kImageOffers;
     if (path == kAccuracyPath) return kAccuracyOffers;
     return kPlanOffers;
-}
-
-Result<Scene> read(const Request& request) {
-    const auto format = scene_format_of_type(media_type(request.header("Content-Type")));
-    auto draft = read_scene(*format, request.body);
-    if (!draft) return draft.error();
-    return validate(std::move(draft).value());
 }
 
 Response ok(std::string_view content_type, std::string_view etag) {
@@ -229,12 +221,7 @@ void add_errors(const Rendered& rendered, Response& response) {
 }
 
 Response answer_render(Service::State& state, const Request& request, const Scene& scene,
-                       double waited_ms, WorkGate::Pass& pass) {
-    // What the client prefers; where it has no preference, what the document says.
-    const bool exr = scene->image.format == ImageFormat::kExr;
-    const std::string_view type =
-        *best_offer(joined_header(request, "Accept"), exr ? kImageOffersExrFirst : kImageOffers);
-
+                       std::string_view type, double waited_ms, WorkGate::Pass& pass) {
     if (const Status over = state.renderer.wait_until_started(request.deadline))
         return fail(*over, request);
     const RenderThread::Info info = state.renderer.info();
@@ -304,23 +291,41 @@ std::string server_timing(std::span<const std::pair<const char*, double>> millis
     return header;
 }
 
-std::optional<Response> check_scene_request(const Request& request) {
-    if (!scene_format_of_type(media_type(request.header("Content-Type")))) {
-        Response response = problem(
-            415,
-            "a scene comes as " + std::string(kSceneTypes) + ", in UTF-8; name it in Content-Type",
-            "", request.id);
-        response.headers.emplace_back("Accept", kSceneTypes);
-        return response;
+namespace {
+
+Response not_offered(const Request& request, int status, std::string_view what) {
+    std::string detail(what);
+    const auto offers = offers_of(request.path);
+    for (const std::string_view offer : offers) detail.append(offer == offers.front() ? " " : ", ").append(offer);
+    return problem(status, detail, "", request.id);
+}
+
+Response answer_as(Service::State& state, const Request& request, const Scene& scene, std::string_view type,
+                   double waited_ms, WorkGate::Pass& pass) {
+    if (request.path == "/v1/render") return answer_render(state, request, scene, type, waited_ms, pass);
+    if (request.path == "/v1/plan") return answer_plan(state, request, scene);
+    if (request.path == kAccuracyPath) {
+        // A sweep takes long, and there is one at most: others compute beside it.
+        pass.leave();
+        return answer_accuracy(state, request, scene, type);
     }
+    return answer_particles(state, request, scene, type, pass);
+}
+
+}  // namespace
+
+std::optional<Response> check_scene_request(const Request& request) {
+    if (auto refused = check_scene_head(request)) return refused;
     if (request.path == kAccuracyPath)
         if (const Status wrong = check_accuracy_query(request)) return fail(*wrong, request);
     const auto offers = offers_of(request.path);
+    for (const auto& [name, value] : request.query)
+        if (name == "format") {
+            if (chosen_offer(request, value, offers)) return std::nullopt;
+            return not_offered(request, 400, "query parameter `format` names none of what can be answered here:");
+        }
     if (best_offer(joined_header(request, "Accept"), offers)) return std::nullopt;
-    std::string detail = "this can be answered as";
-    for (const std::string_view offer : offers)
-        detail.append(offer == offers.front() ? " " : ", ").append(offer);
-    return problem(406, detail, "", request.id);
+    return not_offered(request, 406, "this can be answered as");
 }
 
 Response answer_scene_request(Service::State& state, const Request& request) {
@@ -328,18 +333,19 @@ Response answer_scene_request(Service::State& state, const Request& request) {
     WorkGate::Pass pass(state.gate);
     if (const Status over = pass.enter(request.deadline)) return fail(*over, request);
     const double waited_ms = ms_since(start);
-    auto scene = read(request);
-    if (!scene) return fail(scene.error(), request);
+    if (auto refused = check_scene_body(request)) return *std::move(refused);
+    const auto read = read_scene_request(request);
+    if (!read) return fail(read.error(), request);
 
-    if (request.path == "/v1/render") return answer_render(state, request, *scene, waited_ms, pass);
-    if (request.path == "/v1/plan") return answer_plan(state, request, *scene);
-    const auto type = best_offer(joined_header(request, "Accept"), offers_of(request.path));
-    if (request.path == kAccuracyPath) {
-        // A sweep takes long, and there is one at most: others compute beside it.
-        pass.leave();
-        return answer_accuracy(state, request, *scene, *type);
-    }
-    return answer_particles(state, request, *scene, *type, pass);
+    // What the client asks for; where it has no preference, what the document says.
+    const bool exr = request.path == "/v1/render" && read->scene->image.format == ImageFormat::kExr;
+    const auto type = chosen_offer(request, read->overrides.format.value_or(""),
+                                   exr ? std::span<const std::string_view>(kImageOffersExrFirst) : offers_of(request.path));
+    if (!type) return not_offered(request, 400, "the field `format` names none of what can be answered here:");
+    Response response = answer_as(state, request, read->scene, *type, waited_ms, pass);
+    const std::string notes = notes_header(read->notes);
+    if (!notes.empty()) response.headers.emplace_back("Awan-Notes", notes);
+    return response;
 }
 
 }  // namespace awan

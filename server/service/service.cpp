@@ -5,6 +5,8 @@
 
 #include "server/document/json.h"
 #include "server/header_text.h"
+#include "server/service/compression.h"
+#include "server/service/forms.h"
 #include "server/service/negotiation.h"
 #include "server/service/problem.h"
 #include "server/service/state.h"
@@ -49,6 +51,14 @@ Route find_route(const Service::State& state, std::string_view path) {
         if (path == page.path)
             return {path == "/openapi.json" ? "/openapi.json" : "page", true, false, &page};
     return {};
+}
+
+std::string_view without_slash(std::string_view path) {
+    path.remove_suffix(1);
+    return path;
+}
+bool known_without_slash(const Service::State& state, std::string_view path) {
+    return path.size() > 1 && path.ends_with('/') && find_route(state, without_slash(path)).known;
 }
 
 Response text_answer(std::string_view content_type, std::string body) {
@@ -122,6 +132,13 @@ std::optional<Response> check(const Service::State& state, const Route& route,
         response.status = 204;
         response.headers = {
             {"Allow", std::string(route.known ? route.allow() : "GET, HEAD, POST, OPTIONS")}};
+        return response;
+    }
+    if (!route.known && known_without_slash(state, request.path)) {
+        // With the method and the body as they are.
+        const std::string_view path = without_slash(request.path);
+        Response response = problem(308, "this path has no slash at its end: " + std::string(path), "", request.id);
+        response.headers.emplace_back("Location", std::string(path) + query_text(request.query));
         return response;
     }
     if (!route.known) return problem(404, "there is nothing at this path", "", request.id);
@@ -207,6 +224,7 @@ Response Service::answer(const Request& request) {
         } else {
             response =
                 route.post ? answer_scene_request(*state_, request) : get(*state_, route, request);
+            compress(request, response);
         }
     } catch (const std::bad_alloc&) {
         response = problem_retry(503, "there is not enough memory for this now",
