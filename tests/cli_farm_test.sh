@@ -78,7 +78,7 @@ run 0 render scene.json -o a.png -o a.exr --bits 16
 contains "16 bits" "uint16" "$(oiiotool --info a.png)"
 contains "EXR beside it" "32 x   24" "$(oiiotool --info a.exr)"
 run 0 render scene.json -o b.png
-oiiotool a.png b.png --diff --fail 0.003 --warn 0.003 >diff 2>&1 || fail "16 bits show another picture: $(cat diff)"
+oiiotool --fail 0.003 --warn 0.003 a.png b.png --diff >diff 2>&1 || fail "16 bits show another picture: $(cat diff)"
 run 0 render scene.json -o c.exr
 cmp -s a.exr c.exr || fail "an output among others is another"
 run 2 render scene.json -o a.png -o a.png
@@ -123,8 +123,8 @@ same "the others stay" "$before" "$(stat -c %y m.009.png)"
 run 0 render moving.json --frames 5 -o alone.png
 cmp -s alone.png m.005.png || fail "a frame alone is another"
 run 0 render moving.json --frames 0,11 -o "two.##.png" -o two.webp -o "two.%d.exr"
-same "files and an animation at once" "two.00.png two.0.exr two.11.exr two.11.png two.webp" "$(echo two.* | tr ' ' '\n' | LC_ALL=C sort | tr '\n' ' ' | sed 's/ $//' | xargs -n1 | sort | xargs)"
-for frames in 9-1 1-5x0 1-5x x2 1x2 0-99 1,1; do
+same "files and an animation at once" "two.0.exr two.00.png two.11.exr two.11.png two.webp" "$(LC_ALL=C; echo two.*)"
+for frames in 9-1 1-5x0 1-5x x2 1x2 0-99; do
     run 2 render moving.json --frames "$frames" -o "bad.%d.png"
 done
 for name in "bad.%04d" "bad.####"; do
@@ -162,7 +162,7 @@ fi
 # --- points and volumes for other programs
 run 0 particles scene.json -o cloud.glb
 assimp info cloud.glb >info 2>&1 || fail "assimp does not open the GLB: $(cat info)"
-contains "points" "Vertices:   60" "$(cat info)"
+contains "points" "Vertices:           60" "$(cat info)"
 python3 - <<'END_PYTHON' || fail "GLB"
 import json, struct
 data = open("cloud.glb", "rb").read()

@@ -82,16 +82,19 @@ class Contract {
     bool any_pattern_allows(const json& schema, const std::string& key, const json& value) const {
         if (!schema.contains("patternProperties")) return false;
         const json& patterns = schema.at("patternProperties");
-        return std::any_of(patterns.items().begin(), patterns.items().end(), [&](const auto& pattern) {
-            return std::regex_search(key, std::regex(pattern.key())) && allows(pattern.value(), value);
-        });
+        return std::any_of(patterns.items().begin(), patterns.items().end(),
+                           [&](const auto& pattern) {
+                               return std::regex_search(key, std::regex(pattern.key())) &&
+                                      allows(pattern.value(), value);
+                           });
     }
 
     bool members_allowed(const json& schema, const json& value) const {
         static const json kNone = json::object();
         const json& properties = schema.contains("properties") ? schema.at("properties") : kNone;
         return std::all_of(value.items().begin(), value.items().end(), [&](const auto& member) {
-            if (properties.contains(member.key())) return allows(properties.at(member.key()), member.value());
+            if (properties.contains(member.key()))
+                return allows(properties.at(member.key()), member.value());
             return any_pattern_allows(schema, member.key(), member.value());
         });
     }

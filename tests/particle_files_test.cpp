@@ -202,7 +202,8 @@ TEST(ParticleCsv, RejectsLinesWithMoreOrFewerCells) {
 }
 
 TEST(ParticleCsv, RejectsCellsThatAreNotFiniteNumbers) {
-    for (const char* const bad : {"", "nan", "inf", "1e999", "one", "0x1", "1;2", "1e", "--1", "+-1"})
+    for (const char* const bad :
+         {"", "nan", "inf", "1e999", "one", "0x1", "1;2", "1e", "--1", "+-1"})
         expect_malformed(read_particles_csv(std::string("x,y,z,radius\n1,2,") + bad + ",4\n"),
                          "line 2, column 3", {"z", "finite"});
 }
@@ -314,8 +315,10 @@ TEST(ParticlePly, RejectsHeadersThatAreNot) {
     expect_malformed(read_particles_ply("ply\nformat ascii 1.0\nelement vertex -1\n"), "line 3",
                      {"integer"});
     expect_malformed(read_particles_ply("ply\nproperty float x\n"), "line 2", {"element"});
-    expect_malformed(read_particles_ply(head + "property real q\nend_header\n"), "line 10", {"real"});
-    expect_malformed(read_particles_ply(head + "property float x\nend_header\n"), "line 4", {"twice"});
+    expect_malformed(read_particles_ply(head + "property real q\nend_header\n"), "line 10",
+                     {"real"});
+    expect_malformed(read_particles_ply(head + "property float x\nend_header\n"), "line 4",
+                     {"twice"});
     std::string comments = "ply\n";
     for (int i = 0; i < 100'000; ++i) comments += "comment\n";
     expect_malformed(read_particles_ply(comments), "", {"end_header"});

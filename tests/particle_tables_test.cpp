@@ -54,7 +54,8 @@ Reading file(const std::string& name, std::optional<double> radius = {}) {
     return read_as(*scene_format_of_name(name), bytes_of(name), radius);
 }
 
-void expect_error(const Reading& reading, const std::string& pointer, std::initializer_list<const char*> words) {
+void expect_error(const Reading& reading, const std::string& pointer,
+                  std::initializer_list<const char*> words) {
     ASSERT_FALSE(reading.draft.ok());
     EXPECT_EQ(reading.draft.error().pointer, pointer) << reading.draft.error().message;
     for (const char* const word : words)
@@ -66,8 +67,9 @@ void expect_error(const Reading& reading, const std::string& pointer, std::initi
 
 TEST(FieldFiles, AllOfTheSameParticlesAreRead) {
     for (const char* const name :
-         {"hash.csv", "semi.csv", "slash_header.csv", "tab.csv", "upper.csv", "utf16.csv", "be.ply", "bom.ply",
-          "cr_ascii.ply", "elem_before.ply", "list_in_vertex.ply", "pscale.ply", "width.ply"}) {
+         {"hash.csv", "semi.csv", "slash_header.csv", "tab.csv", "upper.csv", "utf16.csv", "be.ply",
+          "bom.ply", "cr_ascii.ply", "elem_before.ply", "list_in_vertex.ply", "pscale.ply",
+          "width.ply"}) {
         const Reading reading = file(name);
         ASSERT_TRUE(reading.draft.ok()) << name << ": " << reading.draft.error().message;
         ASSERT_EQ(reading.ready().positions.size(), 3u) << name;
@@ -80,10 +82,12 @@ TEST(FieldFiles, AllOfTheSameParticlesAreRead) {
 }
 
 TEST(FieldFiles, ShorterOnesToo) {
-    for (const char* const name : {"semi_deccomma.csv", "trailing_rows.csv", "pdal.csv", "paraview.csv"}) {
+    for (const char* const name :
+         {"semi_deccomma.csv", "trailing_rows.csv", "pdal.csv", "paraview.csv"}) {
         const Reading reading = file(name);
         ASSERT_TRUE(reading.draft.ok()) << name << ": " << reading.draft.error().message;
-        EXPECT_EQ(reading.ready().positions, (std::vector<glm::dvec3>{kPlaces[0], kPlaces[1]})) << name;
+        EXPECT_EQ(reading.ready().positions, (std::vector<glm::dvec3>{kPlaces[0], kPlaces[1]}))
+            << name;
         EXPECT_EQ(reading.ready().radii, (std::vector<float>{0.8f, 0.7f})) << name;
     }
     EXPECT_TRUE(file("semi_deccomma.csv").notes_say("decimal commas"));
@@ -116,18 +120,19 @@ TEST(FieldFiles, SplatsAreGaussiansOfTheirScaleAndOpacity) {
     ASSERT_TRUE(reading.draft.ok()) << reading.draft.error().message;
     EXPECT_TRUE(reading.notes_say("splats"));
     EXPECT_TRUE(validate(*reading.draft).ok());
-    const Reading one = read_as(SceneFormat::kPly,
-                                "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
-                                "property float z\nproperty float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2\n"
-                                "property float opacity\nproperty float scale_0\nproperty float scale_1\n"
-                                "property float scale_2\nproperty float rot_0\nend_header\n"
-                                "1 2 3 1.7724538 0 -9 1.0986123 -1 -2 -3 1\n");
+    const Reading one = read_as(
+        SceneFormat::kPly,
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+        "property float z\nproperty float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2\n"
+        "property float opacity\nproperty float scale_0\nproperty float scale_1\n"
+        "property float scale_2\nproperty float rot_0\nend_header\n"
+        "1 2 3 1.7724538 0 -9 1.0986123 -1 -2 -3 1\n");
     ASSERT_TRUE(one.draft.ok()) << one.draft.error().message;
     const double s = std::exp(-2.0);
     EXPECT_NEAR(static_cast<double>(one.ready().radii[0]), 2 * s, 1e-6);
     // The logit 1.0986 is an opacity of 3/4, which is an optical depth of ln 4.
-    EXPECT_NEAR(static_cast<double>(one.ready().densities[0]) * s * std::sqrt(2 * std::numbers::pi), std::log(4.0),
-                1e-5);
+    EXPECT_NEAR(static_cast<double>(one.ready().densities[0]) * s * std::sqrt(2 * std::numbers::pi),
+                std::log(4.0), 1e-5);
     // 1/2 + 1.7724538 / (2 sqrt(pi)) = 1.
     EXPECT_NEAR(static_cast<double>(one.ready().colors[0].r), 1.0, 1e-6);
     EXPECT_NEAR(static_cast<double>(one.ready().colors[0].g), 0.5, 1e-6);
@@ -137,14 +142,17 @@ TEST(FieldFiles, SplatsAreGaussiansOfTheirScaleAndOpacity) {
 // --- CSV
 
 TEST(TableCsv, QuotesMayHoldSeparatorsLineEndsAndQuotes) {
-    const Reading reading = csv("\"na\"\"me\",x,y,z,\"radius\"\n\"a, \"\"b\"\"\nand c\",\"1\",2,3,\" 4 \"\nplain,5,6,7,8\n");
+    const Reading reading =
+        csv("\"na\"\"me\",x,y,z,\"radius\"\n\"a, \"\"b\"\"\nand c\",\"1\",2,3,\" 4 "
+            "\"\nplain,5,6,7,8\n");
     ASSERT_TRUE(reading.draft.ok()) << reading.draft.error().message;
     EXPECT_EQ(reading.ready().positions, (std::vector<glm::dvec3>{{1, 2, 3}, {5, 6, 7}}));
     EXPECT_EQ(reading.ready().radii, (std::vector<float>{4, 8}));
     expect_error(csv("x,y,z,radius\n1,2,3,4\n1,2,\"3,4\n"), "line 3", {"quote", "not closed"});
     expect_error(csv("x,y,z,radius\n1,2,\"3\"x,4\n"), "line 2", {"closing quote", "3"});
     // After a cell of two lines the count of lines goes on.
-    expect_error(csv("n,x,y,z,radius\n\"a\nb\",1,2,3,4\nc,1,2,3,four\n"), "line 4, column 5", {"radius", "four"});
+    expect_error(csv("n,x,y,z,radius\n\"a\nb\",1,2,3,4\nc,1,2,3,four\n"), "line 4, column 5",
+                 {"radius", "four"});
 }
 
 TEST(TableCsv, AHeaderMayHaveALineEndInItsQuotes) {
@@ -156,10 +164,12 @@ TEST(TableCsv, AHeaderMayHaveALineEndInItsQuotes) {
 TEST(TableCsv, WhateverSeparates) {
     for (const char* const text :
          {"x,y,z,radius\n1,2,3,4\n", "x;y;z;radius\n1;2;3;4\n", "x\ty\tz\tradius\n1\t2\t3\t4\n",
-          "x|y|z|radius\n1|2|3|4\n", "x y z radius\n1  2 3\t4\n", "  x  y  z  radius\n  1.0  2.0  3.0  4.0\n",
-          "//X Y Z R\n1 2 3 4\n", "# comment\n#x;y;z;radius\n1;2;3;4\n", "sep=;\nx;y;z;radius\n1;2;3;4\n",
-          "% x, y, z, radius\n1, 2, 3, 4\n", "x,y,z,radius\r1,2,3,4\r", "\n\nx,y,z,radius\n\n1,2,3,4\n,,,\n",
-          "x,y,z,radius,\n1,2,3,4,\n", "x,y,z,radius\n1,2,3,4,,,\n", "x,y,z,radius\n+1,2.,+3.0,4e0"}) {
+          "x|y|z|radius\n1|2|3|4\n", "x y z radius\n1  2 3\t4\n",
+          "  x  y  z  radius\n  1.0  2.0  3.0  4.0\n", "//X Y Z R\n1 2 3 4\n",
+          "# comment\n#x;y;z;radius\n1;2;3;4\n", "sep=;\nx;y;z;radius\n1;2;3;4\n",
+          "% x, y, z, radius\n1, 2, 3, 4\n", "x,y,z,radius\r1,2,3,4\r",
+          "\n\nx,y,z,radius\n\n1,2,3,4\n,,,\n", "x,y,z,radius,\n1,2,3,4,\n",
+          "x,y,z,radius\n1,2,3,4,,,\n", "x,y,z,radius\n+1,2.,+3.0,4e0"}) {
         const Reading reading = csv(text);
         ASSERT_TRUE(reading.draft.ok()) << text << ": " << reading.draft.error().message;
         EXPECT_EQ(reading.ready().positions, (std::vector<glm::dvec3>{{1, 2, 3}})) << text;
@@ -171,9 +181,11 @@ TEST(TableCsv, DecimalCommasAndPointsDoNotMix) {
     const Reading reading = csv("x\ty\tz\tradius\n1,5\t2\t3\t-,5\n");
     ASSERT_TRUE(reading.draft.ok()) << reading.draft.error().message;
     EXPECT_EQ(reading.ready().radii, (std::vector<float>{-0.5f}));
-    expect_error(csv("x;y;z;radius\n1,5;2;3;4\n1;2.5;3;4\n"), "line 3, column 2", {"decimal comma", "decimal point"});
+    expect_error(csv("x;y;z;radius\n1,5;2;3;4\n1;2.5;3;4\n"), "line 3, column 2",
+                 {"decimal comma", "decimal point"});
     expect_error(csv("x;y;z;radius\n1;2;3;1.234,5\n"), "line 2, column 4", {"radius", "1.234,5"});
-    expect_error(csv("x,y,z,radius\n1,2,3,\"0,8\"\n"), "line 2, column 4", {"radius", "decimal comma", "tab"});
+    expect_error(csv("x,y,z,radius\n1,2,3,\"0,8\"\n"), "line 2, column 4",
+                 {"radius", "decimal comma", "tab"});
 }
 
 TEST(TableCsv, NamesOfOtherToolsAreKnown) {
@@ -197,20 +209,25 @@ TEST(TableCsv, NamesOfOtherToolsAreKnown) {
         EXPECT_EQ(reading.ready().positions, (std::vector<glm::dvec3>{{1, 2, 3}})) << table.header;
         EXPECT_FLOAT_EQ(reading.ready().radii[0], 4) << table.header;
     }
-    for (const char* const names : {"Red,Green,Blue", "R,G,B", "Cd[r],Cd[g],Cd[b]", "Cd.x,Cd.y,Cd.z",
-                                    "diffuse_red,diffuse_green,diffuse_blue", "color_0,color_1,color_2"}) {
-        const Reading reading = csv("x,y,z,radius," + std::string(names) + "\n1,2,3,4,.25,.5,.75\n");
+    for (const char* const names :
+         {"Red,Green,Blue", "R,G,B", "Cd[r],Cd[g],Cd[b]", "Cd.x,Cd.y,Cd.z",
+          "diffuse_red,diffuse_green,diffuse_blue", "color_0,color_1,color_2"}) {
+        const Reading reading =
+            csv("x,y,z,radius," + std::string(names) + "\n1,2,3,4,.25,.5,.75\n");
         ASSERT_TRUE(reading.draft.ok()) << names;
         EXPECT_EQ(reading.ready().colors, (std::vector<glm::vec3>{{0.25f, 0.5f, 0.75f}})) << names;
     }
-    for (const char* const name : {"id", "vx", "temperature", "time", "", "intensity", "normal_x", "scale_x"})
+    for (const char* const name :
+         {"id", "vx", "temperature", "time", "", "intensity", "normal_x", "scale_x"})
         EXPECT_FALSE(known_name(name)) << name;
 }
 
 TEST(TableCsv, WhatIsNotUsedIsSaid) {
-    EXPECT_TRUE(csv("x,y,z,radius,Temperature,vx\n1,2,3,4,5,6\n").notes_say("not used: \"Temperature\", \"vx\""));
+    EXPECT_TRUE(csv("x,y,z,radius,Temperature,vx\n1,2,3,4,5,6\n")
+                    .notes_say("not used: \"Temperature\", \"vx\""));
     EXPECT_TRUE(csv("x,y,z,radius,width\n1,2,3,4,5\n").notes_say("not used: \"width\""));
-    EXPECT_TRUE(csv("x,y,z,radius,density,opacity\n1,2,3,4,5,.5\n").notes_say("not used: \"opacity\""));
+    EXPECT_TRUE(
+        csv("x,y,z,radius,density,opacity\n1,2,3,4,5,.5\n").notes_say("not used: \"opacity\""));
     EXPECT_TRUE(csv("x,y,z,radius\n1,2,3,4\n", 2.0).notes_say("not used: \"radius\""));
     EXPECT_TRUE(csv("x,y,z,radius,density\n1,2,3,4,5\n").notes.empty());
 }
@@ -221,7 +238,8 @@ TEST(TableCsv, OpacityIsADepthThroughTheMiddle) {
     const double per_depth = std::sqrt(2 * std::numbers::pi);
     EXPECT_EQ(reading.ready().densities[0], 0);
     EXPECT_NEAR(static_cast<double>(reading.ready().densities[1]) * per_depth, std::log(2.0), 1e-6);
-    EXPECT_NEAR(static_cast<double>(reading.ready().densities[2]) * per_depth, std::log(510.0), 1e-5);
+    EXPECT_NEAR(static_cast<double>(reading.ready().densities[2]) * per_depth, std::log(510.0),
+                1e-5);
     expect_error(csv("x,y,z,radius,opacity\n0,0,0,2,1.5\n"), "line 2", {"opacity", "0 to 1"});
 }
 
@@ -259,14 +277,15 @@ void put(std::string& out, T value, bool big_endian) {
 TEST(FormsOfPly, ListsAndElementsAnywhereInBinaryOfEitherOrder) {
     for (const bool big : {false, true})
         for (const char* const end : {"\n", "\r\n", "\r"}) {
-            std::string bytes = "ply\nformat binary_" + std::string(big ? "big" : "little") +
-                                "_endian 1.0\nobj_info made by a scanner\nelement camera 2\n"
-                                "property list uchar short grid\nproperty double t\nelement empty 1000000000000\n"
-                                "element vertex 2\nproperty list ushort float near\nproperty float x\n"
-                                "property double y\nproperty short z\nproperty uchar diffuse_red\n"
-                                "property uchar diffuse_green\nproperty uchar diffuse_blue\n"
-                                "property list int uchar far\nproperty float radius\nelement face 1\n"
-                                "property list uchar int vertex_indices\nend_header\n";
+            std::string bytes =
+                "ply\nformat binary_" + std::string(big ? "big" : "little") +
+                "_endian 1.0\nobj_info made by a scanner\nelement camera 2\n"
+                "property list uchar short grid\nproperty double t\nelement empty 1000000000000\n"
+                "element vertex 2\nproperty list ushort float near\nproperty float x\n"
+                "property double y\nproperty short z\nproperty uchar diffuse_red\n"
+                "property uchar diffuse_green\nproperty uchar diffuse_blue\n"
+                "property list int uchar far\nproperty float radius\nelement face 1\n"
+                "property list uchar int vertex_indices\nend_header\n";
             std::string head;
             for (const char c : bytes) head += c == '\n' ? end : std::string(1, c);
             bytes = head;
@@ -281,7 +300,8 @@ TEST(FormsOfPly, ListsAndElementsAnywhereInBinaryOfEitherOrder) {
                 put(bytes, 1.5f + static_cast<float>(i), big);
                 put(bytes, -2.25, big);
                 put<std::int16_t>(bytes, 300, big);
-                for (const int c : {255, 0, 51}) put<std::uint8_t>(bytes, static_cast<std::uint8_t>(c), big);
+                for (const int c : {255, 0, 51})
+                    put<std::uint8_t>(bytes, static_cast<std::uint8_t>(c), big);
                 put<std::int32_t>(bytes, 3, big);
                 bytes += "abc";
                 put(bytes, 0.125f, big);
@@ -290,8 +310,10 @@ TEST(FormsOfPly, ListsAndElementsAnywhereInBinaryOfEitherOrder) {
             put<std::int32_t>(bytes, 0, big);
             bytes += '\n';
             const Reading reading = read_as(SceneFormat::kPly, bytes);
-            ASSERT_TRUE(reading.draft.ok()) << reading.draft.error().pointer << reading.draft.error().message;
-            EXPECT_EQ(reading.ready().positions, (std::vector<glm::dvec3>{{1.5, -2.25, 300}, {2.5, -2.25, 300}}));
+            ASSERT_TRUE(reading.draft.ok())
+                << reading.draft.error().pointer << reading.draft.error().message;
+            EXPECT_EQ(reading.ready().positions,
+                      (std::vector<glm::dvec3>{{1.5, -2.25, 300}, {2.5, -2.25, 300}}));
             EXPECT_EQ(reading.ready().radii, (std::vector<float>{0.125f, 0.125f}));
             EXPECT_EQ(reading.ready().colors, (std::vector<glm::vec3>{{1, 0, 0.2f}, {1, 0, 0.2f}}));
         }
@@ -299,25 +321,32 @@ TEST(FormsOfPly, ListsAndElementsAnywhereInBinaryOfEitherOrder) {
 
 TEST(FormsOfPly, ListsThatClaimMuchCostNothing) {
     const std::string head =
-        "ply\nformat binary_little_endian 1.0\nelement e 4000000000\nproperty list uint double l\nelement vertex 1\n"
+        "ply\nformat binary_little_endian 1.0\nelement e 4000000000\nproperty list uint double "
+        "l\nelement vertex 1\n"
         "property float x\nproperty float y\nproperty float z\nproperty float radius\nend_header\n";
-    expect_error(read_as(SceneFormat::kPly, head + "\xff\xff\xff\xff" + std::string(64, '\0')), "", {"\"e\"", "for 0"});
+    expect_error(read_as(SceneFormat::kPly, head + "\xff\xff\xff\xff" + std::string(64, '\0')), "",
+                 {"\"e\"", "for 0"});
     expect_error(read_as(SceneFormat::kPly, head + std::string(64, '\0')), "", {"\"e\"", "for 16"});
     std::string signed_list = head;
     signed_list.replace(signed_list.find("uint"), 4, "int ");
-    expect_error(read_as(SceneFormat::kPly, signed_list + "\xff\xff\xff\xff" + std::string(64, '\0')), "", {"for 0"});
+    expect_error(
+        read_as(SceneFormat::kPly, signed_list + "\xff\xff\xff\xff" + std::string(64, '\0')), "",
+        {"for 0"});
 }
 
 TEST(FormsOfPly, WhatIsNoParticleIsSaid) {
-    expect_error(read_as(SceneFormat::kPly, "ply\nformat ascii 1.0\nelement face 0\nend_header\n"), "",
-                 {"vertex", "\"face\""});
-    expect_error(read_as(SceneFormat::kPly, "ply\nformat ascii 1.0\nelement vertex 1\nproperty list uchar float x\n"
-                                            "property float y\nproperty float z\nproperty float radius\nend_header\n"),
+    expect_error(read_as(SceneFormat::kPly, "ply\nformat ascii 1.0\nelement face 0\nend_header\n"),
+                 "", {"vertex", "\"face\""});
+    expect_error(read_as(SceneFormat::kPly,
+                         "ply\nformat ascii 1.0\nelement vertex 1\nproperty list uchar float x\n"
+                         "property float y\nproperty float z\nproperty float radius\nend_header\n"),
                  "line 3", {"\"x\"", "list"});
-    expect_error(read_as(SceneFormat::kPly, "ply\nformat ascii 1.0\nelement vertex 1\nproperty uint packed_position\n"
-                                            "end_header\n0\n"),
+    expect_error(read_as(SceneFormat::kPly,
+                         "ply\nformat ascii 1.0\nelement vertex 1\nproperty uint packed_position\n"
+                         "end_header\n0\n"),
                  "", {"packed"});
-    expect_error(read_as(SceneFormat::kPly, "ply\nformat ascii 1.0\nelement vertex 1\nproperty list float float x\n"),
+    expect_error(read_as(SceneFormat::kPly,
+                         "ply\nformat ascii 1.0\nelement vertex 1\nproperty list float float x\n"),
                  "line 4", {"length", "integer", "\"float\""});
 }
 

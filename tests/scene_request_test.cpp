@@ -17,7 +17,8 @@ using SceneRequestTest = ServiceTest;
 
 constexpr const char* kTable = "X;Y;Z;Width;Mass\n0;0;0;1;7\n1;0;0;1;7\n";
 
-Response ask(Service& service, const std::string& path, Query query, const std::string& body = kScene,
+Response ask(Service& service, const std::string& path, Query query,
+             const std::string& body = kScene,
              Headers headers = {{"Content-Type", "application/json"}}) {
     Request request = make_request("POST", path, body, std::move(headers));
     request.query = std::move(query);
@@ -47,8 +48,10 @@ TEST_F(SceneRequestTest, AQueryTakesThePlaceOfTheDocument) {
     // The size of a PNG stands at byte 16.
     EXPECT_EQ(wide.body.substr(16, 8), std::string("\0\0\0\x20\0\0\0\x14", 8));
     EXPECT_NE(wide.header("ETag"), plain.header("ETag"));
-    EXPECT_EQ(ask(service, "/v1/render", {{"format", "exr"}}).header("Content-Type"), "image/x-exr");
-    EXPECT_EQ(ask(service, "/v1/particles", {{"format", "csv"}}).header("Content-Type"), "text/csv");
+    EXPECT_EQ(ask(service, "/v1/render", {{"format", "exr"}}).header("Content-Type"),
+              "image/x-exr");
+    EXPECT_EQ(ask(service, "/v1/particles", {{"format", "csv"}}).header("Content-Type"),
+              "text/csv");
     const Response other = ask(service, "/v1/particles", {{"seed", "8"}});
     EXPECT_NE(other.body.find("\"seed\":8"), std::string::npos);
     EXPECT_EQ(ask(service, "/v1/plan", {{"rung", "transport-16"}}).status, 200);
@@ -69,14 +72,15 @@ TEST_F(SceneRequestTest, AQueryIsNeverIgnored) {
 }
 
 TEST_F(SceneRequestTest, TablesAreReadAndWhatWasTakenForWhatIsSaid) {
-    const Response response = ask(service, "/v1/particles", {{"format", "csv"}}, kTable, {{"Content-Type", "text/csv"}});
+    const Response response =
+        ask(service, "/v1/particles", {{"format", "csv"}}, kTable, {{"Content-Type", "text/csv"}});
     ASSERT_EQ(response.status, 200) << response.body;
     EXPECT_EQ(response.body.substr(response.body.find('\n') + 1, 9), "0,0,0,0.5");
     EXPECT_NE(response.header("Awan-Notes").find("widths"), std::string::npos);
     EXPECT_NE(response.header("Awan-Notes").find("not used: \"Mass\""), std::string::npos);
     EXPECT_EQ(post("/v1/particles").header("Awan-Notes"), "");
-    const Response bare = ask(service, "/v1/particles", {{"radius", ".25"}, {"format", "csv"}}, "x,y,z\n1,2,3\n",
-                              {{"Content-Type", "text/csv"}});
+    const Response bare = ask(service, "/v1/particles", {{"radius", ".25"}, {"format", "csv"}},
+                              "x,y,z\n1,2,3\n", {{"Content-Type", "text/csv"}});
     ASSERT_EQ(bare.status, 200) << bare.body;
     EXPECT_NE(bare.body.find("1,2,3,0.25"), std::string::npos);
 }
@@ -92,11 +96,13 @@ TEST_F(SceneRequestTest, AnAnswerComesBackIn) {
 TEST_F(SceneRequestTest, TypesHaveOtherNames) {
     EXPECT_EQ(post("/v1/plan", kScene, {}, "application/vnd.awan+json").status, 200);
     EXPECT_EQ(post("/v1/plan", kScene, {}, "text/json; charset=utf-8").status, 200);
-    const std::string ply = whole_body(post("/v1/particles", kScene, {{"Accept", "application/ply"}}));
+    const std::string ply =
+        whole_body(post("/v1/particles", kScene, {{"Accept", "application/ply"}}));
     EXPECT_EQ(ply.substr(0, 4), "ply\n");
     for (const char* const type : {"application/ply", "model/ply", "application/x-ply"})
         EXPECT_EQ(post("/v1/particles", ply, {}, type).status, 200) << type;
-    EXPECT_EQ(post("/v1/render", kScene, {{"Accept", "image/openexr"}}).header("Content-Type"), "image/x-exr");
+    EXPECT_EQ(post("/v1/render", kScene, {{"Accept", "image/openexr"}}).header("Content-Type"),
+              "image/x-exr");
     expect_problem(post("/v1/plan", kScene, {}, "application/xml"), 415);
 }
 
@@ -115,7 +121,8 @@ TEST_F(SceneRequestTest, ASlashTooManyIsAnotherPath) {
 
 TEST_F(SceneRequestTest, PackedBodiesAreTakenAndBounded) {
     const Headers packed = {{"Content-Encoding", "gzip"}};
-    EXPECT_EQ(whole_body(post("/v1/particles", gzip(kScene), packed)), whole_body(post("/v1/particles")));
+    EXPECT_EQ(whole_body(post("/v1/particles", gzip(kScene), packed)),
+              whole_body(post("/v1/particles")));
     expect_problem(post("/v1/particles", kScene, packed), 400);
     // A hundred million blanks in a hundred thousand bytes.
     expect_problem(post("/v1/particles", gzip(std::string(110u << 20, ' ')), packed), 413);
@@ -131,23 +138,27 @@ TEST_F(SceneRequestTest, AnswersArePackedForThoseWhoTakeThem) {
     EXPECT_EQ(*gunzip(packed.body, 1 << 20), plain.body);
     for (const Response* const known : {&plain, &packed})
         EXPECT_EQ(post("/v1/particles", kScene,
-                       {{"If-None-Match", std::string(known->header("ETag"))}, {"Accept-Encoding", "gzip"}})
+                       {{"If-None-Match", std::string(known->header("ETag"))},
+                        {"Accept-Encoding", "gzip"}})
                       .status,
                   304);
     // Pictures are packed already.
     EXPECT_EQ(post("/v1/render", kScene, takes).header("Content-Encoding"), "");
     EXPECT_EQ(get("/openapi.json", takes).header("Content-Encoding"), "gzip");
     // Long answers come in pieces.
-    const std::string many = R"({"cubes":[{"particles":20000,"size":[2,1,2],"center":[0,0,0],"radius":0.5}]})";
+    const std::string many =
+        R"({"cubes":[{"particles":20000,"size":[2,1,2],"center":[0,0,0],"radius":0.5}]})";
     const Response stream = post("/v1/particles", many, takes);
     ASSERT_TRUE(stream.stream);
     EXPECT_EQ(*gunzip(whole_body(stream), 1 << 24), whole_body(post("/v1/particles", many)));
 }
 
 TEST(TakesGzip, ByQuality) {
-    for (const char* const yes : {"gzip", "GZIP", "br, gzip;q=0.5", "*", "x-gzip", "deflate, *;q=0.1"})
+    for (const char* const yes :
+         {"gzip", "GZIP", "br, gzip;q=0.5", "*", "x-gzip", "deflate, *;q=0.1"})
         EXPECT_TRUE(takes_gzip(yes)) << yes;
-    for (const char* const no : {"", "br", "gzip;q=0", "*, gzip;q=0", "identity", "gzippy", "*;q=0"})
+    for (const char* const no :
+         {"", "br", "gzip;q=0", "*, gzip;q=0", "identity", "gzippy", "*;q=0"})
         EXPECT_FALSE(takes_gzip(no)) << no;
 }
 
@@ -155,28 +166,32 @@ TEST(TakesGzip, ByQuality) {
 
 TEST_F(SceneRequestTest, FormsCarryASceneAndTheQuerysNames) {
     const std::string multipart =
-        "preamble\r\n--xx\r\nContent-Disposition: form-data; name=\"scene\"; filename=\"a;b.csv\"\r\n"
+        "preamble\r\n--xx\r\nContent-Disposition: form-data; name=\"scene\"; "
+        "filename=\"a;b.csv\"\r\n"
         "Content-Type: application/octet-stream\r\n\r\nx,y,z\r\n0,0,0\r\n\r\n--xx\r\n"
         "Content-Disposition: form-data; name=radius\r\n\r\n.5\r\n--xx\r\n"
         "content-disposition: form-data; name=\"width\"\r\n\r\n\r\n--xx--\r\n";
-    const Response files =
-        ask(service, "/v1/particles", {{"format", "csv"}}, multipart, {{"Content-Type", "multipart/form-data; boundary=xx"}});
+    const Response files = ask(service, "/v1/particles", {{"format", "csv"}}, multipart,
+                               {{"Content-Type", "multipart/form-data; boundary=xx"}});
     ASSERT_EQ(files.status, 200) << files.body;
     EXPECT_NE(files.body.find("0,0,0,0.5"), std::string::npos);
 
     std::string encoded = "seed=8&scene=";
-    for (const char c : std::string(kScene)) encoded += c == '"' ? "%22" : c == ' ' ? "+" : std::string(1, c);
+    for (const char c : std::string(kScene))
+        encoded += c == '"' ? "%22" : c == ' ' ? "+" : std::string(1, c);
     const Headers urlencoded = {{"Content-Type", "application/x-www-form-urlencoded"}};
     const Response field = ask(service, "/v1/particles", {}, encoded, urlencoded);
     ASSERT_EQ(field.status, 200) << field.body;
     EXPECT_EQ(whole_body(field), whole_body(ask(service, "/v1/particles", {{"seed", "8"}})));
-    const Response layout = ask(service, "/v1/particles", {}, "layout=20%0A1%0A20+2+1+2+0+0+0+.5", urlencoded);
+    const Response layout =
+        ask(service, "/v1/particles", {}, "layout=20%0A1%0A20+2+1+2+0+0+0+.5", urlencoded);
     EXPECT_EQ(layout.status, 200) << layout.body;
 }
 
 TEST_F(SceneRequestTest, FormsThatCannotBeAreRefused) {
     const Headers urlencoded = {{"Content-Type", "application/x-www-form-urlencoded"}};
-    const auto refused = [&](const std::string& body, const std::string& word, const Headers& headers) {
+    const auto refused = [&](const std::string& body, const std::string& word,
+                             const Headers& headers) {
         const Response response = ask(service, "/v1/particles", {}, body, headers);
         expect_problem(response, 400);
         EXPECT_NE(response.body.find(word), std::string::npos) << response.body;
@@ -191,14 +206,16 @@ TEST_F(SceneRequestTest, FormsThatCannotBeAreRefused) {
     std::string many;
     for (int i = 0; i < 100; ++i) many += "width=&";
     refused(many, "64", urlencoded);
-    const auto multipart = [&](const std::string& body, const std::string& word, const std::string& boundary = "xx") {
+    const auto multipart = [&](const std::string& body, const std::string& word,
+                               const std::string& boundary = "xx") {
         refused(body, word, {{"Content-Type", "multipart/form-data; boundary=" + boundary}});
     };
     multipart("--xx", "behind a boundary");
     multipart("", "boundary");
     multipart("--xx--\r\n", "`scene`");
     multipart("--xx\r\nContent-Disposition: form-data; name=\"scene\"\r\n\r\n{}", "no end");
-    multipart("--xx\r\nContent-Disposition: form-data; name=\"scene\"\r\n--xx--", "no end of its head");
+    multipart("--xx\r\nContent-Disposition: form-data; name=\"scene\"\r\n--xx--",
+              "no end of its head");
     multipart("--xx\r\n\r\n{}\r\n--xx--", "no name");
     multipart("{}", "boundary", "");
 }

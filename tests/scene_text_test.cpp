@@ -63,14 +63,18 @@ TEST(SceneText, Utf16OfEitherOrderIsRead) {
     const auto letters = from_utf16(std::string_view("\xFF\xFE\xE9\0\x3D\xD8\x00\xDE\xF1\x96", 10));
     ASSERT_TRUE(letters.ok());
     EXPECT_EQ(**letters, "é😀雱");
-    EXPECT_FALSE(**from_utf16("{\"cubes\":[]}") == "x" || from_utf16("{\"cubes\":[]}")->has_value());
+    EXPECT_FALSE(**from_utf16("{\"cubes\":[]}") == "x" ||
+                 from_utf16("{\"cubes\":[]}")->has_value());
 }
 
 TEST(SceneText, BrokenEncodingsAreNamed) {
     using namespace std::string_literals;
-    EXPECT_NE(message_of(read_scene(SceneFormat::kJson, "\xFF\xFE\0\0{\0\0\0"s)).find("UTF-32"), std::string::npos);
-    EXPECT_NE(message_of(read_scene(SceneFormat::kCsv, "\xFF\xFEx"s)).find("breaks off"), std::string::npos);
-    EXPECT_NE(message_of(read_scene(SceneFormat::kJson, "\xFF\xFE\x3D\xD8"s)).find("half a letter"), std::string::npos);
+    EXPECT_NE(message_of(read_scene(SceneFormat::kJson, "\xFF\xFE\0\0{\0\0\0"s)).find("UTF-32"),
+              std::string::npos);
+    EXPECT_NE(message_of(read_scene(SceneFormat::kCsv, "\xFF\xFEx"s)).find("breaks off"),
+              std::string::npos);
+    EXPECT_NE(message_of(read_scene(SceneFormat::kJson, "\xFF\xFE\x3D\xD8"s)).find("half a letter"),
+              std::string::npos);
 }
 
 TEST(SceneText, AByteOrderMarkBeforeAnyTextIsNothing) {
@@ -88,8 +92,10 @@ TEST(SceneText, GzipIsBounded) {
     EXPECT_EQ(*gunzip(packed, 200'000), text);
     EXPECT_EQ(*gunzip(packed + packed, 400'000), text + text);
     EXPECT_EQ(gunzip(packed, 199'999).error().code, ErrorCode::kTooLarge);
-    EXPECT_EQ(gunzip(packed.substr(0, packed.size() / 2), 1 << 20).error().code, ErrorCode::kMalformed);
-    EXPECT_EQ(gunzip(packed.substr(0, packed.size() - 1), 1 << 20).error().code, ErrorCode::kMalformed);
+    EXPECT_EQ(gunzip(packed.substr(0, packed.size() / 2), 1 << 20).error().code,
+              ErrorCode::kMalformed);
+    EXPECT_EQ(gunzip(packed.substr(0, packed.size() - 1), 1 << 20).error().code,
+              ErrorCode::kMalformed);
     EXPECT_EQ(gunzip(packed + "x", 1 << 20).error().code, ErrorCode::kMalformed);
     std::string damaged = packed;
     damaged[packed.size() - 6] = static_cast<char>(damaged[packed.size() - 6] ^ 1);
@@ -105,22 +111,25 @@ TEST(SceneText, KeysOfOnesOwnAreLeftAlone) {
         R"({"$schema":"./scene.schema.json","name":"mine","_made":{"by":["a",{"b":null}],"when":1e3,"ok":true},)"
         R"("description":"a cloud","cubes":[{"name":"left puff","_":[[],{}],"particles":50,"size":[4,2,3],)"
         R"("center":[0,0,0],"radius":0.8,"name":"twice"}],"sun":{"_note":"low","elevation":12},)"
-        R"("camera":{"description":false,"fov":40}})");
+        R"("image":{"description":false,"width":40}})");
     ASSERT_TRUE(draft.ok()) << message_of(draft);
     EXPECT_EQ(draft->sun.elevation, 12);
     EXPECT_EQ(draft->clouds[0].cubes[0].particles, 50u);
-    const auto bare = parse_scene(scene_of(R"(,"sun":{"elevation":12},"camera":{"fov":40})"));
+    const auto bare = parse_scene(scene_of(R"(,"sun":{"elevation":12},"image":{"width":40})"));
     EXPECT_EQ(scene_to_json(*draft), scene_to_json(*bare));
 }
 
 TEST(SceneText, OtherKeysAreNot) {
     EXPECT_EQ(message_of(parse_scene(scene_of(R"(,"names":1)"))).substr(0, 7), "/names ");
     EXPECT_EQ(message_of(parse_scene(scene_of(R"(,"count":1)"))).substr(0, 7), "/count ");
-    EXPECT_EQ(message_of(parse_scene(scene_of(R"(,"sun":{"count":1})"))).substr(0, 11), "/sun/count ");
+    EXPECT_EQ(message_of(parse_scene(scene_of(R"(,"sun":{"count":1})"))).substr(0, 11),
+              "/sun/count ");
     // What nobody reads may not be deep either.
     const std::string deep(100'000, '[');
-    EXPECT_NE(message_of(parse_scene(scene_of(R"(,"_":)" + deep))).find("nested deeper"), std::string::npos);
-    EXPECT_NE(message_of(parse_scene(R"({"_":{"a":[})")).find("not JSON at line 1, column 12"), std::string::npos);
+    EXPECT_NE(message_of(parse_scene(scene_of(R"(,"_":)" + deep))).find("nested deeper"),
+              std::string::npos);
+    EXPECT_NE(message_of(parse_scene(R"({"_":{"a":[})")).find("not JSON at line 1, column 12"),
+              std::string::npos);
 }
 
 // --- answers that come back
@@ -134,7 +143,8 @@ TEST(SceneText, AnAnswerOfParticlesIsAScene) {
     text += particles_json_tail();
     // As it is, and spread over lines, which is not read ahead.
     std::string spread;
-    for (const char c : text) spread += c == '{' || c == ',' ? std::string(1, c) + "\n " : std::string(1, c);
+    for (const char c : text)
+        spread += c == '{' || c == ',' ? std::string(1, c) + "\n " : std::string(1, c);
     for (const std::string& answer : {text, spread}) {
         const auto draft = parse_scene(answer);
         ASSERT_TRUE(draft.ok()) << message_of(draft);
@@ -158,42 +168,52 @@ TEST(SceneText, AnAnswerOfParticlesIsAScene) {
 
 TEST(SceneText, AnAnswersMistakesHaveTheirPlace) {
     const auto with = [](const std::string& particle) {
-        return message_of(parse_scene(R"({"particles":[{"center":[0,0,0],"radius":1,"density":1,"color":[1,1,1]},)" +
-                                      particle + "]}"));
+        return message_of(parse_scene(
+            R"({"particles":[{"center":[0,0,0],"radius":1,"density":1,"color":[1,1,1]},)" +
+            particle + "]}"));
     };
     EXPECT_EQ(with(R"({"center":[0,0,0],"radius":2,"density":1})"), "");
-    EXPECT_EQ(with(R"({"center":[0,0,0],"radius":0,"density":1})").substr(0, 20), "/particles/1/radius ");
-    EXPECT_EQ(with(R"({"center":[0,0],"radius":1,"density":1})").substr(0, 20), "/particles/1/center ");
+    EXPECT_EQ(with(R"({"center":[0,0,0],"radius":0,"density":1})").substr(0, 20),
+              "/particles/1/radius ");
+    EXPECT_EQ(with(R"({"center":[0,0],"radius":1,"density":1})").substr(0, 20),
+              "/particles/1/center ");
     EXPECT_EQ(with(R"({"center":[0,0,0],"radius":1})").substr(0, 13), "/particles/1 ");
-    EXPECT_EQ(with(R"({"center":[0,0,0],"radius":1,"density":1,"mass":2})").substr(0, 18), "/particles/1/mass ");
+    EXPECT_EQ(with(R"({"center":[0,0,0],"radius":1,"density":1,"mass":2})").substr(0, 18),
+              "/particles/1/mass ");
     EXPECT_EQ(with(R"({"center":[0,0,0],"radius":1,"density":1,"color":[2,0,0]})").substr(0, 20),
               "/particles/1/color/0");
     EXPECT_EQ(with("7").substr(0, 13), "/particles/1 ");
-    EXPECT_EQ(message_of(parse_scene(R"({"particles":[],"cubes":[]})")).substr(0, 11), "/particles ");
+    EXPECT_EQ(message_of(parse_scene(R"({"particles":[],"cubes":[]})")).substr(0, 11),
+              "/particles ");
 }
 
 // --- what is not JSON
 
 TEST(SceneText, WhatIsNotJsonHasALineAndAColumn) {
     const auto said = [](const std::string& text) { return message_of(parse_scene(text)); };
-    EXPECT_NE(said("// my cloud\n{}").find("line 1, column 1: "), std::string::npos) << said("// my cloud\n{}");
+    EXPECT_NE(said("// my cloud\n{}").find("line 1, column 1: "), std::string::npos)
+        << said("// my cloud\n{}");
     EXPECT_NE(said("// my cloud\n{}").find("no comments"), std::string::npos);
     const std::string trailing = "{\n  \"cubes\": [\n    {\"particles\": 1, }\n]}";
-    EXPECT_NE(said(trailing).find("line 3, column 21: "), std::string::npos) << said(trailing);
+    EXPECT_NE(said(trailing).find("line 3, column 22: "), std::string::npos) << said(trailing);
     EXPECT_NE(said(trailing).find("no comma may stand before }"), std::string::npos);
     EXPECT_NE(said("{'cubes':[]}").find("double quotes"), std::string::npos);
     EXPECT_NE(said("{\"fill\":NaN}").find("no NaN"), std::string::npos) << said("{\"fill\":NaN}");
     EXPECT_NE(said("{cubes:[]}").find("double quotes"), std::string::npos);
     EXPECT_NE(said("{\"seed\":+1}").find("as 1, -1"), std::string::npos);
-    EXPECT_NE(said("{\n\"cubes\":[").find("line 2, column 10: "), std::string::npos) << said("{\n\"cubes\":[");
+    EXPECT_NE(said("{\n\"cubes\":[").find("line 2, column 10: "), std::string::npos)
+        << said("{\n\"cubes\":[");
     // Columns count letters.
-    EXPECT_NE(said("{\"_\":\"雲雲\" x}").find("column 11: "), std::string::npos) << said("{\"_\":\"雲雲\" x}");
+    EXPECT_NE(said("{\"_\":\"雲雲\" x}").find("column 11: "), std::string::npos)
+        << said("{\"_\":\"雲雲\" x}");
 }
 
 TEST(SceneText, QuotedTextSurvives) {
-    EXPECT_NE(message_of(parse_scene(scene_of(R"(,"fill":"größer")"))).find("\"größer\""), std::string::npos);
+    EXPECT_NE(message_of(parse_scene(scene_of(R"(,"fill":"größer")"))).find("\"größer\""),
+              std::string::npos);
     EXPECT_NE(message_of(parse_scene(scene_of(R"(,"雲":1)"))).find("\"雲\""), std::string::npos);
-    EXPECT_NE(message_of(parse_scene(scene_of(R"(,"a\u001bb":1)"))).find("\"a\\x1Bb\""), std::string::npos);
+    EXPECT_NE(message_of(parse_scene(scene_of(R"(,"a\u001bb":1)"))).find("\"a\\x1Bb\""),
+              std::string::npos);
 }
 
 // --- values in place of the document's
@@ -205,12 +225,13 @@ TEST(SetInScene, PutsAValueAtAPlace) {
     EXPECT_FALSE(set_in_scene("/cubes/-", kCube, draft));
     EXPECT_FALSE(set_in_scene("/fill", "gardner", draft));
     EXPECT_FALSE(set_in_scene("/sky", "none", draft));
-    EXPECT_FALSE(set_in_scene("/camera/eye", "[0,1,20]", draft));
+    EXPECT_FALSE(set_in_scene("/camera", R"({"eye":[0,1,20],"target":[0,0,0]})", draft));
     EXPECT_EQ(draft.sun.elevation, 12);
     ASSERT_EQ(draft.clouds[0].cubes.size(), 2u);
     EXPECT_EQ(draft.clouds[0].cubes[0].radius, 0.5);
     EXPECT_EQ(draft.fill, Fill::kGardner);
-    EXPECT_EQ(draft.camera.eye, glm::dvec3(0, 1, 20));
+    EXPECT_FALSE(set_in_scene("/camera/eye/2", "30", draft));
+    EXPECT_EQ(draft.camera.eye, glm::dvec3(0, 1, 30));
     EXPECT_TRUE(validate(draft).ok());
 }
 
@@ -230,7 +251,8 @@ TEST(SetInScene, SaysWhatCannotBe) {
 }
 
 TEST(SetInScene, ManyParticlesStayAsTheyAre) {
-    SceneDraft draft = *parse_scene(R"({"clouds":[{"model":"particles","positions":[[1,2,3]],"radii":[2]}]})");
+    SceneDraft draft =
+        *parse_scene(R"({"clouds":[{"model":"particles","positions":[[1,2,3]],"radii":[2]}]})");
     ReadyParticles& ready = draft.clouds[0].ready;
     ready.positions.assign(200'000, {1, 2, 3});
     ready.radii.assign(200'000, 2.5f);
@@ -242,8 +264,13 @@ TEST(SetInScene, ManyParticlesStayAsTheyAre) {
 TEST(Overrides, AreReadAndRefusedByName) {
     using Query = std::vector<std::pair<std::string, std::string>>;
     const auto read = [](const Query& query) { return read_overrides(query); };
-    const auto all = read({{"width", "64"}, {"height", "48"}, {"format", "exr"}, {"background", "transparent"},
-                           {"seed", "9"}, {"rung", "harris"}, {"radius", ".5"}});
+    const auto all = read({{"width", "64"},
+                           {"height", "48"},
+                           {"format", "exr"},
+                           {"background", "transparent"},
+                           {"seed", "9"},
+                           {"rung", "harris"},
+                           {"radius", ".5"}});
     ASSERT_TRUE(all.ok()) << all.error().message;
     SceneDraft draft = *parse_scene(scene_of(R"(,"accuracy":{"error":0.1})"));
     override_scene(*all, draft);
@@ -254,23 +281,34 @@ TEST(Overrides, AreReadAndRefusedByName) {
     EXPECT_EQ(draft.seed, 9u);
     EXPECT_EQ(draft.accuracy.rung, "harris");
     EXPECT_FALSE(draft.accuracy.error);
-    for (const Query& wrong :
-         {Query{{"width", "0"}}, {{"width", "9000"}}, {{"width", "wide"}}, {{"height", ""}}, {{"background", "blue"}},
-          {{"seed", "-1"}}, {{"error", "0"}}, {{"time_ms", "nan"}}, {{"rung", "best"}}, {{"radius", "-1"}},
-          {{"width", "1"}, {"width", "1"}}, {{"error", ".1"}, {"rung", "harris"}}}) {
+    for (const Query& wrong : {Query{{"width", "0"}},
+                               {{"width", "9000"}},
+                               {{"width", "wide"}},
+                               {{"height", ""}},
+                               {{"background", "blue"}},
+                               {{"seed", "-1"}},
+                               {{"error", "0"}},
+                               {{"time_ms", "nan"}},
+                               {{"rung", "best"}},
+                               {{"radius", "-1"}},
+                               {{"width", "1"}, {"width", "1"}},
+                               {{"error", ".1"}, {"rung", "harris"}}}) {
         const auto result = read(wrong);
         ASSERT_FALSE(result.ok()) << wrong[0].first;
-        EXPECT_NE(result.error().message.find(wrong[0].first), std::string::npos) << result.error().message;
+        EXPECT_NE(result.error().message.find(wrong[0].first), std::string::npos)
+            << result.error().message;
     }
 }
 
 TEST(Overrides, ARadiusIsForReadyParticles) {
     const auto draft = read_scene(
-        SceneFormat::kJson, R"({"clouds":[{"model":"particles","positions":[[1,2,3]],"radii":[2]}]})", {0.25, nullptr});
+        SceneFormat::kJson,
+        R"({"clouds":[{"model":"particles","positions":[[1,2,3]],"radii":[2]}]})", {0.25, nullptr});
     ASSERT_TRUE(draft.ok());
     EXPECT_EQ(draft->clouds[0].ready.radii, (std::vector<float>{0.25f}));
-    EXPECT_NE(message_of(read_scene(SceneFormat::kJson, scene_of(""), {0.25, nullptr})).find("radius"),
-              std::string::npos);
+    EXPECT_NE(
+        message_of(read_scene(SceneFormat::kJson, scene_of(""), {0.25, nullptr})).find("radius"),
+        std::string::npos);
 }
 
 }  // namespace

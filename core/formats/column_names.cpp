@@ -6,8 +6,9 @@ namespace awan {
 namespace {
 
 constexpr std::array<const char*, kSaysCount> kNames = {
-    "x",       "y",       "z",       "radius",  "width",   "radius_x", "radius_y", "radius_z", "scale_0", "scale_1",
-    "scale_2", "density", "opacity", "red",     "green",   "blue",     "f_dc_0",   "f_dc_1",   "f_dc_2"};
+    "x",        "y",       "z",       "radius",  "width",   "radius_x", "radius_y",
+    "radius_z", "scale_0", "scale_1", "scale_2", "density", "opacity",  "red",
+    "green",    "blue",    "f_dc_0",  "f_dc_1",  "f_dc_2"};
 
 // Lower case, and one '_' for any run of other characters, none at the ends.
 std::string plain(std::string_view name) {
@@ -29,18 +30,33 @@ struct Alias {
     Says says;
 };
 constexpr Alias kAliases[] = {
-    {"radii", Says::kRadius},      {"rad", Says::kRadius},           {"pscale", Says::kRadius},
-    {"point_radius", Says::kRadius}, {"particle_radius", Says::kRadius}, {"sphere_radius", Says::kRadius},
-    {"widths", Says::kWidth},      {"diameter", Says::kWidth},       {"diameters", Says::kWidth},
-    {"densities", Says::kDensity}, {"extinction", Says::kDensity},   {"sigma_t", Says::kDensity},
-    {"radii_x", Says::kRadiusX},   {"radii_y", Says::kRadiusY},      {"radii_z", Says::kRadiusZ},
-    {"rx", Says::kRadiusX},        {"ry", Says::kRadiusY},           {"rz", Says::kRadiusZ},
-    {"r", Says::kRed},             {"g", Says::kGreen},              {"b", Says::kBlue},
+    {"radii", Says::kRadius},
+    {"rad", Says::kRadius},
+    {"pscale", Says::kRadius},
+    {"point_radius", Says::kRadius},
+    {"particle_radius", Says::kRadius},
+    {"sphere_radius", Says::kRadius},
+    {"widths", Says::kWidth},
+    {"diameter", Says::kWidth},
+    {"diameters", Says::kWidth},
+    {"densities", Says::kDensity},
+    {"extinction", Says::kDensity},
+    {"sigma_t", Says::kDensity},
+    {"radii_x", Says::kRadiusX},
+    {"radii_y", Says::kRadiusY},
+    {"radii_z", Says::kRadiusZ},
+    {"rx", Says::kRadiusX},
+    {"ry", Says::kRadiusY},
+    {"rz", Says::kRadiusZ},
+    {"r", Says::kRed},
+    {"g", Says::kGreen},
+    {"b", Says::kBlue},
 };
 
 // Vectors that are written as three columns: a base, and which of the three.
-constexpr std::string_view kPlaces[] = {"p",      "pos",    "position", "positions", "point",      "points",  "center",
-                                        "centre", "coord",  "coords",   "location",  "coordinate", "coordinates"};
+constexpr std::string_view kPlaces[] = {
+    "p",      "pos",   "position", "positions", "point",      "points",     "center",
+    "centre", "coord", "coords",   "location",  "coordinate", "coordinates"};
 constexpr std::string_view kColours[] = {"color", "colour", "cd", "rgb", "diffuse", "colors"};
 
 // 0, 1 or 2; nothing where it is none of the words.

@@ -54,22 +54,26 @@ bool DelimitedText::take_quoted() {
     // while views of short strings stand (see next()).
     keep(trim(copy != nullptr ? std::string_view(*copy) : text.substr(0, i)));
     rest_.remove_prefix(i + 2);
-    while (!rest_.empty() && is_blank(rest_.front()) && rest_.front() != separator_ && !ends_line(rest_.front()))
+    while (!rest_.empty() && is_blank(rest_.front()) && rest_.front() != separator_ &&
+           !ends_line(rest_.front()))
         rest_.remove_prefix(1);
     if (rest_.empty() || ends_line(rest_.front())) return true;
     if (rest_.front() == separator_ || separator_ == ' ') return true;
-    error_ = at_line(next_line_, "text stands behind the closing quote of cell " + std::to_string(count_));
+    error_ = at_line(next_line_,
+                     "text stands behind the closing quote of cell " + std::to_string(count_));
     return false;
 }
 
 // Leaves what follows the cell at the front: its separator, the line's end, or nothing.
 bool DelimitedText::take_cell() {
-    while (!rest_.empty() && is_blank(rest_.front()) && rest_.front() != separator_ && !ends_line(rest_.front()))
+    while (!rest_.empty() && is_blank(rest_.front()) && rest_.front() != separator_ &&
+           !ends_line(rest_.front()))
         rest_.remove_prefix(1);
     if (!rest_.empty() && rest_.front() == '"') return take_quoted();
     const bool blanks = separator_ == ' ';
     std::size_t end = 0;
-    while (end < rest_.size() && rest_[end] != separator_ && !ends_line(rest_[end]) && !(blanks && rest_[end] == '\t'))
+    while (end < rest_.size() && rest_[end] != separator_ && !ends_line(rest_[end]) &&
+           !(blanks && rest_[end] == '\t'))
         ++end;
     keep(trim(rest_.substr(0, end)));
     rest_.remove_prefix(end);
@@ -87,11 +91,13 @@ bool DelimitedText::next() {
         line_ = next_line_;
         for (;;) {
             if (separator_ == ' ') {
-                while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t')) rest_.remove_prefix(1);
+                while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t'))
+                    rest_.remove_prefix(1);
                 if (rest_.empty() || ends_line(rest_.front())) break;
             }
             if (unquoted_count_ == kMostCells) {
-                error_ = at_line(line_, "at most " + std::to_string(kMostCells) + " cells may hold quotes");
+                error_ = at_line(
+                    line_, "at most " + std::to_string(kMostCells) + " cells may hold quotes");
                 return false;
             }
             if (!take_cell()) return false;
@@ -105,7 +111,9 @@ bool DelimitedText::next() {
         }
         end_line();
         // Lines of nothing but separators, as spreadsheets leave them below a table, are none.
-        if (std::any_of(cells_.begin(), cells_.end(), [](std::string_view cell) { return !cell.empty(); })) return true;
+        if (std::any_of(cells_.begin(), cells_.end(),
+                        [](std::string_view cell) { return !cell.empty(); }))
+            return true;
         if (count_ > kMostCells) return true;
     }
 }

@@ -49,12 +49,14 @@ float storable(float value, float largest) {
 Imf::Header header_of(const Image& image, Imf::PixelType type, const PictureNotes& notes) {
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
-    for (const char* const channel : {"R", "G", "B", "A"}) header.channels().insert(channel, Imf::Channel(type));
+    for (const char* const channel : {"R", "G", "B", "A"})
+        header.channels().insert(channel, Imf::Channel(type));
     header.insert("Software", Imf::StringAttribute("Awan " AWAN_VERSION));
     if (notes.rung.empty()) return header;
     header.insert("awan:rung", Imf::StringAttribute(notes.rung));
     const auto note = [&](const char* name, double value) {
-        if (std::isfinite(value)) header.insert(name, Imf::FloatAttribute(static_cast<float>(value)));
+        if (std::isfinite(value))
+            header.insert(name, Imf::FloatAttribute(static_cast<float>(value)));
     };
     note("awan:error", notes.error);
     note("awan:error_forecast", notes.error_forecast);
@@ -75,12 +77,14 @@ void write_rows(const Image& image, float largest, Imf::PixelType type, Imf::Out
         std::transform(first, first + row * static_cast<std::size_t>(count), rows.begin(),
                        [=](float value) { return T(storable(value, largest)); });
         // A frame buffer is addressed from line 0 of the picture.
-        char* const base = reinterpret_cast<char*>(rows.data()) -
-                           static_cast<std::ptrdiff_t>(sizeof(T) * row) * static_cast<std::ptrdiff_t>(y);
+        char* const base =
+            reinterpret_cast<char*>(rows.data()) -
+            static_cast<std::ptrdiff_t>(sizeof(T) * row) * static_cast<std::ptrdiff_t>(y);
         Imf::FrameBuffer buffer;
         std::size_t channel = 0;
         for (const char* const name : {"R", "G", "B", "A"})
-            buffer.insert(name, Imf::Slice(type, base + sizeof(T) * channel++, 4 * sizeof(T), row * sizeof(T)));
+            buffer.insert(name, Imf::Slice(type, base + sizeof(T) * channel++, 4 * sizeof(T),
+                                           row * sizeof(T)));
         file.setFrameBuffer(buffer);
         file.writePixels(count);
     }

@@ -66,8 +66,8 @@ std::string_view take_record(std::string_view& text, std::size_t& lines) {
     return before.substr(0, length);
 }
 
-// Takes lines off the text up to and with the header: the first line that is neither blank nor a comment, or, where that
-// holds no names, the last comment that does ("//X;Y;Z", as point cloud tools write it).
+// Takes lines off the text up to and with the header: the first line that is neither blank nor a comment, or, where
+// that holds no names, the last comment that does ("//X;Y;Z", as point cloud tools write it).
 TableHeader take_header(std::string_view& text) {
     std::optional<TableHeader> commented;
     std::size_t lines = 0;
@@ -76,14 +76,17 @@ TableHeader take_header(std::string_view& text) {
         const std::size_t line = lines + 1;
         if (const auto inner = comment(trim(take_line(text)))) {
             ++lines;
-            if (const char separator = separator_of(*inner)) commented = {separator, line, *inner, line + 1};
+            if (const char separator = separator_of(*inner))
+                commented = {separator, line, *inner, line + 1};
             continue;
         }
         text = before;
         const std::string_view record = take_record(text, lines);
         // Spreadsheets say what separates in a line of its own.
-        if (trim(record).empty() || (trim(record).size() == 5 && record.starts_with("sep="))) continue;
-        if (const char separator = separator_of(record)) return {separator, line, record, lines + 1};
+        if (trim(record).empty() || (trim(record).size() == 5 && record.starts_with("sep=")))
+            continue;
+        if (const char separator = separator_of(record))
+            return {separator, line, record, lines + 1};
         if (!commented) return {',', line, record, lines + 1};
         // These are data already.
         text = before;
@@ -94,7 +97,8 @@ TableHeader take_header(std::string_view& text) {
 }
 
 Error at_cell(std::size_t line, std::size_t column, std::string message) {
-    return {ErrorCode::kMalformed, "line " + std::to_string(line) + ", column " + std::to_string(column + 1),
+    return {ErrorCode::kMalformed,
+            "line " + std::to_string(line) + ", column " + std::to_string(column + 1),
             std::move(message)};
 }
 
@@ -129,12 +133,13 @@ class CellNumbers {
 
 // Whether a particle may be without this.
 bool may_be_empty(Says says) {
-    return says == Says::kDensity || says == Says::kOpacity || says == Says::kRed || says == Says::kGreen ||
-           says == Says::kBlue;
+    return says == Says::kDensity || says == Says::kOpacity || says == Says::kRed ||
+           says == Says::kGreen || says == Says::kBlue;
 }
 
 std::string must_be_number(Says says, std::string_view cell, char separator) {
-    std::string message = std::string(name_of(says)) + " must be a finite number, not " + short_quote(cell);
+    std::string message =
+        std::string(name_of(says)) + " must be a finite number, not " + short_quote(cell);
     if (separator == ',' && cell.find(',') != std::string_view::npos)
         message += "; a decimal comma needs another separator of cells, ; or a tab";
     return message;
@@ -149,10 +154,13 @@ Result<SceneDraft> read_particles_csv(std::string_view text, const ParticleReadi
     names.next();
     if (names.error()) return at_line(header.line, names.error()->message);
     if (names.cell_count() > kMaxColumns)
-        return at_line(header.line, "at most " + std::to_string(kMaxColumns) + " columns are allowed");
+        return at_line(header.line,
+                       "at most " + std::to_string(kMaxColumns) + " columns are allowed");
     ReadyColumns columns(reading);
     const auto used = columns.choose({names.cells().begin(), names.cells().end()});
-    if (!used) return at_line(header.line, "the first line must name the columns: " + used.error().message);
+    if (!used)
+        return at_line(header.line,
+                       "the first line must name the columns: " + used.error().message);
 
     DelimitedText records(text, header.separator, header.next_line);
     // A first cell that is a number, or nothing, cannot begin with the mark of a comment.
@@ -163,12 +171,16 @@ Result<SceneDraft> read_particles_csv(std::string_view text, const ParticleReadi
         const std::vector<std::string_view>& cells = records.cells();
         const bool marked = !cells.empty() && comment(cells[0]).has_value();
         if (marked && (marks_are_comments || records.cell_count() != used->size())) continue;
-        if (columns.size() == limits::kMaxParticles) return too_many_particles("line " + std::to_string(line));
-        bool as_many = records.cell_count() >= used->size() && records.cell_count() <= DelimitedText::kMostCells;
+        if (columns.size() == limits::kMaxParticles)
+            return too_many_particles("line " + std::to_string(line));
+        bool as_many = records.cell_count() >= used->size() &&
+                       records.cell_count() <= DelimitedText::kMostCells;
         // Separators at a line's end are cells more, of nothing.
-        for (std::size_t i = used->size(); as_many && i < cells.size(); ++i) as_many = cells[i].empty();
+        for (std::size_t i = used->size(); as_many && i < cells.size(); ++i)
+            as_many = cells[i].empty();
         if (!as_many)
-            return at_line(line, "must have as many cells as the header, " + std::to_string(used->size()) + ", not " +
+            return at_line(line, "must have as many cells as the header, " +
+                                     std::to_string(used->size()) + ", not " +
                                      std::to_string(records.cell_count()));
         ReadyRow row;
         for (std::size_t i = 0; i < used->size(); ++i) {
@@ -181,14 +193,17 @@ Result<SceneDraft> read_particles_csv(std::string_view text, const ParticleReadi
             const std::optional<double> value = numbers.read(cells[i]);
             if (!value) return at_cell(line, i, must_be_number(*says, cells[i], header.separator));
             if (numbers.mixed())
-                return at_cell(line, i, "some numbers have a decimal comma and some a decimal point, as in " +
-                                            short_quote(cells[i]));
+                return at_cell(
+                    line, i,
+                    "some numbers have a decimal comma and some a decimal point, as in " +
+                        short_quote(cells[i]));
             row[*says] = *value;
         }
         if (const Status wrong = columns.add(row)) return at_line(line, wrong->message);
     }
     if (records.error()) return *records.error();
-    if (numbers.commas() && reading.notes != nullptr) reading.notes->push_back("numbers: with decimal commas");
+    if (numbers.commas() && reading.notes != nullptr)
+        reading.notes->push_back("numbers: with decimal commas");
     return columns.take();
 }
 

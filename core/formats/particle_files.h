@@ -27,8 +27,8 @@ void append_ply(const ParticleSet& particles, std::size_t first, std::size_t las
 void append_number(double value, std::string& out);
 void append_number(float value, std::string& out);
 
-// A binary glTF 2.0 file of points: POSITION (float, from the middle, where the node stands), _RADIUS, _DENSITY, COLOR_0,
-// 32 bytes a particle. Error: there are none.
+// A binary glTF 2.0 file of points: POSITION (float, from the middle, where the node stands), _RADIUS, _DENSITY,
+// COLOR_0, 32 bytes a particle. Error: there are none.
 Result<std::string> write_glb(const ParticleSet& particles);
 
 // How a file of particles is read.

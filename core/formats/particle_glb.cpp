@@ -48,8 +48,10 @@ void append_chunk(std::string_view type, std::string_view bytes, char filler, st
 Result<std::string> write_glb(const ParticleSet& particles) {
     const std::size_t count = particles.size();
     if (count == 0)
-        return Error{ErrorCode::kInvalidScene, "", "there are no particles, and glTF has no list without elements"};
-    glm::dvec3 lowest(std::numeric_limits<double>::max()), highest(-std::numeric_limits<double>::max());
+        return Error{ErrorCode::kInvalidScene, "",
+                     "there are no particles, and glTF has no list without elements"};
+    glm::dvec3 lowest(std::numeric_limits<double>::max()),
+        highest(-std::numeric_limits<double>::max());
     for (const glm::dvec3& center : particles.center) {
         lowest = glm::min(lowest, center);
         highest = glm::max(highest, center);
@@ -85,21 +87,24 @@ Result<std::string> write_glb(const ParticleSet& particles) {
         views += comma + std::string("{\"buffer\":0,\"byteOffset\":") + std::to_string(offset) +
                  ",\"byteLength\":" + std::to_string(bytes) + "}";
         accessors += comma + std::string("{\"bufferView\":") + std::to_string(index) +
-                     ",\"componentType\":5126,\"count\":" + std::to_string(count) + ",\"type\":\"" + a.type + "\"" +
-                     a.more + "}";
+                     ",\"componentType\":5126,\"count\":" + std::to_string(count) + ",\"type\":\"" +
+                     a.type + "\"" + a.more + "}";
         names += comma + std::string("\"") + a.name + "\":" + std::to_string(index);
         offset += bytes;
         ++index;
     }
     const std::string json =
-        "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Awan " AWAN_VERSION "\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}]," +
-        std::string("\"nodes\":[{\"name\":\"cloud\",\"mesh\":0,\"translation\":") + vector_text(middle) +
-        "}],\"meshes\":[{\"primitives\":[{\"mode\":0,\"attributes\":{" + names + "}}]}],\"accessors\":[" + accessors +
-        "],\"bufferViews\":[" + views + "],\"buffers\":[{\"byteLength\":" + std::to_string(data.size()) + "}]}";
+        "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Awan " AWAN_VERSION
+        "\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}]," +
+        std::string("\"nodes\":[{\"name\":\"cloud\",\"mesh\":0,\"translation\":") +
+        vector_text(middle) + "}],\"meshes\":[{\"primitives\":[{\"mode\":0,\"attributes\":{" +
+        names + "}}]}],\"accessors\":[" + accessors + "],\"bufferViews\":[" + views +
+        "],\"buffers\":[{\"byteLength\":" + std::to_string(data.size()) + "}]}";
 
     std::string out = "glTF";
     append_word(2, out);
-    append_word(static_cast<std::uint32_t>(12 + 8 + (json.size() + 3) / 4 * 4 + 8 + data.size()), out);
+    append_word(static_cast<std::uint32_t>(12 + 8 + (json.size() + 3) / 4 * 4 + 8 + data.size()),
+                out);
     append_chunk("JSON", json, ' ', out);
     append_chunk(std::string_view("BIN\0", 4), data, '\0', out);
     return out;

@@ -49,8 +49,8 @@ double value_at(const char* bytes, const ScalarType& type, Encoding encoding) {
 
 // The bytes of one row of an element, of which the front of `bytes` is the first; nothing when the file ends before.
 // place: of every property where its value (a list's length) begins, when it is not null.
-std::optional<std::size_t> row_bytes(std::string_view bytes, const Element& element, Encoding encoding,
-                                     std::vector<std::size_t>* place) {
+std::optional<std::size_t> row_bytes(std::string_view bytes, const Element& element,
+                                     Encoding encoding, std::vector<std::size_t>* place) {
     std::size_t at = 0;
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
         const Property& property = element.properties[i];
@@ -63,15 +63,17 @@ std::optional<std::size_t> row_bytes(std::string_view bytes, const Element& elem
         }
         const double length = value_at(bytes.data() + at, first, encoding);
         at += first.size;
-        if (!(length >= 0) || length > static_cast<double>((bytes.size() - at) / property.type->size)) return {};
+        if (!(length >= 0) ||
+            length > static_cast<double>((bytes.size() - at) / property.type->size))
+            return {};
         at += static_cast<std::size_t>(length) * property.type->size;
     }
     return at;
 }
 
 std::string ends_early(const Element& element, std::uint64_t rows, const char* what) {
-    return "the header says " + std::to_string(element.count) + " rows of " + short_quote(element.name) +
-           ", but there are " + what + " for " + std::to_string(rows);
+    return "the header says " + std::to_string(element.count) + " rows of " +
+           short_quote(element.name) + ", but there are " + what + " for " + std::to_string(rows);
 }
 
 // Rows of no properties take no bytes, and those of lists at least one each, so no number of rows costs more than the
@@ -92,7 +94,8 @@ Status skip_binary(std::string_view& bytes, const Element& element, Encoding enc
     return std::nullopt;
 }
 
-Status read_binary(std::string_view& bytes, const VertexPlan& plan, Encoding encoding, ReadyColumns& columns) {
+Status read_binary(std::string_view& bytes, const VertexPlan& plan, Encoding encoding,
+                   ReadyColumns& columns) {
     const Element& element = *plan.element;
     const std::size_t stride = element.stride();
     // Before anything is reserved: the header may claim anything.
@@ -110,7 +113,9 @@ Status read_binary(std::string_view& bytes, const VertexPlan& plan, Encoding enc
         ReadyRow row;
         for (std::size_t k = 0; k < place.size(); ++k)
             if (plan.used[k])
-                plan.store(k, value_at(bytes.data() + place[k], *element.properties[k].type, encoding), row);
+                plan.store(k,
+                           value_at(bytes.data() + place[k], *element.properties[k].type, encoding),
+                           row);
         bytes.remove_prefix(size);
         if (const Status wrong = columns.add(row))
             return malformed_ply("vertex " + std::to_string(i) + ": " + wrong->message);
@@ -128,7 +133,8 @@ bool take_full_line(std::string_view& text, std::size_t& number, std::string_vie
     return false;
 }
 
-Status read_ascii_row(std::string_view line, std::size_t number, const VertexPlan& plan, ReadyRow& row) {
+Status read_ascii_row(std::string_view line, std::size_t number, const VertexPlan& plan,
+                      ReadyRow& row) {
     const std::vector<Property>& properties = plan.element->properties;
     for (std::size_t i = 0; i < properties.size(); ++i) {
         std::string_view word = ply::take_word(line);
@@ -139,26 +145,30 @@ Status read_ascii_row(std::string_view line, std::size_t number, const VertexPla
                                            " must be an integer >= 0, not " + short_quote(word));
             for (std::uint64_t k = 0; k < *length; ++k)
                 if (ply::take_word(line).empty())
-                    return at_line(number, "the list " + short_quote(properties[i].name) + " is shorter than it says");
+                    return at_line(number, "the list " + short_quote(properties[i].name) +
+                                               " is shorter than it says");
             continue;
         }
         const std::optional<double> value = read_number<double>(word);
         // Whatever else a property says, it is not looked at.
         if (!value && (plan.used[i] || word.empty()))
-            return at_line(number, "must hold " + std::to_string(properties.size()) + " values, and " +
-                                       short_quote(properties[i].name) + " must be a finite number, not " +
-                                       short_quote(word));
+            return at_line(number, "must hold " + std::to_string(properties.size()) +
+                                       " values, and " + short_quote(properties[i].name) +
+                                       " must be a finite number, not " + short_quote(word));
         if (value) plan.store(i, *value, row);
     }
     if (!trim(line).empty())
-        return at_line(number, "must hold " + std::to_string(properties.size()) + " values; there are more");
+        return at_line(
+            number, "must hold " + std::to_string(properties.size()) + " values; there are more");
     return std::nullopt;
 }
 
-Status read_ascii(std::string_view& text, const VertexPlan& plan, std::size_t& number, ReadyColumns& columns) {
+Status read_ascii(std::string_view& text, const VertexPlan& plan, std::size_t& number,
+                  ReadyColumns& columns) {
     for (std::uint64_t i = 0; i < plan.element->count; ++i) {
         std::string_view line;
-        if (!take_full_line(text, number, line)) return malformed_ply(ends_early(*plan.element, i, "lines"));
+        if (!take_full_line(text, number, line))
+            return malformed_ply(ends_early(*plan.element, i, "lines"));
         ReadyRow row;
         if (Status wrong = read_ascii_row(line, number, plan, row)) return wrong;
         if (const Status wrong = columns.add(row)) return at_line(number, wrong->message);
@@ -170,7 +180,8 @@ Status read_ascii(std::string_view& text, const VertexPlan& plan, std::size_t& n
 Status skip_ascii(std::string_view& text, const Element& element, std::size_t& number) {
     std::string_view line;
     for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i)
-        if (!take_full_line(text, number, line)) return malformed_ply(ends_early(element, i, "lines"));
+        if (!take_full_line(text, number, line))
+            return malformed_ply(ends_early(element, i, "lines"));
     return std::nullopt;
 }
 
@@ -178,10 +189,13 @@ Status skip_ascii(std::string_view& text, const Element& element, std::size_t& n
 Status check_end(std::string_view rest, Encoding encoding, std::size_t number) {
     std::string_view line;
     if (encoding == Encoding::kAscii)
-        return take_full_line(rest, number, line) ? Status(at_line(number, "stands after the last row that the header "
-                                                                           "announces"))
-                                                  : std::nullopt;
-    if (rest.find_first_not_of("\r\n") == std::string_view::npos && rest.size() <= 2) return std::nullopt;
+        return take_full_line(rest, number, line)
+                   ? Status(at_line(number,
+                                    "stands after the last row that the header "
+                                    "announces"))
+                   : std::nullopt;
+    if (rest.find_first_not_of("\r\n") == std::string_view::npos && rest.size() <= 2)
+        return std::nullopt;
     return malformed_ply("there are " + std::to_string(rest.size()) + " bytes after the last row");
 }
 
@@ -195,7 +209,8 @@ Result<VertexPlan> plan_vertices(const ply::Header& header, ReadyColumns& column
         names.push_back(element.name);
     }
     if (plan.element == nullptr)
-        return malformed_ply("the header has no `element vertex`" + (names.empty() ? "" : "; there is " + others));
+        return malformed_ply("the header has no `element vertex`" +
+                             (names.empty() ? "" : "; there is " + others));
     names.clear();
     bool packed = false;
     for (const Property& property : plan.element->properties) {
@@ -203,14 +218,18 @@ Result<VertexPlan> plan_vertices(const ply::Header& header, ReadyColumns& column
         names.push_back(property.length != nullptr ? property.name + "[]" : property.name);
         packed = packed || property.name == "packed_position";
     }
-    if (packed) return malformed_ply("packed splats are not read; write them unpacked, with x, y, z and scale_0, 1, 2");
+    if (packed)
+        return malformed_ply(
+            "packed splats are not read; write them unpacked, with x, y, z and scale_0, 1, 2");
     auto used = columns.choose(names);
-    if (!used) return at_line(plan.element->line, "properties of a vertex: " + used.error().message);
+    if (!used)
+        return at_line(plan.element->line, "properties of a vertex: " + used.error().message);
     plan.used = *std::move(used);
     for (std::size_t i = 0; i < plan.used.size(); ++i)
         if (plan.element->properties[i].length != nullptr && plan.used[i])
-            return at_line(plan.element->line, short_quote(plan.element->properties[i].name) + " is a list, and must be "
-                                                                                               "a number");
+            return at_line(plan.element->line, short_quote(plan.element->properties[i].name) +
+                                                   " is a list, and must be "
+                                                   "a number");
     return plan;
 }
 
@@ -230,7 +249,8 @@ Result<SceneDraft> read_particles_ply(std::string_view bytes, const ParticleRead
         const bool is_vertex = &element == plan->element;
         Status wrong;
         if (ascii)
-            wrong = is_vertex ? read_ascii(bytes, *plan, number, columns) : skip_ascii(bytes, element, number);
+            wrong = is_vertex ? read_ascii(bytes, *plan, number, columns)
+                              : skip_ascii(bytes, element, number);
         else
             wrong = is_vertex ? read_binary(bytes, *plan, header->encoding, columns)
                               : skip_binary(bytes, element, header->encoding);

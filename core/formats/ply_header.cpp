@@ -48,46 +48,53 @@ Status read_format(std::string_view line, Header& header) {
     else if (format == "binary_big_endian")
         header.encoding = Encoding::kBigEndian;
     else
-        return at_line(header.lines, "the format must be ascii, binary_little_endian or binary_big_endian, not " +
-                                         short_quote(format));
+        return at_line(header.lines,
+                       "the format must be ascii, binary_little_endian or binary_big_endian, not " +
+                           short_quote(format));
     if (take_word(line) != "1.0") return at_line(header.lines, "the version must be 1.0");
     return std::nullopt;
 }
 
 Status read_element(std::string_view line, Header& header) {
     if (header.elements.size() == kMaxElements)
-        return at_line(header.lines, "at most " + std::to_string(kMaxElements) + " elements are allowed");
+        return at_line(header.lines,
+                       "at most " + std::to_string(kMaxElements) + " elements are allowed");
     Element element;
     element.name = take_word(line);
     element.line = header.lines;
     const std::string_view text = take_word(line);
     const auto count = read_number<std::uint64_t>(text);
     if (element.name.empty() || !count)
-        return at_line(header.lines, "an element must have a name and a number of rows, an integer >= 0, not " +
-                                         short_quote(text));
+        return at_line(header.lines,
+                       "an element must have a name and a number of rows, an integer >= 0, not " +
+                           short_quote(text));
     element.count = *count;
     header.elements.push_back(std::move(element));
     return std::nullopt;
 }
 
 Status read_property(std::string_view line, Header& header) {
-    if (header.elements.empty()) return at_line(header.lines, "a property stands before its element");
+    if (header.elements.empty())
+        return at_line(header.lines, "a property stands before its element");
     std::vector<Property>& properties = header.elements.back().properties;
     if (properties.size() == kMaxProperties)
-        return at_line(header.lines, "at most " + std::to_string(kMaxProperties) + " properties are allowed");
+        return at_line(header.lines,
+                       "at most " + std::to_string(kMaxProperties) + " properties are allowed");
     Property property;
     std::string_view type = take_word(line);
     if (type == "list") {
         const std::string_view length = take_word(line);
         property.length = type_of(length);
         if (property.length == nullptr || property.length->white == 1)
-            return at_line(header.lines, "the length of a list must be of an integer type, not " + short_quote(length));
+            return at_line(header.lines, "the length of a list must be of an integer type, not " +
+                                             short_quote(length));
         type = take_word(line);
     }
     property.type = type_of(type);
     property.name = take_word(line);
     if (property.type == nullptr)
-        return at_line(header.lines, "a property must be of a type such as float or uchar, not " + short_quote(type));
+        return at_line(header.lines, "a property must be of a type such as float or uchar, not " +
+                                         short_quote(type));
     if (property.name.empty()) return at_line(header.lines, "a property must have a name");
     properties.push_back(std::move(property));
     return std::nullopt;
@@ -98,7 +105,8 @@ Status read_line(std::string_view line, Header& header, bool& has_format) {
     if (word == "comment" || word == "obj_info" || word.empty()) return std::nullopt;
     if (word == "element") return read_element(line, header);
     if (word == "property") return read_property(line, header);
-    if (word != "format") return at_line(header.lines, "unknown word in the header: " + short_quote(word));
+    if (word != "format")
+        return at_line(header.lines, "unknown word in the header: " + short_quote(word));
     has_format = true;
     return read_format(line, header);
 }
@@ -145,7 +153,8 @@ Result<Header> take_header(std::string_view& bytes) {
     Header header;
     bool has_format = false;
     const std::string_view end = line_end_of(bytes.substr(0, 64));
-    if (trim(take_up_to(bytes, end)) != "ply") return ply_error("a PLY file begins with the line `ply`");
+    if (trim(take_up_to(bytes, end)) != "ply")
+        return ply_error("a PLY file begins with the line `ply`");
     for (header.lines = 2;; ++header.lines) {
         if (bytes.empty() || header.lines > kMaxLines)
             return ply_error("the header has no end: `end_header` is missing");

@@ -44,8 +44,8 @@ struct RowMaker {
     int bits;
 
     void make(int y, std::uint8_t* to) const {
-        const float* from =
-            image.pixels.data() + 4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width);
+        const float* from = image.pixels.data() +
+                            4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width);
         for (int x = 0; x < image.width; ++x, from += 4) {
             // NaN becomes 0.
             const float alpha = image.opaque ? 1.0f : from[3] > 0 ? std::min(from[3], 1.0f) : 0.0f;
@@ -74,7 +74,8 @@ struct RowMaker {
 bool write_png(png_structp png, png_infop info, const RowMaker& maker, std::uint8_t* row) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     const Image& image = maker.image;
-    png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), maker.bits,
+    png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
+                 static_cast<png_uint_32>(image.height), maker.bits,
                  image.opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
@@ -115,7 +116,8 @@ Result<std::string> encode_png(const Image& image, double exposure_stops, int bi
     std::vector<std::uint8_t> row(channels * static_cast<std::size_t>(image.width) *
                                   static_cast<std::size_t>(bits / 8));
     PngSink sink;
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, on_png_error, on_png_warning);
+    png_structp png =
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, on_png_error, on_png_warning);
     png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
     bool written = false;
     if (info != nullptr) {

@@ -10,7 +10,8 @@ bool is_obeyed(std::string_view letter) {
     if (letter.size() == 1) return byte(0) < 0x20 || byte(0) == 0x7F;
     if (letter.size() == 2) return byte(0) == 0xC2 && byte(1) < 0xA0;
     if (letter.size() != 3 || byte(0) != 0xE2) return false;
-    const bool marks = byte(1) == 0x80 && (byte(2) == 0x8E || byte(2) == 0x8F || (byte(2) >= 0xA8 && byte(2) <= 0xAE));
+    const bool marks = byte(1) == 0x80 &&
+                       (byte(2) == 0x8E || byte(2) == 0x8F || (byte(2) >= 0xA8 && byte(2) <= 0xAE));
     return marks || (byte(1) == 0x81 && byte(2) >= 0xA6 && byte(2) <= 0xA9);
 }
 
@@ -26,7 +27,9 @@ void append_bytes_named(std::string_view bytes, std::string& out) {
 }  // namespace
 
 std::size_t utf8_length(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+    const auto byte = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+    };
     const auto continues = [&](std::size_t i) { return (byte(i) & 0xC0u) == 0x80u; };
     const unsigned first = byte(0), second = byte(1);
     if (first < 0x80) return text.empty() ? 0 : 1;

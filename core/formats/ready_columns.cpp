@@ -59,10 +59,12 @@ Status ReadyColumns::choose_radius(std::vector<std::optional<Says>>& used) {
     const auto leave_only = [&](bool radius, bool width, bool radii, bool scales) {
         for (std::optional<Says>& says : used) {
             if (!says) continue;
-            const bool of_radii = std::find(std::begin(kRadiusSays), std::end(kRadiusSays), *says) != std::end(kRadiusSays);
-            const bool of_scales = std::find(std::begin(kLogScaleSays), std::end(kLogScaleSays), *says) != std::end(kLogScaleSays);
-            if ((*says == Says::kRadius && !radius) || (*says == Says::kWidth && !width) || (of_radii && !radii) ||
-                (of_scales && !scales)) {
+            const bool of_radii = std::find(std::begin(kRadiusSays), std::end(kRadiusSays),
+                                            *says) != std::end(kRadiusSays);
+            const bool of_scales = std::find(std::begin(kLogScaleSays), std::end(kLogScaleSays),
+                                             *says) != std::end(kLogScaleSays);
+            if ((*says == Says::kRadius && !radius) || (*says == Says::kWidth && !width) ||
+                (of_radii && !radii) || (of_scales && !scales)) {
                 drop(*says);
                 says.reset();
             }
@@ -83,11 +85,14 @@ Status ReadyColumns::choose_radius(std::vector<std::optional<Says>>& used) {
         note("3D Gaussian splats: radius is twice the geometric mean of exp(scale_0, 1, 2)");
         return std::nullopt;
     }
-    return wrong("x, y, z and a radius are required; there is no radius (or width, pscale, radius_x, ...), and no "
-                 "--radius or ?radius= for all");
+    return wrong(
+        "x, y, z and a radius are required; there is no radius (or width, pscale, radius_x, ...), "
+        "and no "
+        "--radius or ?radius= for all");
 }
 
-Result<std::vector<std::optional<Says>>> ReadyColumns::choose(const std::vector<std::string>& names) {
+Result<std::vector<std::optional<Says>>> ReadyColumns::choose(
+    const std::vector<std::string>& names) {
     constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
     std::vector<std::optional<Says>> used(names.size());
     std::array<std::size_t, kSaysCount> column{};
@@ -107,9 +112,11 @@ Result<std::vector<std::optional<Says>>> ReadyColumns::choose(const std::vector<
         used[i] = known->says;
         has_[k] = true;
     }
-    const auto any = [&](const Says (&all)[3]) { return has(all[0]) || has(all[1]) || has(all[2]); };
-    const auto every = [&](const Says (&all)[3]) { return has(all[0]) && has(all[1]) && has(all[2]); };
-    const auto drop_all = [&](const Says (&all)[3]) {
+    const auto any = [&](const Says(&all)[3]) { return has(all[0]) || has(all[1]) || has(all[2]); };
+    const auto every = [&](const Says(&all)[3]) {
+        return has(all[0]) && has(all[1]) && has(all[2]);
+    };
+    const auto drop_all = [&](const Says(&all)[3]) {
         for (std::optional<Says>& says : used)
             if (says && std::find(std::begin(all), std::end(all), *says) != std::end(all)) {
                 drop(*says);
@@ -122,15 +129,17 @@ Result<std::vector<std::optional<Says>>> ReadyColumns::choose(const std::vector<
                          "; needed are x, y, z and radius, then density and r, g, b");
     splats_ = every(kHarmonicSays) || every(kLogScaleSays);
     // x, y, z, r: a radius, where there is no other colour.
-    if (has(Says::kRed) && !has(Says::kGreen) && !has(Says::kBlue) && !has(Says::kRadius) && !has(Says::kWidth) &&
-        !any(kRadiusSays) && (names[column[static_cast<std::size_t>(Says::kRed)]] == "r")) {
+    if (has(Says::kRed) && !has(Says::kGreen) && !has(Says::kBlue) && !has(Says::kRadius) &&
+        !has(Says::kWidth) && !any(kRadiusSays) &&
+        names[column[static_cast<std::size_t>(Says::kRed)]].size() == 1) {
         used[column[static_cast<std::size_t>(Says::kRed)]] = Says::kRadius;
         drop(Says::kRed);
         has_[static_cast<std::size_t>(Says::kRadius)] = true;
         note("radius: the column \"r\"");
     }
     if (const Status missing = choose_radius(used)) return *missing;
-    if (any(kColorSays) && !every(kColorSays)) return wrong("a colour needs all of red, green and blue (or r, g, b)");
+    if (any(kColorSays) && !every(kColorSays))
+        return wrong("a colour needs all of red, green and blue (or r, g, b)");
     if (every(kColorSays) || !every(kHarmonicSays)) drop_all(kHarmonicSays);
     if (has(Says::kDensity) && has(Says::kOpacity)) {
         for (std::optional<Says>& says : used)
@@ -160,7 +169,8 @@ float ReadyColumns::radius_of(const ReadyRow& row) const {
     if (has(Says::kWidth)) return to_float(row[Says::kWidth] / 2);
     if (has(Says::kLogScale0))
         return to_float(
-            2 * std::exp((row[Says::kLogScale0] + row[Says::kLogScale1] + row[Says::kLogScale2]) / 3));
+            2 *
+            std::exp((row[Says::kLogScale0] + row[Says::kLogScale1] + row[Says::kLogScale2]) / 3));
     double product = 1;
     int given = 0;
     for (const Says says : kRadiusSays)
@@ -193,19 +203,25 @@ Status ReadyColumns::add_density(const ReadyRow& row, float radius) {
 Status ReadyColumns::add_color(const ReadyRow& row) {
     glm::vec3 color(1.0f);
     if (has(Says::kRed)) {
-        const int lacking = row.lacks(Says::kRed) + row.lacks(Says::kGreen) + row.lacks(Says::kBlue);
-        if (lacking != 0 && lacking != 3) return wrong("a colour needs all of red, green and blue, or none");
+        const int lacking =
+            row.lacks(Says::kRed) + row.lacks(Says::kGreen) + row.lacks(Says::kBlue);
+        if (lacking != 0 && lacking != 3)
+            return wrong("a colour needs all of red, green and blue, or none");
         if (lacking == 3) {
             without_color_.push_back(ready_.colors.size());
             ready_.colors.emplace_back(1.0f);
             return std::nullopt;
         }
-        color = {to_float(row[Says::kRed]), to_float(row[Says::kGreen]), to_float(row[Says::kBlue])};
+        color = {to_float(row[Says::kRed]), to_float(row[Says::kGreen]),
+                 to_float(row[Says::kBlue])};
     } else if (has(Says::kHarmonicRed)) {
         // 1 / (2 sqrt(pi)), the first of the harmonics; splats are white where their sum is 1.
         constexpr double kFirst = 0.28209479177387814;
-        const auto shade = [&](Says says) { return to_float(std::clamp(0.5 + kFirst * row[says], 0.0, 1.0)); };
-        color = {shade(Says::kHarmonicRed), shade(Says::kHarmonicGreen), shade(Says::kHarmonicBlue)};
+        const auto shade = [&](Says says) {
+            return to_float(std::clamp(0.5 + kFirst * row[says], 0.0, 1.0));
+        };
+        color = {shade(Says::kHarmonicRed), shade(Says::kHarmonicGreen),
+                 shade(Says::kHarmonicBlue)};
     } else {
         return std::nullopt;
     }
@@ -248,7 +264,8 @@ void ReadyColumns::scale_colors() {
     float white = 1;
     if (all_whole_ && largest_color_ > 1 && largest_color_ <= 65535) {
         white = largest_color_ <= 255 ? 255.0f : 65535.0f;
-        note("colours: whole numbers, of which " + std::to_string(static_cast<int>(white)) + " is white");
+        note("colours: whole numbers, of which " + std::to_string(static_cast<int>(white)) +
+             " is white");
     }
     if (white == 1) return;
     for (glm::vec3& color : ready_.colors) color /= white;
@@ -271,8 +288,9 @@ SceneDraft ReadyColumns::take() {
 }
 
 Error too_many_particles(std::string pointer) {
-    return {ErrorCode::kTooLarge, std::move(pointer),
-            "a scene may have at most " + std::to_string(limits::kMaxParticles) + " particles in all"};
+    return {
+        ErrorCode::kTooLarge, std::move(pointer),
+        "a scene may have at most " + std::to_string(limits::kMaxParticles) + " particles in all"};
 }
 
 }  // namespace awan

@@ -28,7 +28,8 @@ WriteVdb* load_writer(std::string& reason) {
             reason = dlerror();
             continue;
         }
-        if (void* const function = dlsym(module, kWriteVdb)) return reinterpret_cast<WriteVdb*>(function);
+        if (void* const function = dlsym(module, kWriteVdb))
+            return reinterpret_cast<WriteVdb*>(function);
         reason = "it lacks its function";
     }
     return nullptr;
@@ -43,7 +44,8 @@ Result<std::string> encode_vdb(const DensityVolume& volume) {
     WriteVdb* const write = load_writer(reason);
     if (write == nullptr)
         return Error{ErrorCode::kUnsupported, "",
-                     std::string("OpenVDB files need the module ") + kVdbModule + ", which cannot be loaded: " + reason};
+                     std::string("OpenVDB files need the module ") + kVdbModule +
+                         ", which cannot be loaded: " + reason};
     const VdbGrid grid{"density",
                        volume.extinction.data(),
                        {volume.cells.x, volume.cells.y, volume.cells.z},
@@ -54,7 +56,8 @@ Result<std::string> encode_vdb(const DensityVolume& volume) {
         static_cast<std::string*>(to)->append(from, size);
     };
     if (const char* const failed = write(grid, take, &bytes))
-        return Error{ErrorCode::kInternal, "", std::string("the volume could not be written: ") + failed};
+        return Error{ErrorCode::kInternal, "",
+                     std::string("the volume could not be written: ") + failed};
     return bytes;
 }
 

@@ -96,7 +96,8 @@ int run_accuracy(const AccuracyCommand& command) {
         return bad_usage("only one scene comes from standard input");
     std::vector<Scene> scenes;
     for (const std::string& path : command.scenes) {
-        auto scene = read_valid_scene({.path = path, .sets = {}, .seed = {}, .radius = {}, .state = {}});
+        auto scene =
+            read_valid_scene({.path = path, .sets = {}, .seed = {}, .radius = {}, .state = {}});
         if (!scene) return report_error(path, scene.error());
         scenes.push_back(*std::move(scene));
     }

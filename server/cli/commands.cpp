@@ -56,8 +56,9 @@ Status particles_to(const std::string& path, const std::string& format, const Sc
     auto particles = generate(scene, command.threads, Deadline{});
     if (!particles) return particles.error();
     if (format == "glb" || format == "vdb") {
-        auto bytes = format == "glb" ? write_glb(*particles)
-                                     : encode_vdb(density_volume(*particles, command.voxels, kVolumeWork));
+        auto bytes = format == "glb"
+                         ? write_glb(*particles)
+                         : encode_vdb(density_volume(*particles, command.voxels, kVolumeWork));
         if (!bytes) return bytes.error();
         return write_output(path, *bytes);
     }
@@ -74,24 +75,28 @@ Result<std::vector<Moment>> moments_of(const ParticlesCommand& command, const Sc
         if (Status wrong = check_not_numbered(command.output)) return *wrong;
         return std::vector<Moment>{{command.time, command.output}};
     }
-    const auto unusable = [](std::string what) { return Error{ErrorCode::kInvalidScene, "", std::move(what)}; };
+    const auto unusable = [](std::string what) {
+        return Error{ErrorCode::kInvalidScene, "", std::move(what)};
+    };
     if (command.time) return unusable("--time and --frames exclude each other");
     if (!draft.sequence)
-        return unusable("--frames needs a scene with a `sequence`, and " + command.scene.path + " has none");
+        return unusable("--frames needs a scene with a `sequence`, and " + command.scene.path +
+                        " has none");
     const auto frames = parse_frames(command.frames, draft.sequence->frames);
     if (!frames) return frames.error();
     if (Status wrong = check_numbered(command.output, frames->size())) return *wrong;
     std::vector<Moment> moments;
     for (const std::uint64_t frame : *frames)
-        moments.push_back({frame_time(*draft.sequence, frame), numbered_name(command.output, frame)});
+        moments.push_back(
+            {frame_time(*draft.sequence, frame), numbered_name(command.output, frame)});
     return moments;
 }
 
 }  // namespace
 
 int run_particles(const ParticlesCommand& command) {
-    const auto format =
-        output_format(command.output, command.format, {"json", "csv", "ply", "awn", "glb", "vdb"}, "json");
+    const auto format = output_format(command.output, command.format,
+                                      {"json", "csv", "ply", "awn", "glb", "vdb"}, "json");
     if (!format) return bad_usage(format.error().message);
     const bool binary = *format == "ply" || *format == "glb" || *format == "vdb";
     if (binary && binary_to_terminal(command.output))
@@ -99,7 +104,8 @@ int run_particles(const ParticlesCommand& command) {
     auto draft = read_scene_input(command.scene);
     if (!draft) return report_error(command.scene.path, draft.error());
     // A sequence counts its frames; whether it can be is asked first.
-    if (auto scene = validate(*draft); !scene) return report_error(command.scene.path, scene.error());
+    if (auto scene = validate(*draft); !scene)
+        return report_error(command.scene.path, scene.error());
     const auto moments = moments_of(command, *draft);
     if (!moments) return bad_usage(moments.error().message);
     std::vector<std::string> outputs;

@@ -9,8 +9,10 @@ namespace {
 std::string flags_of(const CLI::App& command) {
     std::string flags;
     for (const CLI::Option* const option : command.get_options()) {
-        for (const std::string& name : option->get_lnames()) flags += (flags.empty() ? "--" : " --") + name;
-        for (const std::string& name : option->get_snames()) flags += (flags.empty() ? "-" : " -") + name;
+        for (const std::string& name : option->get_lnames())
+            flags += (flags.empty() ? "--" : " --") + name;
+        for (const std::string& name : option->get_snames())
+            flags += (flags.empty() ? "-" : " -") + name;
     }
     return flags;
 }
@@ -23,13 +25,18 @@ std::string bash_script(const CLI::App& app) {
         cases += "        " + command->get_name() + ") flags=\"" + flags_of(*command) + "\" ;;\n";
     }
     return "_awan() {\n"
-           "    local word=${COMP_WORDS[COMP_CWORD]} flags=\"" + flags_of(app) + "\"\n"
+           "    local word=${COMP_WORDS[COMP_CWORD]} flags=\"" +
+           flags_of(app) +
+           "\"\n"
            "    COMPREPLY=()\n"
            "    if [ \"$COMP_CWORD\" -eq 1 ] && [[ $word != -* ]]; then\n"
-           "        COMPREPLY=($(compgen -W \"" + commands + "\" -- \"$word\"))\n"
+           "        COMPREPLY=($(compgen -W \"" +
+           commands +
+           "\" -- \"$word\"))\n"
            "        return\n"
            "    fi\n"
-           "    case ${COMP_WORDS[1]} in\n" + cases +
+           "    case ${COMP_WORDS[1]} in\n" +
+           cases +
            "    esac\n"
            "    if [[ $word == -* ]]; then COMPREPLY=($(compgen -W \"$flags\" -- \"$word\")); fi\n"
            "}\n"
@@ -70,9 +77,10 @@ std::string fish_script(const CLI::App& app) {
 std::string completion_script(const CLI::App& app, const std::string& shell) {
     if (shell == "fish") return fish_script(app);
     // zsh runs bash's completions once it is told to.
-    const std::string before = shell == "zsh" ? "autoload -U +X compinit && compinit\nautoload -U +X bashcompinit && "
-                                                "bashcompinit\n"
-                                              : "";
+    const std::string before =
+        shell == "zsh" ? "autoload -U +X compinit && compinit\nautoload -U +X bashcompinit && "
+                         "bashcompinit\n"
+                       : "";
     return before + bash_script(app);
 }
 

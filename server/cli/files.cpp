@@ -182,7 +182,8 @@ Status write_depfile(const std::string& path, const std::vector<std::string>& ou
         }
     };
     for (const std::string& name : outputs) append(name);
-    if (text.empty()) return Error{ErrorCode::kIo, "", "--depfile " + path + ": needs an output that has a name"};
+    if (text.empty())
+        return Error{ErrorCode::kIo, "", "--depfile " + path + ": needs an output that has a name"};
     text += ':';
     for (const std::string& name : inputs) append(name);
     return write_output(path, text + '\n');

@@ -52,13 +52,18 @@ Result<std::vector<std::uint64_t>> parse_frames(const std::string& text, std::ui
         const std::size_t comma = rest.find(',');
         const std::string_view part = rest.substr(0, comma);
         const std::size_t dash = part.find('-');
-        const std::size_t cross = std::min(part.find('x', std::min(dash, part.size())), part.size());
+        const std::size_t cross =
+            std::min(part.find('x', std::min(dash, part.size())), part.size());
         const auto first = number(part.substr(0, dash));
-        const auto last = dash == std::string_view::npos ? first : number(part.substr(dash + 1, cross - dash - 1));
-        const auto step = cross == part.size() ? std::optional<std::uint64_t>(1) : number(part.substr(cross + 1));
+        const auto last = dash == std::string_view::npos
+                              ? first
+                              : number(part.substr(dash + 1, cross - dash - 1));
+        const auto step =
+            cross == part.size() ? std::optional<std::uint64_t>(1) : number(part.substr(cross + 1));
         if (!first || !last || *first > *last || !step || *step == 0)
-            return bad("--frames " + text +
-                       ": must be all, or numbers and ranges with commas, such as 3, 0-11,20 or 0-99x10");
+            return bad(
+                "--frames " + text +
+                ": must be all, or numbers and ranges with commas, such as 3, 0-11,20 or 0-99x10");
         if (*last >= count)
             return bad("--frames " + text + ": the sequence has frames 0 to " +
                        std::to_string(count - 1));
@@ -74,13 +79,16 @@ Result<std::vector<std::uint64_t>> parse_frames(const std::string& text, std::ui
 Status check_numbered(const std::string& output, std::size_t frames) {
     if (frames <= 1 || place_in(output)) return std::nullopt;
     return bad("-o " + output + ": " + std::to_string(frames) +
-               " frames need a place for their number, such as cloud.%04d.png or cloud.####.png, or an animation, "
+               " frames need a place for their number, such as cloud.%04d.png or cloud.####.png, "
+               "or an animation, "
                ".webp or .apng");
 }
 
 Status check_not_numbered(const std::string& output) {
     if (!place_in(output)) return std::nullopt;
-    return bad("-o " + output + ": has a place for a frame's number, and there are no frames; say which with --frames");
+    return bad(
+        "-o " + output +
+        ": has a place for a frame's number, and there are no frames; say which with --frames");
 }
 
 std::string numbered_name(const std::string& output, std::uint64_t frame) {

@@ -56,7 +56,8 @@ void add_scene(CLI::App& command, SceneInput& scene, const std::string& name = "
         "a value of the document, as /sun/elevation=12 or /clouds/0/density=auto; may be repeated")
         ->allow_extra_args(false);
     add(command, "--seed", scene.seed, "instead of the document's");
-    add(command, "--radius", scene.radius, "of ready particles (.ply, .csv), in place of what the file says of it")
+    add(command, "--radius", scene.radius,
+        "of ready particles (.ply, .csv), in place of what the file says of it")
         ->check(CLI::PositiveNumber);
 }
 
@@ -67,9 +68,11 @@ void add_state(CLI::App& command, SceneInput& scene) {
 
 void add_farm_flags(CLI::App& command, bool& skip_existing, std::string& depfile) {
     command
-        .add_flag("--skip-existing", skip_existing, "what is there already is not made again (files appear whole)")
+        .add_flag("--skip-existing", skip_existing,
+                  "what is there already is not made again (files appear whole)")
         ->envname("AWAN_SKIP_EXISTING");
-    add(command, "--depfile", depfile, "a file that says to make and ninja what the outputs are made of");
+    add(command, "--depfile", depfile,
+        "a file that says to make and ninja what the outputs are made of");
 }
 
 // A configuration file says for `serve` what its flags would: `queue = 4`, `allow-host = ["a"]`.
@@ -133,16 +136,20 @@ Run add_render(CLI::App& app) {
     CLI::App* render = app.add_subcommand("render", "a scene to an image");
     add_scene(*render, command->scene);
     add(*render, "-o,--output", command->outputs,
-        "a .png or .exr file, or - for standard output; of a sequence a name with %04d or #### in it "
+        "a .png or .exr file, or - for standard output; of a sequence a name with %04d or #### in "
+        "it "
         "for numbered files, or an animation, .webp or .apng; may be repeated")
         ->required()
         ->allow_extra_args(false);
     add(*render, "--time", command->time, "seconds, instead of the document's");
     add(*render, "--frames", command->frames,
         "of the scene's sequence: all, or numbers from 0 as 3, 0-11,20 or 0-99x10");
-    add(*render, "--bits", command->bits, "of a channel of PNG, 8 or 16")->check(CLI::IsMember({8, 16}));
+    add(*render, "--bits", command->bits, "of a channel of PNG, 8 or 16")
+        ->check(CLI::IsMember({8, 16}));
     add_farm_flags(*render, command->skip_existing, command->depfile);
-    render->add_flag("--json", command->json, "a line of JSON for every picture: digest, rung, error, times")
+    render
+        ->add_flag("--json", command->json,
+                   "a line of JSON for every picture: digest, rung, error, times")
         ->envname("AWAN_JSON");
     add(*render, "--fps", command->frames_per_second, "frames a second that an animation shows")
         ->check(CLI::Range(0.1, 1000.0));
@@ -227,14 +234,18 @@ Run add_particles(CLI::App& app) {
     CLI::App* particles = app.add_subcommand("particles", "a scene to its particles");
     add_scene(*particles, command->scene);
     add(*particles, "-o,--output", command->output,
-        "a .json, .csv, .ply, .awn, .glb (points) or .vdb (volume of extinction) file, or - for standard output");
-    add(*particles, "--format", command->format, "json, csv, ply, awn, glb or vdb, for standard output")
+        "a .json, .csv, .ply, .awn, .glb (points) or .vdb (volume of extinction) file, or - for "
+        "standard output");
+    add(*particles, "--format", command->format,
+        "json, csv, ply, awn, glb or vdb, for standard output")
         ->check(CLI::IsMember({"json", "csv", "ply", "awn", "glb", "vdb"}));
-    add(*particles, "--voxels", command->voxels, "cells along the longest side of a .vdb; fewer where it would take long")
+    add(*particles, "--voxels", command->voxels,
+        "cells along the longest side of a .vdb; fewer where it would take long")
         ->check(CLI::Range(8, 1024));
     add(*particles, "--time", command->time, "seconds, instead of the document's");
     add(*particles, "--frames", command->frames,
-        "of the scene's sequence, to numbered files: all, or numbers from 0 as 3, 0-11,20 or 0-99x10");
+        "of the scene's sequence, to numbered files: all, or numbers from 0 as 3, 0-11,20 or "
+        "0-99x10");
     add_farm_flags(*particles, command->skip_existing, command->depfile);
     add_state(*particles, command->scene);
     add_threads(*particles, command->threads);
@@ -278,21 +289,25 @@ Run add_convert(CLI::App& app) {
 
 Run add_validate(CLI::App& app) {
     auto command = std::make_shared<ValidateCommand>();
-    CLI::App* validate = app.add_subcommand("validate", "whether scenes can be, and what is wrong with them");
-    validate->add_option("scene", command->scenes, std::string(kSceneHelp) + "; or several")->required();
+    CLI::App* validate =
+        app.add_subcommand("validate", "whether scenes can be, and what is wrong with them");
+    validate->add_option("scene", command->scenes, std::string(kSceneHelp) + "; or several")
+        ->required();
     return [command] { return run_validate(*command); };
 }
 
 Run add_presets(CLI::App& app) {
     auto command = std::make_shared<PresetsCommand>();
-    CLI::App* presets = app.add_subcommand("presets", "the scenes that ship with this program, or one as a document");
+    CLI::App* presets = app.add_subcommand(
+        "presets", "the scenes that ship with this program, or one as a document");
     presets->add_option("name", command->name, "of one of them");
     return [command] { return run_presets(*command); };
 }
 
 Run add_digest(CLI::App& app) {
     auto command = std::make_shared<DigestCommand>();
-    CLI::App* digest = app.add_subcommand("digest", "what equal scenes have in common: 32 hex digits");
+    CLI::App* digest =
+        app.add_subcommand("digest", "what equal scenes have in common: 32 hex digits");
     add_scene(*digest, command->scene);
     add_state(*digest, command->scene);
     return [command] { return run_digest(*command); };
@@ -301,7 +316,8 @@ Run add_digest(CLI::App& app) {
 // `app` has all of its commands when the script is asked for.
 Run add_completion(CLI::App& app) {
     auto shell = std::make_shared<std::string>();
-    CLI::App* completion = app.add_subcommand("completion", "a script that completes commands and flags in a shell");
+    CLI::App* completion =
+        app.add_subcommand("completion", "a script that completes commands and flags in a shell");
     completion->add_option("shell", *shell, "bash, zsh or fish: source <(awan completion bash)")
         ->required()
         ->check(CLI::IsMember({"bash", "zsh", "fish"}));
@@ -333,13 +349,17 @@ int main(int argc, char** argv) {
                    "flags of serve, one a line: queue = 4 (Env:AWAN_CONFIG)", named);
     app.allow_config_extras(CLI::config_extras_mode::error);
 
-    const std::pair<const char*, Run> commands[] = {
-        {"serve", add_serve(app)},        {"render", add_render(app)},
-        {"accuracy", add_accuracy(app)},  {"particles", add_particles(app)},
-        {"plan", add_plan(app)},          {"convert", add_convert(app)},
-        {"state", add_state_command(app)}, {"validate", add_validate(app)},
-        {"presets", add_presets(app)},    {"digest", add_digest(app)},
-        {"completion", add_completion(app)}};
+    const std::pair<const char*, Run> commands[] = {{"serve", add_serve(app)},
+                                                    {"render", add_render(app)},
+                                                    {"accuracy", add_accuracy(app)},
+                                                    {"particles", add_particles(app)},
+                                                    {"plan", add_plan(app)},
+                                                    {"convert", add_convert(app)},
+                                                    {"state", add_state_command(app)},
+                                                    {"validate", add_validate(app)},
+                                                    {"presets", add_presets(app)},
+                                                    {"digest", add_digest(app)},
+                                                    {"completion", add_completion(app)}};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

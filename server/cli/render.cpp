@@ -47,20 +47,23 @@ double exposure_of(const Scene& scene) {
     return scene->image.exposure.value_or(auto_exposure(scene));
 }
 
-Result<std::string> encode(const Rendered& rendered, const Scene& scene, const std::string& format, int bits) {
-    if (format == "exr") return encode_exr(rendered.image, scene->image.precision, notes_of(rendered));
+Result<std::string> encode(const Rendered& rendered, const Scene& scene, const std::string& format,
+                           int bits) {
+    if (format == "exr")
+        return encode_exr(rendered.image, scene->image.precision, notes_of(rendered));
     return encode_png(rendered.image, exposure_of(scene), bits);
 }
 
 // Writes the picture to every file that is not an animation. frame: none for a scene that stands still.
-Status write_picture(const Rendered& rendered, const Scene& scene, const std::uint64_t* frame, Work& work,
-                     double& encode_ms) {
+Status write_picture(const Rendered& rendered, const Scene& scene, const std::uint64_t* frame,
+                     Work& work, double& encode_ms) {
     const auto start = Deadline::Clock::now();
     for (const Target& target : work.targets) {
         if (target.animated()) continue;
         const auto bytes = encode(rendered, scene, target.format, work.command.bits);
         if (!bytes) return bytes.error();
-        const std::string path = frame == nullptr ? target.path : numbered_name(target.path, *frame);
+        const std::string path =
+            frame == nullptr ? target.path : numbered_name(target.path, *frame);
         if (Status failed = write_output(path, *bytes)) return failed;
     }
     encode_ms = ms_since(start);
@@ -68,7 +71,8 @@ Status write_picture(const Rendered& rendered, const Scene& scene, const std::ui
 }
 
 // Says what came of a picture; nothing where the picture itself goes to standard output.
-void say_result(const PictureResult& result, const Scene& scene, const Rendered* rendered, Work& work) {
+void say_result(const PictureResult& result, const Scene& scene, const Rendered* rendered,
+                Work& work) {
     const bool taken = std::any_of(work.targets.begin(), work.targets.end(),
                                    [](const Target& target) { return target.path == "-"; });
     if (taken) return;
@@ -90,7 +94,8 @@ bool all_finished(const std::vector<std::string>& files) {
 }
 
 Status render_still(const Scene& scene, Work& work) {
-    PictureResult result{work.command.scene.path, files_of_frame(work.targets, nullptr), {}, false, 0};
+    PictureResult result{
+        work.command.scene.path, files_of_frame(work.targets, nullptr), {}, false, 0};
     if (work.command.skip_existing && all_finished(result.outputs)) {
         result.skipped = true;
         say_result(result, scene, nullptr, work);
@@ -101,7 +106,8 @@ Status render_still(const Scene& scene, Work& work) {
         scene, plan_scene(scene, work.command.threads, Deadline{}, work.speed, &work.tiles), work);
     if (!rendered) return rendered.error();
     work.progress.say("encoding");
-    if (Status failed = write_picture(*rendered, scene, nullptr, work, result.encode_ms)) return failed;
+    if (Status failed = write_picture(*rendered, scene, nullptr, work, result.encode_ms))
+        return failed;
     say_result(result, scene, &*rendered, work);
     return std::nullopt;
 }
@@ -125,8 +131,9 @@ Result<std::vector<Film>> begin_films(const Work& work, std::size_t frames) {
     std::vector<Film> films;
     for (const Target& target : work.targets) {
         if (!target.animated()) continue;
-        auto begun = Animation::begin(target.format == "webp" ? AnimationFormat::kWebp : AnimationFormat::kApng,
-                                      work.command.frames_per_second, frames);
+        auto begun = Animation::begin(
+            target.format == "webp" ? AnimationFormat::kWebp : AnimationFormat::kApng,
+            work.command.frames_per_second, frames);
         if (!begun) return begun.error();
         films.push_back({&target, *std::move(begun)});
     }
@@ -134,10 +141,12 @@ Result<std::vector<Film>> begin_films(const Work& work, std::size_t frames) {
 }
 
 // The frames that are to be made: all, or those of which a file is missing.
-std::vector<std::uint64_t> missing_frames(const Scene& scene, const std::vector<std::uint64_t>& frames, Work& work) {
+std::vector<std::uint64_t> missing_frames(const Scene& scene,
+                                          const std::vector<std::uint64_t>& frames, Work& work) {
     std::vector<std::uint64_t> missing;
     for (const std::uint64_t frame : frames) {
-        PictureResult result{work.command.scene.path, files_of_frame(work.targets, &frame), frame, true, 0};
+        PictureResult result{work.command.scene.path, files_of_frame(work.targets, &frame), frame,
+                             true, 0};
         if (all_finished(result.outputs))
             say_result(result, scene, nullptr, work);
         else
@@ -167,9 +176,12 @@ Status render_frames(const Scene& scene, std::vector<std::uint64_t> frames, Work
         auto rendered = render_of(*settled, frame_time(sequence, frames[i]), work, still);
         if (!rendered) return rendered.error();
         for (Film& film : *films)
-            if (Status failed = film.animation.add(rendered->image, exposure_of(still))) return failed;
-        PictureResult result{work.command.scene.path, files_of_frame(work.targets, &frames[i]), frames[i], false, 0};
-        if (Status failed = write_picture(*rendered, still, &frames[i], work, result.encode_ms)) return failed;
+            if (Status failed = film.animation.add(rendered->image, exposure_of(still)))
+                return failed;
+        PictureResult result{work.command.scene.path, files_of_frame(work.targets, &frames[i]),
+                             frames[i], false, 0};
+        if (Status failed = write_picture(*rendered, still, &frames[i], work, result.encode_ms))
+            return failed;
         say_result(result, still, &*rendered, work);
     }
     work.progress.say("encoding");
@@ -220,8 +232,8 @@ int run_render(const RenderCommand& command) {
     auto targets = targets_of(command, draft->image.format == ImageFormat::kExr ? "exr" : "png");
     if (!targets) return bad_usage(targets.error().message);
     const auto is_exr = [](const Target& target) { return target.format == "exr"; };
-    draft->image.format =
-        std::any_of(targets->begin(), targets->end(), is_exr) ? ImageFormat::kExr : ImageFormat::kPng;
+    draft->image.format = std::any_of(targets->begin(), targets->end(), is_exr) ? ImageFormat::kExr
+                                                                                : ImageFormat::kPng;
     const auto is_standard = [](const Target& target) { return target.path == "-"; };
     if (command.json && std::any_of(targets->begin(), targets->end(), is_standard))
         return bad_usage("--json: standard output takes either the picture or the line");
@@ -229,15 +241,17 @@ int run_render(const RenderCommand& command) {
     auto scene = validate(std::move(draft).value());
     if (!scene) return report_error(name, scene.error());
     Work work(command, *std::move(targets));
-    const bool animated =
-        std::any_of(work.targets.begin(), work.targets.end(), [](const Target& t) { return t.animated(); });
+    const bool animated = std::any_of(work.targets.begin(), work.targets.end(),
+                                      [](const Target& t) { return t.animated(); });
     if (!animated && command.frames.empty()) {
         for (const Target& target : work.targets) {
-            if (const Status wrong = check_not_numbered(target.path)) return bad_usage(wrong->message);
+            if (const Status wrong = check_not_numbered(target.path))
+                return bad_usage(wrong->message);
             if (const Status failed = check_writable(target.path)) return report_error("", *failed);
         }
         if (const Status failed = render_still(*scene, work)) return report_error(name, *failed);
-        if (const Status failed = write_dependencies(command, command.outputs)) return report_error("", *failed);
+        if (const Status failed = write_dependencies(command, command.outputs))
+            return report_error("", *failed);
         return kExitFine;
     }
     if (!(*scene)->sequence)
@@ -252,9 +266,12 @@ int run_render(const RenderCommand& command) {
         if (target.animated()) outputs.push_back(target.path);
     }
     for (const std::uint64_t frame : *frames)
-        for (std::string& file : files_of_frame(work.targets, &frame)) outputs.push_back(std::move(file));
-    if (const Status failed = render_frames(*scene, *frames, work)) return report_error(name, *failed);
-    if (const Status failed = write_dependencies(command, outputs)) return report_error("", *failed);
+        for (std::string& file : files_of_frame(work.targets, &frame))
+            outputs.push_back(std::move(file));
+    if (const Status failed = render_frames(*scene, *frames, work))
+        return report_error(name, *failed);
+    if (const Status failed = write_dependencies(command, outputs))
+        return report_error("", *failed);
     return kExitFine;
 }
 

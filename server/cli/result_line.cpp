@@ -47,7 +47,10 @@ std::string result_json(const PictureResult& result, const Scene& scene, const R
     member("height", scene->image.height, out);
     if (rendered != nullptr) {
         member("particles", static_cast<std::uint64_t>(rendered->survey.particles), out);
-        member("rung", std::string_view(rendered->rung != nullptr ? rendered->rung->name : rendered->plan.rung), out);
+        member("rung",
+               std::string_view(rendered->rung != nullptr ? rendered->rung->name
+                                                          : rendered->plan.rung),
+               out);
         member("error", rendered->stated_error, out);
         member("error_forecast", rendered->plan.predicted.error, out);
         append_times(rendered->times, result.encode_ms, out);
@@ -58,11 +61,11 @@ std::string result_json(const PictureResult& result, const Scene& scene, const R
 std::string result_text(const std::string& output, const Rendered& rendered) {
     const double expected = rendered.plan.predicted.error;
     if (std::isfinite(rendered.stated_error))
-        return output + ": " + rendered.plan.rung + ", error " + percent(rendered.stated_error) + " (expected " +
-               percent(expected) + ")\n";
+        return output + ": " + rendered.plan.rung + ", error " + percent(rendered.stated_error) +
+               " (expected " + percent(expected) + ")\n";
     if (!std::isfinite(expected)) return {};
-    return output + ": " + rendered.plan.rung + ", error not measured, the time is too short (expected " +
-           percent(expected) + ")\n";
+    return output + ": " + rendered.plan.rung +
+           ", error not measured, the time is too short (expected " + percent(expected) + ")\n";
 }
 
 }  // namespace awan

@@ -23,14 +23,17 @@ Result<SceneDraft> read_file(const SceneInput& input, std::vector<std::string>& 
         *bytes = *std::move(unpacked);
     }
     const auto format = scene_format_of_name(input.path);
-    return read_scene(format ? *format : sniff_scene_format(*bytes), *bytes, {input.radius, &notes});
+    return read_scene(format ? *format : sniff_scene_format(*bytes), *bytes,
+                      {input.radius, &notes});
 }
 
 Status apply_set(const std::string& set, SceneDraft& draft) {
     const std::size_t equals = set.find('=');
     if (equals == std::string::npos)
-        return Error{ErrorCode::kInvalidScene, "", "--set " + set + ": must be a place and a value, /sun/elevation=12"};
-    return set_in_scene(std::string_view(set).substr(0, equals), std::string_view(set).substr(equals + 1), draft);
+        return Error{ErrorCode::kInvalidScene, "",
+                     "--set " + set + ": must be a place and a value, /sun/elevation=12"};
+    return set_in_scene(std::string_view(set).substr(0, equals),
+                        std::string_view(set).substr(equals + 1), draft);
 }
 
 }  // namespace
@@ -39,7 +42,8 @@ Result<SceneDraft> read_scene_input(const SceneInput& input) {
     std::vector<std::string> notes;
     auto draft = read_file(input, notes);
     if (!draft) return draft.error();
-    for (const std::string& note : notes) std::fprintf(stderr, "awan: %s: %s\n", input.path.c_str(), note.c_str());
+    for (const std::string& note : notes)
+        std::fprintf(stderr, "awan: %s: %s\n", input.path.c_str(), note.c_str());
     for (const std::string& set : input.sets)
         if (const Status wrong = apply_set(set, *draft)) return *wrong;
     if (input.seed) draft->seed = *input.seed;

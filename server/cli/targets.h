@@ -23,6 +23,7 @@ struct Target {
 Result<std::vector<Target>> targets_of(const RenderCommand& command, const std::string& otherwise);
 
 // The files of one frame; animations, which hold all of them, stay out. frame: none for a scene that stands still.
-std::vector<std::string> files_of_frame(const std::vector<Target>& targets, const std::uint64_t* frame);
+std::vector<std::string> files_of_frame(const std::vector<Target>& targets,
+                                        const std::uint64_t* frame);
 
 }  // namespace awan

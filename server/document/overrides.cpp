@@ -11,18 +11,20 @@
 namespace awan {
 namespace {
 
-constexpr std::array<std::string_view, 9> kNames = {"width", "height",  "format", "background", "seed",
-                                                    "error", "time_ms", "rung",   "radius"};
+constexpr std::array<std::string_view, 9> kNames = {
+    "width", "height", "format", "background", "seed", "error", "time_ms", "rung", "radius"};
 
 Error wrong_value(std::string_view name, const std::string& wanted, std::string_view value) {
     return {ErrorCode::kMalformed, "",
-            "query parameter `" + std::string(name) + "` must be " + wanted + ", not " + short_quote(value)};
+            "query parameter `" + std::string(name) + "` must be " + wanted + ", not " +
+                short_quote(value)};
 }
 
 Status read_side(std::string_view name, std::string_view value, std::optional<int>& to) {
     const auto number = read_number<int>(value);
     if (!number || *number < 1 || *number > limits::kMaxImageSide)
-        return wrong_value(name, "an integer from 1 to " + std::to_string(limits::kMaxImageSide), value);
+        return wrong_value(name, "an integer from 1 to " + std::to_string(limits::kMaxImageSide),
+                           value);
     to = *number;
     return std::nullopt;
 }
@@ -52,7 +54,8 @@ Status read_one(std::string_view name, std::string_view value, Overrides& to) {
     if (name == "format") {
         to.format = value;
     } else if (name == "background") {
-        if (value != "sky" && value != "transparent") return wrong_value(name, "sky or transparent", value);
+        if (value != "sky" && value != "transparent")
+            return wrong_value(name, "sky or transparent", value);
         to.background = value == "sky" ? Background::kSky : Background::kTransparent;
     } else if (name == "seed") {
         to.seed = read_number<std::uint64_t>(value);
@@ -77,8 +80,10 @@ Result<Overrides> read_overrides(std::span<const std::pair<std::string, std::str
             return Error{ErrorCode::kMalformed, "", "query parameter `" + name + "` stands twice"};
         if (Status wrong = read_one(name, value, overrides)) return *wrong;
     }
-    if (overrides.error.has_value() + overrides.time_ms.has_value() + overrides.rung.has_value() > 1)
-        return Error{ErrorCode::kMalformed, "", "give at most one of the query parameters error, time_ms and rung"};
+    if (overrides.error.has_value() + overrides.time_ms.has_value() + overrides.rung.has_value() >
+        1)
+        return Error{ErrorCode::kMalformed, "",
+                     "give at most one of the query parameters error, time_ms and rung"};
     return overrides;
 }
 

@@ -367,8 +367,9 @@ class SceneReader {
         constexpr int kNumberOverflow = 406;
         if (e.id == kNumberOverflow) return fail("must be finite: the number overflows");
         const std::string_view document(begin_, static_cast<std::size_t>(text.end - begin_));
-        error = Error{ErrorCode::kMalformed, "",
-                      not_json(document, static_cast<std::size_t>(text.at - begin_), reason_of(e.what()))};
+        error = Error{
+            ErrorCode::kMalformed, "",
+            not_json(document, static_cast<std::size_t>(text.at - begin_), reason_of(e.what()))};
         return false;
     }
 
@@ -421,12 +422,14 @@ class SceneReader {
     bool end_answer(Frame& scene) {
         if (!has_answer_) {
             if (only_in_answers_.empty()) return true;
-            return fail_at("/" + only_in_answers_, "belongs to a list of \"particles\", and there is none");
+            return fail_at("/" + only_in_answers_,
+                           "belongs to a list of \"particles\", and there is none");
         }
         const std::uint64_t clouds = std::uint64_t{1} << find_field(*scene.table, "clouds");
         const std::uint64_t cubes = std::uint64_t{1} << find_field(*scene.table, "cubes");
         if ((scene.seen & (clouds | cubes)) != 0)
-            return fail_at("/particles", "a scene has either \"particles\" or \"cubes\" or \"clouds\"");
+            return fail_at("/particles",
+                           "a scene has either \"particles\" or \"cubes\" or \"clouds\"");
         auto cloud = cloud_of(answer_);
         if (!cloud) {
             error = cloud.error();

@@ -9,7 +9,8 @@ namespace awan {
 namespace {
 
 bool take_text(TextCursor& c, std::string_view wanted) {
-    if (static_cast<std::size_t>(c.end - c.at) < wanted.size() || std::string_view(c.at, wanted.size()) != wanted)
+    if (static_cast<std::size_t>(c.end - c.at) < wanted.size() ||
+        std::string_view(c.at, wanted.size()) != wanted)
         return false;
     c.at += wanted.size();
     return true;
@@ -46,7 +47,8 @@ Result<Cloud> cloud_of(const ParticleAnswer& answer) {
         all_white = all_white && particle.color == glm::dvec3(1);
     }
     if (!all_white)
-        for (const AnsweredParticle& particle : answer.particles) ready.colors.emplace_back(particle.color);
+        for (const AnsweredParticle& particle : answer.particles)
+            ready.colors.emplace_back(particle.color);
     return cloud;
 }
 
@@ -55,10 +57,10 @@ std::size_t take_answered(TextCursor& cursor, ParticleAnswer& answer) {
     while (answer.particles.size() < limits::kMaxParticles) {
         json_runs::skip_blanks(c);
         AnsweredParticle particle;
-        if (!take_text(c, R"({"center":)") || !take_vector(c, particle.center) || !take_text(c, R"(,"radius":)") ||
-            !json_runs::take_number(c, particle.radius) || !take_text(c, R"(,"density":)") ||
-            !json_runs::take_number(c, particle.density) || !take_text(c, R"(,"color":)") ||
-            !take_vector(c, particle.color) || !take_text(c, "}"))
+        if (!take_text(c, R"({"center":)") || !take_vector(c, particle.center) ||
+            !take_text(c, R"(,"radius":)") || !json_runs::take_number(c, particle.radius) ||
+            !take_text(c, R"(,"density":)") || !json_runs::take_number(c, particle.density) ||
+            !take_text(c, R"(,"color":)") || !take_vector(c, particle.color) || !take_text(c, "}"))
             break;
         json_runs::skip_blanks(c);
         if (c.at == c.end || (*c.at != ',' && *c.at != ']')) break;

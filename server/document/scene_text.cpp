@@ -14,7 +14,8 @@ namespace awan {
 
 namespace {
 
-Result<SceneDraft> read_as(SceneFormat format, std::string_view bytes, const ParticleReading& reading) {
+Result<SceneDraft> read_as(SceneFormat format, std::string_view bytes,
+                           const ParticleReading& reading) {
     switch (format) {
         case SceneFormat::kAwn:
             return read_awn(bytes);
@@ -41,7 +42,8 @@ bool set_radii(SceneDraft& draft, double radius) {
 
 }  // namespace
 
-Result<SceneDraft> read_scene(SceneFormat format, std::string_view bytes, const ParticleReading& reading) {
+Result<SceneDraft> read_scene(SceneFormat format, std::string_view bytes,
+                              const ParticleReading& reading) {
     std::optional<std::string> text;
     if (format != SceneFormat::kPly || !bytes.starts_with("ply")) {
         auto converted = from_utf16(bytes);
@@ -62,10 +64,11 @@ std::optional<SceneFormat> scene_format_of_type(std::string_view media_type) {
         (media_type.starts_with("application/") && media_type.ends_with("+json")))
         return SceneFormat::kJson;
     if (media_type == "text/x-awn") return SceneFormat::kAwn;
-    if (media_type == "application/x-ply" || media_type == "application/ply" || media_type == "model/ply" ||
-        media_type == "model/x-ply")
+    if (media_type == "application/x-ply" || media_type == "application/ply" ||
+        media_type == "model/ply" || media_type == "model/x-ply")
         return SceneFormat::kPly;
-    if (media_type == "text/csv" || media_type == "application/csv" || media_type == "text/tab-separated-values")
+    if (media_type == "text/csv" || media_type == "application/csv" ||
+        media_type == "text/tab-separated-values")
         return SceneFormat::kCsv;
     return std::nullopt;
 }
@@ -80,14 +83,16 @@ std::optional<SceneFormat> scene_format_of_name(std::string_view file_name) {
     if (ends_with(".json")) return SceneFormat::kJson;
     if (ends_with(".awn")) return SceneFormat::kAwn;
     if (ends_with(".ply")) return SceneFormat::kPly;
-    if (ends_with(".csv") || ends_with(".tsv") || ends_with(".xyz") || ends_with(".asc")) return SceneFormat::kCsv;
+    if (ends_with(".csv") || ends_with(".tsv") || ends_with(".xyz") || ends_with(".asc"))
+        return SceneFormat::kCsv;
     return std::nullopt;
 }
 
 SceneFormat sniff_scene_format(std::string_view bytes) {
     bytes = without_byte_order_mark(bytes);
     // Of UTF-16 the first letters are enough.
-    const auto converted = from_utf16(bytes.substr(0, std::min<std::size_t>(bytes.size(), 512) & ~std::size_t{1}));
+    const auto converted =
+        from_utf16(bytes.substr(0, std::min<std::size_t>(bytes.size(), 512) & ~std::size_t{1}));
     if (converted && *converted) return sniff_scene_format(**converted);
     const std::size_t start = bytes.find_first_not_of(" \t\r\n");
     if (start == std::string_view::npos) return SceneFormat::kJson;

@@ -22,7 +22,8 @@ std::string take_name(std::string_view& pointer) {
     const std::size_t end = std::min(pointer.find('/'), pointer.size());
     std::string name;
     for (std::size_t i = 0; i < end; ++i) {
-        const bool escaped = pointer[i] == '~' && i + 1 < end && (pointer[i + 1] == '0' || pointer[i + 1] == '1');
+        const bool escaped =
+            pointer[i] == '~' && i + 1 < end && (pointer[i + 1] == '0' || pointer[i + 1] == '1');
         name += escaped ? (pointer[i + 1] == '0' ? '~' : '/') : pointer[i];
         if (escaped) ++i;
     }
@@ -56,7 +57,8 @@ Status put(Json& document, std::string_view pointer, std::string_view value) {
         } else if (at->is_object() || at->is_null()) {
             at = &(*at)[name];
         } else {
-            return at_pointer(pointer, "what stands before " + short_quote(name) + " is neither an object nor a list");
+            return at_pointer(pointer, "what stands before " + short_quote(name) +
+                                           " is neither an object nor a list");
         }
     }
     *at = value_of(value);
@@ -88,7 +90,8 @@ void put_back(std::vector<ReadyParticles> taken, SceneDraft& draft) {
 
 Status set_in_scene(std::string_view pointer, std::string_view value, SceneDraft& draft) {
     if (pointer.empty() || pointer.front() != '/')
-        return at_pointer("", "a place in a scene is written as /sun/elevation, not " + short_quote(pointer));
+        return at_pointer(
+            "", "a place in a scene is written as /sun/elevation, not " + short_quote(pointer));
     try {
         std::vector<ReadyParticles> taken = take_particles(draft);
         const std::string text = scene_to_json(draft);
@@ -99,7 +102,8 @@ Status set_in_scene(std::string_view pointer, std::string_view value, SceneDraft
         draft = *std::move(changed);
         put_back(std::move(taken), draft);
     } catch (const Json::exception& e) {
-        return Error{ErrorCode::kInvalidScene, std::string(pointer), "cannot be set: the value is not UTF-8"};
+        return Error{ErrorCode::kInvalidScene, std::string(pointer),
+                     "cannot be set: the value is not UTF-8"};
     }
     return std::nullopt;
 }

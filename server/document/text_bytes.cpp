@@ -53,9 +53,11 @@ Result<std::optional<std::string>> from_utf16(std::string_view bytes) {
         return cannot_read("the text is in UTF-32; save it as UTF-8");
     const Order order = order_of(bytes);
     if (order == Order::kNone) return std::optional<std::string>();
-    if (bytes.size() % 2 != 0) return cannot_read("the text is in UTF-16 and breaks off within a letter");
+    if (bytes.size() % 2 != 0)
+        return cannot_read("the text is in UTF-16 and breaks off within a letter");
     const auto unit = [&](std::size_t i) {
-        const auto first = static_cast<unsigned char>(bytes[i]), second = static_cast<unsigned char>(bytes[i + 1]);
+        const auto first = static_cast<unsigned char>(bytes[i]),
+                   second = static_cast<unsigned char>(bytes[i + 1]);
         return order == Order::kLittle ? std::uint32_t{first} | std::uint32_t{second} << 8
                                        : std::uint32_t{second} | std::uint32_t{first} << 8;
     };
@@ -66,7 +68,8 @@ Result<std::optional<std::string>> from_utf16(std::string_view bytes) {
         if (letter >= 0xD800 && letter < 0xE000) {
             const std::uint32_t low = i + 2 < bytes.size() ? unit(i + 2) : 0;
             if (letter >= 0xDC00 || low < 0xDC00 || low >= 0xE000)
-                return cannot_read("the text is in UTF-16 and has half a letter at byte " + std::to_string(i));
+                return cannot_read("the text is in UTF-16 and has half a letter at byte " +
+                                   std::to_string(i));
             letter = 0x10000 + ((letter - 0xD800) << 10) + (low - 0xDC00);
             i += 2;
         }
@@ -82,7 +85,8 @@ bool is_gzip(std::string_view bytes) {
 Result<std::string> gunzip(std::string_view bytes, std::size_t most) {
     z_stream stream{};
     // 15: the largest window; 16: gzip.
-    if (inflateInit2(&stream, 15 + 16) != Z_OK) return Error{ErrorCode::kInternal, "", "zlib could not begin"};
+    if (inflateInit2(&stream, 15 + 16) != Z_OK)
+        return Error{ErrorCode::kInternal, "", "zlib could not begin"};
     struct End {
         z_stream& stream;
         ~End() { inflateEnd(&stream); }
@@ -114,7 +118,8 @@ Result<std::string> gunzip(std::string_view bytes, std::size_t most) {
         if (result != Z_OK && result != Z_STREAM_END && !(result == Z_BUF_ERROR && made == 0))
             return cannot_read("the gzip data are damaged");
         if (out.size() + made > most)
-            return Error{ErrorCode::kTooLarge, "", "the gzip data hold more than " + std::to_string(most) + " bytes"};
+            return Error{ErrorCode::kTooLarge, "",
+                         "the gzip data hold more than " + std::to_string(most) + " bytes"};
         out.append(piece.data(), made);
         ended = result == Z_STREAM_END;
         drained = ended || stream.avail_out > 0;

@@ -6,8 +6,8 @@
 #include "core/accuracy/plot.h"
 #include "core/formats/numbers.h"
 #include "core/scene/rungs.h"
-#include "server/document/overrides.h"
 #include "server/document/accuracy_text.h"
+#include "server/document/overrides.h"
 #include "server/service/problem.h"
 #include "server/service/state.h"
 

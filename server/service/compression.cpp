@@ -25,7 +25,9 @@ bool is_packable(std::string_view type) {
 // A gzip file in the making.
 class Packer {
   public:
-    Packer() { ready_ = deflateInit2(&stream_, kLevel, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) == Z_OK; }
+    Packer() {
+        ready_ = deflateInit2(&stream_, kLevel, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) == Z_OK;
+    }
     ~Packer() {
         if (ready_) deflateEnd(&stream_);
     }
@@ -66,8 +68,11 @@ void mark(Response& response) {
 
 void compress(const Request& request, Response& response) {
     if (response.abandoned || response.status == 204 || response.status == 304) return;
-    if (!response.header("Content-Encoding").empty() || !is_packable(response.header("Content-Type"))) return;
-    if (!response.stream && (response.body.size() < kWorthIt || response.body.size() > (1u << 30))) return;
+    if (!response.header("Content-Encoding").empty() ||
+        !is_packable(response.header("Content-Type")))
+        return;
+    if (!response.stream && (response.body.size() < kWorthIt || response.body.size() > (1u << 30)))
+        return;
     if (!takes_gzip(joined_header(request, "Accept-Encoding"))) return;
     auto packer = std::make_shared<Packer>();
     if (!packer->ready()) return;

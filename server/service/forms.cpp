@@ -47,7 +47,9 @@ std::string parameter(std::string_view value, std::string_view name) {
         if (value.starts_with('"')) {
             std::size_t i = 1;
             for (; i < value.size() && value[i] != '"'; ++i) {
-                if (value[i] == '\\' && i + 1 < value.size() && (value[i + 1] == '"' || value[i + 1] == '\\')) ++i;
+                if (value[i] == '\\' && i + 1 < value.size() &&
+                    (value[i + 1] == '"' || value[i + 1] == '\\'))
+                    ++i;
                 text += value[i];
             }
             value.remove_prefix(std::min(i + 1, value.size()));
@@ -70,8 +72,10 @@ Result<FormPart> read_part(std::string_view bytes) {
         bytes.remove_prefix(end + 2);
         if (line.empty()) break;
         const std::size_t colon = line.find(':');
-        if (colon == std::string_view::npos) return bad_form("a line of a part's head is no header");
-        const std::string_view name = line.substr(0, colon), value = without_blanks(line.substr(colon + 1));
+        if (colon == std::string_view::npos)
+            return bad_form("a line of a part's head is no header");
+        const std::string_view name = line.substr(0, colon),
+                               value = without_blanks(line.substr(colon + 1));
         if (same(name, "Content-Disposition")) {
             part.name = parameter(value, "name");
             part.file_name = parameter(value, "filename");
@@ -88,8 +92,8 @@ std::string percent_encoded(std::string_view text) {
     std::string out;
     for (const char c : text) {
         const auto u = static_cast<unsigned char>(c);
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
-                           c == '.' || c == '_' || c == '~';
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                           (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '_' || c == '~';
         if (plain)
             out += c;
         else
@@ -140,7 +144,8 @@ Result<std::vector<FormPart>> read_multipart(std::string_view content_type, std:
     }
     for (;;) {
         if (body.starts_with("--")) return parts;
-        while (!body.empty() && (body.front() == ' ' || body.front() == '\t')) body.remove_prefix(1);
+        while (!body.empty() && (body.front() == ' ' || body.front() == '\t'))
+            body.remove_prefix(1);
         if (!body.starts_with("\r\n")) return bad_form("something stands behind a boundary");
         body.remove_prefix(2);
         const std::size_t end = body.find(delimiter);

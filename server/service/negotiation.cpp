@@ -51,8 +51,10 @@ int quality_of(std::string_view text) {
 // Other names for what is offered, as they are in use.
 bool is_named(std::string_view range, std::string_view offer) {
     if (range == offer) return true;
-    if (offer == "application/x-ply") return range == "application/ply" || range == "model/ply" || range == "model/x-ply";
-    if (offer == "image/x-exr") return range == "image/exr" || range == "image/openexr" || range == "image/aces";
+    if (offer == "application/x-ply")
+        return range == "application/ply" || range == "model/ply" || range == "model/x-ply";
+    if (offer == "image/x-exr")
+        return range == "image/exr" || range == "image/openexr" || range == "image/aces";
     return offer == "text/csv" && range == "application/csv";
 }
 
@@ -136,13 +138,15 @@ bool takes_gzip(std::string_view accept_encoding) {
 
 bool none_match_names(std::string_view if_none_match, std::string_view etag) {
     constexpr std::string_view kPacked = "-gzip\"";
-    const std::string_view plain = etag.substr(0, etag.size() - std::min<std::size_t>(etag.size(), 1));
+    const std::string_view plain =
+        etag.substr(0, etag.size() - std::min<std::size_t>(etag.size(), 1));
     while (!if_none_match.empty()) {
         std::string_view tag = next_part(if_none_match, ',');
         if (tag == "*") return true;
         if (tag.starts_with("W/")) tag.remove_prefix(2);
         if (tag == etag) return true;
-        if (tag.ends_with(kPacked) && tag.substr(0, tag.size() - kPacked.size()) == plain) return true;
+        if (tag.ends_with(kPacked) && tag.substr(0, tag.size() - kPacked.size()) == plain)
+            return true;
     }
     return false;
 }

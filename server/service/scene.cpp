@@ -296,13 +296,15 @@ namespace {
 Response not_offered(const Request& request, int status, std::string_view what) {
     std::string detail(what);
     const auto offers = offers_of(request.path);
-    for (const std::string_view offer : offers) detail.append(offer == offers.front() ? " " : ", ").append(offer);
+    for (const std::string_view offer : offers)
+        detail.append(offer == offers.front() ? " " : ", ").append(offer);
     return problem(status, detail, "", request.id);
 }
 
-Response answer_as(Service::State& state, const Request& request, const Scene& scene, std::string_view type,
-                   double waited_ms, WorkGate::Pass& pass) {
-    if (request.path == "/v1/render") return answer_render(state, request, scene, type, waited_ms, pass);
+Response answer_as(Service::State& state, const Request& request, const Scene& scene,
+                   std::string_view type, double waited_ms, WorkGate::Pass& pass) {
+    if (request.path == "/v1/render")
+        return answer_render(state, request, scene, type, waited_ms, pass);
     if (request.path == "/v1/plan") return answer_plan(state, request, scene);
     if (request.path == kAccuracyPath) {
         // A sweep takes long, and there is one at most: others compute beside it.
@@ -322,7 +324,8 @@ std::optional<Response> check_scene_request(const Request& request) {
     for (const auto& [name, value] : request.query)
         if (name == "format") {
             if (chosen_offer(request, value, offers)) return std::nullopt;
-            return not_offered(request, 400, "query parameter `format` names none of what can be answered here:");
+            return not_offered(request, 400,
+                               "query parameter `format` names none of what can be answered here:");
         }
     if (best_offer(joined_header(request, "Accept"), offers)) return std::nullopt;
     return not_offered(request, 406, "this can be answered as");
@@ -339,9 +342,12 @@ Response answer_scene_request(Service::State& state, const Request& request) {
 
     // What the client asks for; where it has no preference, what the document says.
     const bool exr = request.path == "/v1/render" && read->scene->image.format == ImageFormat::kExr;
-    const auto type = chosen_offer(request, read->overrides.format.value_or(""),
-                                   exr ? std::span<const std::string_view>(kImageOffersExrFirst) : offers_of(request.path));
-    if (!type) return not_offered(request, 400, "the field `format` names none of what can be answered here:");
+    const auto type = chosen_offer(
+        request, read->overrides.format.value_or(""),
+        exr ? std::span<const std::string_view>(kImageOffersExrFirst) : offers_of(request.path));
+    if (!type)
+        return not_offered(request, 400,
+                           "the field `format` names none of what can be answered here:");
     Response response = answer_as(state, request, read->scene, *type, waited_ms, pass);
     const std::string notes = notes_header(read->notes);
     if (!notes.empty()) response.headers.emplace_back("Awan-Notes", notes);

@@ -17,10 +17,12 @@
 namespace awan {
 namespace {
 
-constexpr std::string_view kUrlencoded = "application/x-www-form-urlencoded", kMultipart = "multipart/form-data";
+constexpr std::string_view kUrlencoded = "application/x-www-form-urlencoded",
+                           kMultipart = "multipart/form-data";
 
 // The query of /v1/accuracy beside the overrides (accuracy.cpp).
-constexpr std::array<std::string_view, 5> kAccuracyNames = {"theme", "size", "samples", "runs", "rungs"};
+constexpr std::array<std::string_view, 5> kAccuracyNames = {"theme", "size", "samples", "runs",
+                                                            "rungs"};
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kFormats = {
     {{"json", "application/json"},
@@ -38,13 +40,21 @@ Status check_names(const Request& request) {
     const bool accuracy = request.path == kAccuracyPath;
     for (const auto& [name, value] : request.query) {
         if (is_override(name)) continue;
-        if (accuracy && std::find(kAccuracyNames.begin(), kAccuracyNames.end(), name) != kAccuracyNames.end())
+        if (accuracy &&
+            std::find(kAccuracyNames.begin(), kAccuracyNames.end(), name) != kAccuracyNames.end())
             continue;
         return Error{ErrorCode::kMalformed, "",
-                     "there is no query parameter " + short_quote(name) + "; there are " + std::string(kOverrideNames) +
+                     "there is no query parameter " + short_quote(name) + "; there are " +
+                         std::string(kOverrideNames) +
                          (accuracy ? ", and here theme, size, samples, runs, rungs" : "")};
     }
     return std::nullopt;
+}
+
+Response wrong_type(std::string_view detail, const Request& request) {
+    Response response = problem(415, detail, "", request.id);
+    response.headers.emplace_back("Accept", kSceneTypes);
+    return response;
 }
 
 bool is_packed(const Request& request) {
@@ -78,14 +88,17 @@ Result<SceneBytes> of_form(std::vector<FormPart> parts, SceneBytes scene) {
             scene.bytes = std::move(part.value);
         } else if (is_override(part.name)) {
             // Fields that are left empty on a page say nothing.
-            if (!part.value.empty()) scene.fields.emplace_back(std::move(part.name), std::move(part.value));
+            if (!part.value.empty())
+                scene.fields.emplace_back(std::move(part.name), std::move(part.value));
         } else {
             return Error{ErrorCode::kMalformed, "",
-                         "there is no field " + short_quote(part.name) + " in a form; there are scene (or layout), " +
+                         "there is no field " + short_quote(part.name) +
+                             " in a form; there are scene (or layout), " +
                              std::string(kOverrideNames)};
         }
     }
-    if (!found) return Error{ErrorCode::kMalformed, "", "the form has no field `scene` (or `layout`)"};
+    if (!found)
+        return Error{ErrorCode::kMalformed, "", "the form has no field `scene` (or `layout`)"};
     return scene;
 }
 
@@ -121,12 +134,9 @@ Result<SceneBytes> scene_bytes(const Request& request) {
 std::optional<Response> check_scene_head(const Request& request) {
     const std::string type = media_type(request.header("Content-Type"));
     if (!scene_format_of_type(type) && !is_form(type)) {
-        Response response = problem(415,
-                                    "a scene comes as " + std::string(kSceneTypes) +
-                                        ", in UTF-8, or in a form; name it in Content-Type",
-                                    "", request.id);
-        response.headers.emplace_back("Accept", kSceneTypes);
-        return response;
+        return wrong_type("a scene comes as " + std::string(kSceneTypes) +
+                              ", in UTF-8, or in a form; name it in Content-Type",
+                          request);
     }
     if (const Status wrong = check_names(request)) return problem(*wrong, request.id);
     if (const auto overrides = read_overrides(request.query); !overrides)
@@ -138,8 +148,10 @@ std::optional<Response> check_scene_body(const Request& request) {
     if (media_type(request.header("Content-Type")) != kUrlencoded) return std::nullopt;
     const std::size_t first = request.body.find_first_not_of(" \t\r\n");
     if (first == std::string::npos || request.body[first] != '{') return std::nullopt;
-    return problem(415, "the body is JSON and its Content-Type a form's; send it with Content-Type: application/json",
-                   "", request.id);
+    return wrong_type(
+        "the body is JSON and its Content-Type a form's; send it with Content-Type: "
+        "application/json",
+        request);
 }
 
 Result<SceneRequest> read_scene_request(const Request& request) {
@@ -148,7 +160,8 @@ Result<SceneRequest> read_scene_request(const Request& request) {
     auto overrides = read_overrides(body->fields);
     if (!overrides) return overrides.error();
     std::vector<std::string> notes;
-    auto draft = read_scene(body->format, body->bytes ? *body->bytes : request.body, {overrides->radius, &notes});
+    auto draft = read_scene(body->format, body->bytes ? *body->bytes : request.body,
+                            {overrides->radius, &notes});
     if (!draft) return draft.error();
     // Its text is not needed any more, and may be long.
     body->bytes.reset();
@@ -162,7 +175,8 @@ std::optional<std::string_view> chosen_offer(const Request& request, std::string
                                              std::span<const std::string_view> offers) {
     if (format.empty()) return best_offer(joined_header(request, "Accept"), offers);
     for (const auto& [name, type] : kFormats)
-        if (name == format && std::find(offers.begin(), offers.end(), type) != offers.end()) return type;
+        if (name == format && std::find(offers.begin(), offers.end(), type) != offers.end())
+            return type;
     return {};
 }
 

@@ -137,7 +137,8 @@ std::optional<Response> check(const Service::State& state, const Route& route,
     if (!route.known && known_without_slash(state, request.path)) {
         // With the method and the body as they are.
         const std::string_view path = without_slash(request.path);
-        Response response = problem(308, "this path has no slash at its end: " + std::string(path), "", request.id);
+        Response response =
+            problem(308, "this path has no slash at its end: " + std::string(path), "", request.id);
         response.headers.emplace_back("Location", std::string(path) + query_text(request.query));
         return response;
     }

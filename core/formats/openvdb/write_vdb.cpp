@@ -33,8 +33,8 @@ class Taker final : public std::streambuf {
 
 }  // namespace
 
-extern "C" const char* awan_write_vdb(const awan::VdbGrid& grid, void (*take)(void*, const char*, std::size_t),
-                                      void* to) {
+extern "C" const char* awan_write_vdb(const awan::VdbGrid& grid,
+                                      void (*take)(void*, const char*, std::size_t), void* to) {
     static std::string message;
     try {
         openvdb::initialize();
@@ -42,11 +42,13 @@ extern "C" const char* awan_write_vdb(const awan::VdbGrid& grid, void (*take)(vo
         made->setName(grid.name);
         made->setGridClass(openvdb::GRID_FOG_VOLUME);
         // A value stands in the middle of its cell.
-        openvdb::math::Transform::Ptr place = openvdb::math::Transform::createLinearTransform(grid.cell);
+        openvdb::math::Transform::Ptr place =
+            openvdb::math::Transform::createLinearTransform(grid.cell);
         const double half = 0.5 * grid.cell;
         place->postTranslate({grid.origin[0] + half, grid.origin[1] + half, grid.origin[2] + half});
         made->setTransform(place);
-        const openvdb::CoordBBox box({0, 0, 0}, {grid.cells[0] - 1, grid.cells[1] - 1, grid.cells[2] - 1});
+        const openvdb::CoordBBox box({0, 0, 0},
+                                     {grid.cells[0] - 1, grid.cells[1] - 1, grid.cells[2] - 1});
         openvdb::tools::Dense<const float, openvdb::tools::LayoutXYZ> dense(box, grid.values);
         openvdb::tools::copyFromDense(dense, *made, 0.0f, true);
         Taker taker(take, to);
