@@ -119,7 +119,7 @@ contains "little memory" "memory" "$(cat err)"
 run 3 plan impossible.json
 contains "place" "awan: impossible.json: /cubes/0/size/1: must be" "$(cat err)"
 run 3 plan broken.json
-contains "not JSON" "awan: broken.json: not JSON at byte" "$(cat err)"
+contains "not JSON" "awan: broken.json: not JSON at line 1, column 2: " "$(cat err)"
 printf '1\n2\n' >short.awn
 run 3 plan short.awn
 contains "line" "awan: short.awn: line " "$(cat err)"

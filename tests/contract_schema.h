@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <string>
 #include <string_view>
@@ -78,12 +79,23 @@ class Contract {
         return std::floor(number) == number && number < 0x1p64;
     }
 
+    bool any_pattern_allows(const json& schema, const std::string& key, const json& value) const {
+        if (!schema.contains("patternProperties")) return false;
+        const json& patterns = schema.at("patternProperties");
+        return std::any_of(patterns.items().begin(), patterns.items().end(),
+                           [&](const auto& pattern) {
+                               return std::regex_search(key, std::regex(pattern.key())) &&
+                                      allows(pattern.value(), value);
+                           });
+    }
+
     bool members_allowed(const json& schema, const json& value) const {
         static const json kNone = json::object();
         const json& properties = schema.contains("properties") ? schema.at("properties") : kNone;
         return std::all_of(value.items().begin(), value.items().end(), [&](const auto& member) {
-            return properties.contains(member.key()) &&
-                   allows(properties.at(member.key()), member.value());
+            if (properties.contains(member.key()))
+                return allows(properties.at(member.key()), member.value());
+            return any_pattern_allows(schema, member.key(), member.value());
         });
     }
 
@@ -120,7 +132,7 @@ class Contract {
                    std::all_of(says.begin(), says.end(),
                                [&](const json& name) { return value.contains(name); });
         // Together with the next.
-        if (word == "properties") return true;
+        if (word == "properties" || word == "patternProperties") return true;
         if (word == "additionalProperties") {
             EXPECT_EQ(says, json(false));
             return !value.is_object() || members_allowed(schema, value);

@@ -447,7 +447,7 @@ TEST(ImageFile, NothingIsEncodedForWhoHasGoneOrWaitsNoLonger) {
     gone.cancelled = std::make_shared<std::atomic<bool>>(true);
     for (const auto& [deadline, code] : {std::pair(passed, ErrorCode::kOverDeadline),
                                          std::pair(gone, ErrorCode::kCancelled)}) {
-        const auto png = encode_png(image, 0, deadline);
+        const auto png = encode_png(image, 0, 8, deadline);
         ASSERT_FALSE(png.ok());
         EXPECT_EQ(png.error().code, code);
         const auto exr = encode_exr(image, Precision::kFloat, {}, deadline);

@@ -194,18 +194,19 @@ TEST(ParticleCsv, RejectsATableWithoutTheColumnsOfAParticle) {
 
 TEST(ParticleCsv, RejectsAColumnThatStandsTwice) {
     expect_malformed(read_particles_csv("x,y,z,radius,x\n"), "line 1", {"x", "twice"});
-    expect_malformed(read_particles_csv("x,y,z,radius,r,g,b,red\n"), "line 1", {"red", "twice"});
+    expect_malformed(read_particles_csv("x,y,z,radius,red,g,b,red\n"), "line 1", {"red", "twice"});
 }
 
 TEST(ParticleCsv, RejectsLinesWithMoreOrFewerCells) {
     expect_malformed(read_particles_csv("x,y,z,radius\n1,2,3,4\n1,2,3\n"), "line 3", {"4", "3"});
-    expect_malformed(read_particles_csv("x,y,z,radius\n1,2,3,4,\n"), "line 2", {"4", "5"});
+    expect_malformed(read_particles_csv("x,y,z,radius\n1,2,3,4,5\n"), "line 2", {"4", "5"});
 }
 
 TEST(ParticleCsv, RejectsCellsThatAreNotFiniteNumbers) {
-    for (const char* const bad : {"", "nan", "inf", "1e999", "one", "0x1", "1;2", "\"1\""})
+    for (const char* const bad :
+         {"", "nan", "inf", "1e999", "one", "0x1", "1;2", "1e", "--1", "+-1"})
         expect_malformed(read_particles_csv(std::string("x,y,z,radius\n1,2,") + bad + ",4\n"),
-                         "line 2", {"z", "finite"});
+                         "line 2, column 3", {"z", "finite"});
 }
 
 TEST(ParticleCsv, RejectsAMillionColumns) {
@@ -306,18 +307,18 @@ TEST(ParticlePly, RejectsHeadersThatAreNot) {
     expect_malformed(read_particles_ply(head), "", {"end_header"});
     expect_malformed(read_particles_ply("ply\nend_header\n"), "", {"format"});
     expect_malformed(read_particles_ply("ply\nformat ascii 1.0\nend_header\n"), "", {"vertex"});
-    expect_malformed(read_particles_ply("ply\nformat binary_big_endian 1.0\n"), "line 2",
+    expect_malformed(read_particles_ply("ply\nformat binary_middle_endian 1.0\n"), "line 2",
                      {"binary_little_endian"});
     expect_malformed(read_particles_ply("ply\nformat ascii 2.0\n"), "line 2", {"1.0"});
     expect_malformed(read_particles_ply("ply\nnonsense\n"), "line 2", {"nonsense"});
-    expect_malformed(read_particles_ply("ply\nformat ascii 1.0\nelement face 1\n"), "line 3",
+    expect_malformed(read_particles_ply("ply\nformat ascii 1.0\nelement face 1\nend_header\n"), "",
                      {"vertex"});
     expect_malformed(read_particles_ply("ply\nformat ascii 1.0\nelement vertex -1\n"), "line 3",
                      {"integer"});
     expect_malformed(read_particles_ply("ply\nproperty float x\n"), "line 2", {"element"});
-    expect_malformed(read_particles_ply(head + "property list uchar int i\nend_header\n"),
-                     "line 10", {"scalar"});
-    expect_malformed(read_particles_ply(head + "property float x\nend_header\n"), "line 10",
+    expect_malformed(read_particles_ply(head + "property real q\nend_header\n"), "line 10",
+                     {"real"});
+    expect_malformed(read_particles_ply(head + "property float x\nend_header\n"), "line 4",
                      {"twice"});
     std::string comments = "ply\n";
     for (int i = 0; i < 100'000; ++i) comments += "comment\n";

@@ -55,7 +55,8 @@ inline void expect_error(std::string_view text, ErrorCode code, const std::strin
         EXPECT_NE(error.message.find(word), std::string::npos)
             << '"' << error.message << "\" lacks " << word;
     EXPECT_LT(error.message.size(), 400u) << error.message;
-    for (const char c : error.message) EXPECT_TRUE(c >= ' ' && c <= '~') << error.message;
+    for (const char c : error.message)
+        EXPECT_TRUE(static_cast<unsigned char>(c) >= ' ' && c != '\x7f') << error.message;
 }
 
 inline void expect_invalid(std::string_view text, const std::string& pointer,

@@ -16,9 +16,8 @@ namespace {
 // --- routes
 
 TEST_F(ServiceTest, UnknownPathsAre404) {
-    for (const char* path : {"/nowhere", "/v1", "/v1/", "/v1/render/", "/v1/accuracy/", "/v1/jobs/",
-                             "/v1/jobs/1/nothing", "/v1/presets/", "/v1/presets/none",
-                             "/presets/cumulus.json", "", "*"}) {
+    for (const char* path : {"/nowhere", "/v1", "/v1/", "/v1/render//", "/v1/jobs/1/nothing",
+                             "/v1/presets/none", "/presets/cumulus.json", "", "*"}) {
         expect_problem(get(path), 404);
         expect_problem(post(path), 404);
     }
@@ -62,8 +61,8 @@ TEST_F(ServiceTest, EveryAnswerHasItsIdAndIsNotSniffed) {
 
 TEST_F(ServiceTest, ContentTypesOtherThanScenesAre415) {
     for (const char* type :
-         {"", "text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x",
-          "application/jsonx", "application/json; charset=utf-16", "image/png"}) {
+         {"", "text/plain", "application/x-www-form-urlencoded", "application/jsonx",
+          "application/json; charset=utf-16", "image/png"}) {
         const Response response = post("/v1/plan", kScene, {}, type);
         expect_problem(response, 415);
         EXPECT_FALSE(response.header("Accept").empty());

@@ -1,4 +1,4 @@
-// Image -> PNG or EXR bytes, made in memory. image_file.cpp is the only user of OpenImageIO.
+// Image -> PNG or EXR bytes, made in memory.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace awan {
 
-// 8-bit sRGB after exposure (stops, radiance * 2^stops) and the tone curve of
+// sRGB of 8 or 16 bits a channel after exposure (stops, radiance * 2^stops) and the tone curve of
 // core/shaders/tone.glsl; RGB when image.opaque, else RGBA with straight (not premultiplied) alpha
 // as PNG wants it. Errors: kOverDeadline, kCancelled, kOutOfMemory.
-Result<std::string> encode_png(const Image& image, double exposure_stops,
+Result<std::string> encode_png(const Image& image, double exposure_stops, int bits = 8,
                                const Deadline& deadline = {});
 
-// The pixels of it, row by row: 3 bytes each when image.opaque, else 4.
+// The pixels of it in 8 bits, row by row: 3 bytes each when image.opaque, else 4.
 std::vector<std::uint8_t> display_pixels(const Image& image, double exposure_stops);
 
 // How a picture came about, kept in its file as the attributes awan:rung, awan:error and awan:error_forecast. Of

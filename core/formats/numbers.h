@@ -1,6 +1,7 @@
 // Numbers and lines of text files, read without a locale and without throwing.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -10,13 +11,15 @@
 #include <utility>
 
 #include "core/base/result.h"
+#include "core/formats/quote.h"
 
 namespace awan {
 
-// The whole of `text` as a finite T, else nothing. -0 reads as 0, so that equal values are equal
-// bytes further on.
+// The whole of `text` as a finite T, else nothing: as people and tools write numbers, +1, 1. and .5 too. -0 reads as 0,
+// so that equal values are equal bytes further on.
 template <typename T>
 std::optional<T> read_number(std::string_view text) {
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     T value{};
     const char* const end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
@@ -43,12 +46,13 @@ inline std::string_view trim(std::string_view text) {
     return text;
 }
 
-// Takes the first line off `text`, without its line feed; the carriage return of Windows files is
-// blank space to trim().
+// Takes the first line off `text`, without its end: a line feed, the two characters of Windows, or the carriage return
+// alone of old Macintosh files.
 inline std::string_view take_line(std::string_view& text) {
-    const std::size_t end = text.find('\n');
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    std::size_t end = 0;
+    while (end < text.size() && text[end] != '\n' && text[end] != '\r') ++end;
+    const std::string_view line = text.substr(0, end), rest = text.substr(end);
+    text.remove_prefix(std::min(text.size(), end + (rest.starts_with("\r\n") ? 2 : 1)));
     return line;
 }
 
@@ -56,14 +60,6 @@ inline std::string_view take_line(std::string_view& text) {
 inline std::string_view without_byte_order_mark(std::string_view text) {
     if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
     return text;
-}
-
-// A client's text for a message: short, and printable ASCII only.
-inline std::string short_quote(std::string_view text) {
-    constexpr std::size_t kLongest = 40;
-    std::string out = "\"";
-    for (const char c : text.substr(0, kLongest)) out += c >= ' ' && c <= '~' ? c : '?';
-    return out + (text.size() > kLongest ? "...\"" : "\"");
 }
 
 }  // namespace awan

@@ -5,8 +5,10 @@
 //   double x, y, z; float radius, density, red, green, blue   (44 bytes a particle).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/generate/particle_set.h"
 #include "core/scene/scene.h"
@@ -25,13 +27,27 @@ void append_ply(const ParticleSet& particles, std::size_t first, std::size_t las
 void append_number(double value, std::string& out);
 void append_number(float value, std::string& out);
 
-// Ready particles (model `particles`) from a file, as a draft with every other value at its
-// default. Columns are found by name (CSV header line; PLY properties, ascii or binary
-// little-endian, any scalar type): x y z and radius are required; density, red/green/blue (or
-// r/g/b; uchar means 0..255) optional. `density` columns hold extinction (1/unit) as our own
-// answers do: the draft's cloud density is then 1. Errors: kMalformed with `pointer` "line N" or ""
-// and what was expected; kTooLarge over kMaxParticles.
-Result<SceneDraft> read_particles_csv(std::string_view text);
-Result<SceneDraft> read_particles_ply(std::string_view bytes);
+// A binary glTF 2.0 file of points: POSITION (float, from the middle, where the node stands), _RADIUS, _DENSITY,
+// COLOR_0, 32 bytes a particle. Error: there are none.
+Result<std::string> write_glb(const ParticleSet& particles);
+
+// How a file of particles is read.
+struct ParticleReading {
+    // Of every particle, in place of what the file says of radii; one that says nothing of them needs it.
+    std::optional<double> radius;
+    // What was taken for what, and what is not used, a sentence each; null: nobody asks.
+    std::vector<std::string>* notes = nullptr;
+};
+
+// Ready particles (model `particles`) from a file, as a draft with every other value at its default. Columns are found
+// by name (column_names.h): x, y, z and a radius are required, density and colours optional. What says density holds
+// extinction (1/unit), as our own answers do: the draft's cloud density is then 1.
+// CSV as RFC 4180 has it, and as tools write it: separated by commas, semicolons, tabs, bars or blanks, whichever
+// makes names of the header known; decimal commas where the comma separates nothing; header and comments behind # or
+// //. PLY 1.0: ascii and binary of either order, any elements, any properties, lists too; 3D Gaussian splats.
+// Errors: kMalformed with `pointer` "line N", "line N, column M" or "" and what was expected; kTooLarge over
+// kMaxParticles.
+Result<SceneDraft> read_particles_csv(std::string_view text, const ParticleReading& reading = {});
+Result<SceneDraft> read_particles_ply(std::string_view bytes, const ParticleReading& reading = {});
 
 }  // namespace awan

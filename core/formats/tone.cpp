@@ -31,6 +31,11 @@ int exact_code(float x) {
 float tone_curve(float exposed_radiance) {
     return glsl::tone_curve(exposed_radiance);
 }
+std::uint16_t display_code_16(float exposed_radiance) {
+    const float x = exposed_radiance > 0 ? std::min(exposed_radiance, glsl::kToneWhite) : 0.0f;
+    return static_cast<std::uint16_t>(
+        std::floor(65535.0 * srgb(static_cast<double>(tone_curve(x))) + 0.5));
+}
 float metered_level() {
     return glsl::kMeteredLevel;
 }

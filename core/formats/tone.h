@@ -14,6 +14,9 @@ float tone_curve(float exposed_radiance);
 // kMeteredLevel of tone.glsl.
 float metered_level();
 
+// round(65535 * sRGB(tone_curve(x))); NaN and what is below 0 give 0.
+std::uint16_t display_code_16(float exposed_radiance);
+
 // round(255 * sRGB(tone_curve(x))), exactly, without a power function a sample. The 255 radiances
 // at which the code changes are found once (0.3 ms); then a float's leading bits name a cell so
 // narrow that the code changes at most once in it.

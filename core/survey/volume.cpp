@@ -45,7 +45,7 @@ double work_at(const ParticleSet& particles, double cell) {
 
 }  // namespace
 
-DensityVolume density_volume(const ParticleSet& particles, int max_cells) {
+DensityVolume density_volume(const ParticleSet& particles, int max_cells, double most_work) {
     DensityVolume volume;
     if (particles.size() == 0) return volume;
     glm::dvec3 low(particles.center[0]), high(low);
@@ -61,7 +61,7 @@ DensityVolume density_volume(const ParticleSet& particles, int max_cells) {
         static_cast<double>(*std::max_element(particles.radius.begin(), particles.radius.end()));
     const double longest = std::max({size.x, size.y, size.z, largest_ball});
     int count = max_cells;
-    while (count > 4 && work_at(particles, longest / count) > kMaxVolumeWork) count = count * 3 / 4;
+    while (count > 4 && work_at(particles, longest / count) > most_work) count = count * 3 / 4;
     volume.cell = longest / count;
     volume.origin = low;
     volume.cells =

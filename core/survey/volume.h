@@ -4,12 +4,13 @@
 
 namespace awan {
 
-// The density volume of a set of particles: cubic cells, at most max_cells along its longest side,
-// fewer when the work would pass kMaxVolumeWork cell updates. Empty (0 cells) for an empty set or
-// one without mass.
-DensityVolume density_volume(const ParticleSet& particles, int max_cells);
-
 inline constexpr double kMaxVolumeWork = 1e7;  // about 10 ms
+
+// The density volume of a set of particles: cubic cells, at most max_cells along its longest side,
+// fewer when the work would pass most_work cell updates. Empty (0 cells) for an empty set or
+// one without mass.
+DensityVolume density_volume(const ParticleSet& particles, int max_cells,
+                             double most_work = kMaxVolumeWork);
 
 // Mean extinction (1/unit) of the cell at a place that is given in cells from the volume's origin; beside the volume,
 // of the cell nearest to it. The volume is not empty.

@@ -6,6 +6,7 @@
 #include "core/light/machine_speed.h"
 #include "core/pipeline.h"
 #include "server/cli/files.h"
+#include "server/cli/frames.h"
 #include "server/cli/support.h"
 #include "server/document/accuracy_text.h"
 
@@ -84,6 +85,7 @@ int run_accuracy(const AccuracyCommand& command) {
     for (const std::string& output : command.outputs) {
         const auto format = output_format(output, command.format, {"json", "csv", "png"}, "json");
         if (!format) return bad_usage(format.error().message);
+        if (const Status wrong = check_not_numbered(output)) return bad_usage(wrong->message);
         if (*format == "png" && binary_to_terminal(output))
             return bad_usage("-o -: a plot is not written to a terminal");
         if (std::count(command.outputs.begin(), command.outputs.end(), output) > 1)
@@ -94,7 +96,8 @@ int run_accuracy(const AccuracyCommand& command) {
         return bad_usage("only one scene comes from standard input");
     std::vector<Scene> scenes;
     for (const std::string& path : command.scenes) {
-        auto scene = read_valid_scene(path);
+        auto scene =
+            read_valid_scene({.path = path, .sets = {}, .seed = {}, .radius = {}, .state = {}});
         if (!scene) return report_error(path, scene.error());
         scenes.push_back(*std::move(scene));
     }

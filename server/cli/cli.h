@@ -9,6 +9,7 @@
 
 #include "core/base/result.h"
 #include "core/gl/device.h"
+#include "server/cli/scene_input.h"
 #include "server/http/server.h"
 
 namespace awan {
@@ -17,8 +18,9 @@ inline constexpr int kExitFine = 0;
 inline constexpr int kExitUsage = 2;
 
 struct RenderCommand {
-    std::string scene;
-    std::string output;
+    SceneInput scene;
+    // One or more; each in the format of its name.
+    std::vector<std::string> outputs;
     // These and the next are in place of what the document says.
     std::optional<int> width, height;
     // "", "png", "exr"; of an animation "webp", "apng".
@@ -34,8 +36,14 @@ struct RenderCommand {
     // Of rung, error and time_ms at most one is set.
     std::optional<std::string> rung;
     std::optional<double> error, time_ms;
-    // A file with the state of an automaton to begin with, or "".
-    std::string state;
+    // A channel of PNG: 8 or 16.
+    int bits = 8;
+    // Pictures whose files are all there are not made again.
+    bool skip_existing = false;
+    // What make and ninja read to know what the files are made of, or "".
+    std::string depfile;
+    // A line of JSON for every picture, in place of one for people.
+    bool json = false;
     int threads = 1;
     DeviceChoice device = DeviceChoice::kAuto;
 };
@@ -64,26 +72,32 @@ struct AccuracyCommand {
 int run_accuracy(const AccuracyCommand& command);
 
 struct ParticlesCommand {
-    std::string scene;
+    SceneInput scene;
     std::string output = "-";
-    // "", "json", "csv", "ply", "awn".
+    // "", "json", "csv", "ply", "awn", "glb", "vdb".
     std::string format;
-    std::string state;
+    // Cells along the longest side of a volume.
+    int voxels = 128;
+    // Seconds, in place of the document's.
+    std::optional<double> time;
+    // Of the scene's sequence: "", "all", "3", "0-11,20".
+    std::string frames;
+    bool skip_existing = false;
+    std::string depfile;
     int threads = 1;
 };
 int run_particles(const ParticlesCommand& command);
 
 struct PlanCommand {
-    std::string scene;
+    SceneInput scene;
     std::string output = "-";
-    std::string state;
     int threads = 1;
 };
 int run_plan(const PlanCommand& command);
 
 // The state of an automaton at the scene's time, for --state.
 struct StateCommand {
-    std::string scene;
+    SceneInput scene;
     std::string output;
     // The cloud's place in the scene; none: the only automaton.
     std::optional<std::uint64_t> cloud;
@@ -92,12 +106,30 @@ struct StateCommand {
 int run_state(const StateCommand& command);
 
 struct ConvertCommand {
-    std::string input;
+    SceneInput input;
     std::string output;
     // "", "json", "awn".
     std::string format;
 };
 int run_convert(const ConvertCommand& command);
+
+// Whether the scenes can be; a line for each.
+struct ValidateCommand {
+    std::vector<std::string> scenes;
+};
+int run_validate(const ValidateCommand& command);
+
+// The names of the scenes that ship with the program, or the document of one of them.
+struct PresetsCommand {
+    std::string name;
+};
+int run_presets(const PresetsCommand& command);
+
+// What says that two scenes are the same, as text of 32 hex digits: to share scenes out over machines that keep light.
+struct DigestCommand {
+    SceneInput scene;
+};
+int run_digest(const DigestCommand& command);
 
 struct ServeCommand {
     HttpOptions http;

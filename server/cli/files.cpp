@@ -13,7 +13,6 @@
 #include <memory>
 #include <utility>
 
-#include "server/document/scene_text.h"
 #include "server/service/problem.h"
 
 namespace awan {
@@ -112,13 +111,6 @@ Result<std::string> read_input(const std::string& path) {
     return text;
 }
 
-Result<SceneDraft> read_scene_file(const std::string& path) {
-    auto bytes = read_input(path);
-    if (!bytes) return bytes.error();
-    const auto format = scene_format_of_name(path);
-    return read_scene(format ? *format : sniff_scene_format(*bytes), *bytes);
-}
-
 Result<OutputFile> OutputFile::open(const std::string& path) {
     OutputFile file;
     file.path_ = path;
@@ -206,6 +198,32 @@ Status check_writable(const std::string& path) {
     const std::string place = special ? path : directory_of(path);
     if (access(place.c_str(), special ? W_OK : W_OK | X_OK) != 0) return io_error("write", path);
     return std::nullopt;
+}
+
+bool is_finished(const std::string& path) {
+    struct stat existing {};
+    return stat(path.c_str(), &existing) == 0 && S_ISREG(existing.st_mode) && existing.st_size > 0;
+}
+
+Status write_depfile(const std::string& path, const std::vector<std::string>& outputs,
+                     const std::vector<std::string>& inputs) {
+    std::string text;
+    // As GCC writes them, which both programs read.
+    const auto append = [&](const std::string& name) {
+        if (name == "-") return;
+        if (!text.empty()) text += ' ';
+        for (const char c : name) {
+            if (c == ' ' || c == '#' || c == '\\') text += '\\';
+            if (c == '$') text += '$';
+            text += c;
+        }
+    };
+    for (const std::string& name : outputs) append(name);
+    if (text.empty())
+        return Error{ErrorCode::kIo, "", "--depfile " + path + ": needs an output that has a name"};
+    text += ':';
+    for (const std::string& name : inputs) append(name);
+    return write_output(path, text + '\n');
 }
 
 Status write_output(const std::string& path, std::string_view bytes) {

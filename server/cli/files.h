@@ -3,16 +3,14 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "core/scene/scene.h"
+#include "core/base/result.h"
 
 namespace awan {
 
 // All bytes of a file, or of standard input for "-".
 Result<std::string> read_input(const std::string& path);
-
-// A scene from a file, read as its extension says, or from standard input, as its bytes say.
-Result<SceneDraft> read_scene_file(const std::string& path);
 
 // Where a command writes: a file, or standard output for "-". A file is written under another name
 // in the same directory and takes its place when it is complete and on the disk; special files
@@ -38,6 +36,14 @@ class OutputFile {
 
 // Whether write_output could begin: said before long work, not after it.
 Status check_writable(const std::string& path);
+
+// Whether a file with something in it is there. Ours appear whole, so it is finished.
+bool is_finished(const std::string& path);
+
+// Writes what make and ninja read to know what `outputs` are made of: "a.png b.exr: scene.json". Standard input and
+// output have no names and do not stand in it.
+Status write_depfile(const std::string& path, const std::vector<std::string>& outputs,
+                     const std::vector<std::string>& inputs);
 
 // Writes all of `bytes` to a file, or to standard output for "-".
 Status write_output(const std::string& path, std::string_view bytes);

@@ -19,11 +19,16 @@ std::optional<std::uint64_t> number(std::string_view text) {
     return value;
 }
 
-// Where in the name the number goes: at %d, or at %0Nd with one digit N.
+// Where in the name the number goes: at %d, at %0Nd with one digit N, or at a run of two or more #, a digit each.
 struct Place {
     std::size_t at, length, digits;
 };
 std::optional<Place> place_in(std::string_view name) {
+    const std::size_t marks = name.find("##");
+    if (marks != std::string_view::npos) {
+        const std::size_t end = std::min(name.find_first_not_of('#', marks), name.size());
+        return Place{marks, end - marks, end - marks};
+    }
     for (std::size_t at = name.find('%'); at != std::string_view::npos;
          at = name.find('%', at + 1)) {
         const std::string_view rest = name.substr(at + 1);
@@ -47,15 +52,22 @@ Result<std::vector<std::uint64_t>> parse_frames(const std::string& text, std::ui
         const std::size_t comma = rest.find(',');
         const std::string_view part = rest.substr(0, comma);
         const std::size_t dash = part.find('-');
+        const std::size_t cross =
+            std::min(part.find('x', std::min(dash, part.size())), part.size());
         const auto first = number(part.substr(0, dash));
-        const auto last = dash == std::string_view::npos ? first : number(part.substr(dash + 1));
-        if (!first || !last || *first > *last)
-            return bad("--frames " + text +
-                       ": must be all, or numbers and ranges with commas, such as 3 or 0-11,20");
+        const auto last = dash == std::string_view::npos
+                              ? first
+                              : number(part.substr(dash + 1, cross - dash - 1));
+        const auto step =
+            cross == part.size() ? std::optional<std::uint64_t>(1) : number(part.substr(cross + 1));
+        if (!first || !last || *first > *last || !step || *step == 0)
+            return bad(
+                "--frames " + text +
+                ": must be all, or numbers and ranges with commas, such as 3, 0-11,20 or 0-99x10");
         if (*last >= count)
             return bad("--frames " + text + ": the sequence has frames 0 to " +
                        std::to_string(count - 1));
-        for (std::uint64_t i = *first; i <= *last; ++i) {
+        for (std::uint64_t i = *first; i <= *last; i += std::min(*step, *last - i + 1)) {
             if (frames.size() >= count) return bad("--frames " + text + ": some stand there twice");
             frames.push_back(i);
         }
@@ -67,8 +79,16 @@ Result<std::vector<std::uint64_t>> parse_frames(const std::string& text, std::ui
 Status check_numbered(const std::string& output, std::size_t frames) {
     if (frames <= 1 || place_in(output)) return std::nullopt;
     return bad("-o " + output + ": " + std::to_string(frames) +
-               " frames need a place for their number, such as cloud.%04d.png, or an animation, "
+               " frames need a place for their number, such as cloud.%04d.png or cloud.####.png, "
+               "or an animation, "
                ".webp or .apng");
+}
+
+Status check_not_numbered(const std::string& output) {
+    if (!place_in(output)) return std::nullopt;
+    return bad(
+        "-o " + output +
+        ": has a place for a frame's number, and there are no frames; say which with --frames");
 }
 
 std::string numbered_name(const std::string& output, std::uint64_t frame) {

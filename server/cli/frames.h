@@ -9,13 +9,18 @@
 
 namespace awan {
 
-// "" and "all": every one of `count`; else numbers and ranges with commas, "0-11,20", in that order, each < count.
+// "" and "all": every one of `count`; else numbers and ranges with commas, "0-11,20", "0-99x10" (every tenth), in that
+// order, each < count.
 Result<std::vector<std::uint64_t>> parse_frames(const std::string& text, std::uint64_t count);
 
 // Whether so many frames can be told apart by their files' names: more than one need a place for the number.
 Status check_numbered(const std::string& output, std::size_t frames);
 
-// The name with frame's number in place of %d or %04d (as many digits as said, 1 to 9). Without such a place: the name.
+// A name with a place for a number where there are no frames: it would be taken as it stands.
+Status check_not_numbered(const std::string& output);
+
+// The name with frame's number in place of %d, %04d (as many digits as said, 1 to 9) or #### (as many digits as marks,
+// two or more). Without such a place: the name.
 std::string numbered_name(const std::string& output, std::uint64_t frame);
 
 }  // namespace awan

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <iostream>
@@ -14,6 +15,7 @@
 #include "core/scene/limits.h"
 #include "core/scene/rungs.h"
 #include "server/cli/cli.h"
+#include "server/cli/completion.h"
 #include "server/service/problem.h"
 
 namespace {
@@ -51,9 +53,30 @@ void add_threads(CLI::App& command, int& threads) {
     add(command, "--threads", threads, "threads that work on one scene")->check(CLI::Range(1, 256));
 }
 
-void add_state(CLI::App& command, std::string& state) {
-    add(command, "--state", state,
+// The scene and what takes the place of values in it.
+void add_scene(CLI::App& command, SceneInput& scene, const std::string& name = "scene") {
+    command.add_option(name, scene.path, kSceneHelp)->required();
+    add(command, "--set", scene.sets,
+        "a value of the document, as /sun/elevation=12 or /clouds/0/density=auto; may be repeated")
+        ->allow_extra_args(false);
+    add(command, "--seed", scene.seed, "instead of the document's");
+    add(command, "--radius", scene.radius,
+        "of ready particles (.ply, .csv), in place of what the file says of it")
+        ->check(CLI::PositiveNumber);
+}
+
+void add_state(CLI::App& command, SceneInput& scene) {
+    add(command, "--state", scene.state,
         "a file of `awan state`: its automaton goes on from there instead of from the beginning");
+}
+
+void add_farm_flags(CLI::App& command, bool& skip_existing, std::string& depfile) {
+    command
+        .add_flag("--skip-existing", skip_existing,
+                  "what is there already is not made again (files appear whole)")
+        ->envname("AWAN_SKIP_EXISTING");
+    add(command, "--depfile", depfile,
+        "a file that says to make and ninja what the outputs are made of");
 }
 
 // A configuration file says for `serve` what its flags would: `queue = 4`, `allow-host = ["a"]`.
@@ -145,15 +168,23 @@ Run add_render(CLI::App& app) {
     auto command = std::make_shared<RenderCommand>();
     command->threads = processors();
     CLI::App* render = app.add_subcommand("render", "a scene to an image");
-    render->add_option("scene", command->scene, kSceneHelp)->required();
-    add(*render, "-o,--output", command->output,
-        "a .png or .exr file, or - for standard output; of a sequence a name with %04d in it for "
-        "numbered "
-        "files, or an animation, .webp or .apng")
-        ->required();
+    add_scene(*render, command->scene);
+    add(*render, "-o,--output", command->outputs,
+        "a .png or .exr file, or - for standard output; of a sequence a name with %04d or #### in "
+        "it "
+        "for numbered files, or an animation, .webp or .apng; may be repeated")
+        ->required()
+        ->allow_extra_args(false);
     add(*render, "--time", command->time, "seconds, instead of the document's");
     add(*render, "--frames", command->frames,
-        "of the scene's sequence: all, or numbers from 0 as 3 or 0-11,20");
+        "of the scene's sequence: all, or numbers from 0 as 3, 0-11,20 or 0-99x10");
+    add(*render, "--bits", command->bits, "of a channel of PNG, 8 or 16")
+        ->check(CLI::IsMember({8, 16}));
+    add_farm_flags(*render, command->skip_existing, command->depfile);
+    render
+        ->add_flag("--json", command->json,
+                   "a line of JSON for every picture: digest, rung, error, times")
+        ->envname("AWAN_JSON");
     add(*render, "--fps", command->frames_per_second, "frames a second that an animation shows")
         ->check(CLI::Range(0.1, 1000.0));
     add(*render, "--width", command->width, "pixels, instead of the document's")
@@ -177,14 +208,14 @@ Run add_render(CLI::App& app) {
             "the best rung within these milliseconds, instead of the document's accuracy");
     error->check(CLI::PositiveNumber)->excludes(rung)->excludes(time_ms);
     time_ms->check(CLI::PositiveNumber)->excludes(rung);
-    add_state(*render, command->state);
+    add_state(*render, command->scene);
     add_threads(*render, command->threads);
     add_device(*render, command->device);
     render->footer(
         "Of a sequence:\n"
         "  awan render growth.json -o growth.webp                        to look at; .apng too\n"
         "  awan render growth.json --frames all -o growth.%04d.exr       numbered files\n"
-        "  awan render growth.json --frames 30-59 -o growth.%04d.exr     a farm's share of them\n"
+        "  awan render growth.json --frames 30-59 -o growth.####.exr     a farm's share of them\n"
         "A frame depends on its time alone: rendered by itself, on another machine or on other\n"
         "threads, it has the same bytes.");
     return [command] { return run_render(*command); };
@@ -235,12 +266,22 @@ Run add_particles(CLI::App& app) {
     auto command = std::make_shared<ParticlesCommand>();
     command->threads = processors();
     CLI::App* particles = app.add_subcommand("particles", "a scene to its particles");
-    particles->add_option("scene", command->scene, kSceneHelp)->required();
+    add_scene(*particles, command->scene);
     add(*particles, "-o,--output", command->output,
-        "a .json, .csv, .ply or .awn file, or - for standard output");
-    add(*particles, "--format", command->format, "json, csv, ply or awn, for standard output")
-        ->check(CLI::IsMember({"json", "csv", "ply", "awn"}));
-    add_state(*particles, command->state);
+        "a .json, .csv, .ply, .awn, .glb (points) or .vdb (volume of extinction) file, or - for "
+        "standard output");
+    add(*particles, "--format", command->format,
+        "json, csv, ply, awn, glb or vdb, for standard output")
+        ->check(CLI::IsMember({"json", "csv", "ply", "awn", "glb", "vdb"}));
+    add(*particles, "--voxels", command->voxels,
+        "cells along the longest side of a .vdb; fewer where it would take long")
+        ->check(CLI::Range(8, 1024));
+    add(*particles, "--time", command->time, "seconds, instead of the document's");
+    add(*particles, "--frames", command->frames,
+        "of the scene's sequence, to numbered files: all, or numbers from 0 as 3, 0-11,20 or "
+        "0-99x10");
+    add_farm_flags(*particles, command->skip_existing, command->depfile);
+    add_state(*particles, command->scene);
     add_threads(*particles, command->threads);
     return [command] { return run_particles(*command); };
 }
@@ -249,9 +290,9 @@ Run add_plan(CLI::App& app) {
     auto command = std::make_shared<PlanCommand>();
     command->threads = processors();
     CLI::App* plan = app.add_subcommand("plan", "what would be simulated, and why, as JSON");
-    plan->add_option("scene", command->scene, kSceneHelp)->required();
+    add_scene(*plan, command->scene);
     add(*plan, "-o,--output", command->output, "a file, or - for standard output");
-    add_state(*plan, command->state);
+    add_state(*plan, command->scene);
     add_threads(*plan, command->threads);
     return [command] { return run_plan(*command); };
 }
@@ -261,7 +302,7 @@ Run add_state_command(CLI::App& app) {
     command->threads = processors();
     CLI::App* state = app.add_subcommand(
         "state", "an automaton at the scene's time to a file, to go on from later (--state)");
-    state->add_option("scene", command->scene, kSceneHelp)->required();
+    add_scene(*state, command->scene);
     add(*state, "-o,--output", command->output, "a file, or - for standard output")->required();
     add(*state, "--cloud", command->cloud,
         "which of the scene's clouds, from 0; needed when several are automata");
@@ -272,12 +313,53 @@ Run add_state_command(CLI::App& app) {
 Run add_convert(CLI::App& app) {
     auto command = std::make_shared<ConvertCommand>();
     CLI::App* convert = app.add_subcommand("convert", "a layout or particles to a scene, and back");
-    convert->add_option("input", command->input, kSceneHelp)->required();
+    add_scene(*convert, command->input, "input");
     convert->add_option("output", command->output, "a .json or .awn file, or - for standard output")
         ->required();
     add(*convert, "--format", command->format, "json or awn, for standard output")
         ->check(CLI::IsMember({"json", "awn"}));
     return [command] { return run_convert(*command); };
+}
+
+Run add_validate(CLI::App& app) {
+    auto command = std::make_shared<ValidateCommand>();
+    CLI::App* validate =
+        app.add_subcommand("validate", "whether scenes can be, and what is wrong with them");
+    validate->add_option("scene", command->scenes, std::string(kSceneHelp) + "; or several")
+        ->required();
+    return [command] { return run_validate(*command); };
+}
+
+Run add_presets(CLI::App& app) {
+    auto command = std::make_shared<PresetsCommand>();
+    CLI::App* presets = app.add_subcommand(
+        "presets", "the scenes that ship with this program, or one as a document");
+    presets->add_option("name", command->name, "of one of them");
+    return [command] { return run_presets(*command); };
+}
+
+Run add_digest(CLI::App& app) {
+    auto command = std::make_shared<DigestCommand>();
+    CLI::App* digest =
+        app.add_subcommand("digest", "what equal scenes have in common: 32 hex digits");
+    add_scene(*digest, command->scene);
+    add_state(*digest, command->scene);
+    return [command] { return run_digest(*command); };
+}
+
+// `app` has all of its commands when the script is asked for.
+Run add_completion(CLI::App& app) {
+    auto shell = std::make_shared<std::string>();
+    CLI::App* completion =
+        app.add_subcommand("completion", "a script that completes commands and flags in a shell");
+    completion->add_option("shell", *shell, "bash, zsh or fish: source <(awan completion bash)")
+        ->required()
+        ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+    return [&app, shell] {
+        const std::string script = completion_script(app, *shell);
+        std::fwrite(script.data(), 1, script.size(), stdout);
+        return kExitFine;
+    };
 }
 
 }  // namespace
@@ -305,11 +387,17 @@ int main(int argc, char** argv) {
                    "flags of serve, one a line: queue = 4 (Env:AWAN_CONFIG)", named);
     app.allow_config_extras(CLI::config_extras_mode::error);
 
-    const std::pair<const char*, Run> commands[] = {
-        {"serve", add_serve(app)},        {"render", add_render(app)},
-        {"accuracy", add_accuracy(app)},  {"particles", add_particles(app)},
-        {"plan", add_plan(app)},          {"convert", add_convert(app)},
-        {"state", add_state_command(app)}};
+    const std::pair<const char*, Run> commands[] = {{"serve", add_serve(app)},
+                                                    {"render", add_render(app)},
+                                                    {"accuracy", add_accuracy(app)},
+                                                    {"particles", add_particles(app)},
+                                                    {"plan", add_plan(app)},
+                                                    {"convert", add_convert(app)},
+                                                    {"state", add_state_command(app)},
+                                                    {"validate", add_validate(app)},
+                                                    {"presets", add_presets(app)},
+                                                    {"digest", add_digest(app)},
+                                                    {"completion", add_completion(app)}};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -1,6 +1,5 @@
-// awan render: one picture, numbered pictures of a sequence, or an animation of it.
-#include <array>
-#include <cmath>
+// awan render: one picture, numbered pictures of a sequence, or an animation of it; each in one file or several.
+#include <algorithm>
 #include <cstdio>
 
 #include "core/formats/animation.h"
@@ -12,7 +11,9 @@
 #include "server/cli/cli.h"
 #include "server/cli/files.h"
 #include "server/cli/frames.h"
+#include "server/cli/result_line.h"
 #include "server/cli/support.h"
+#include "server/cli/targets.h"
 #include "server/service/problem.h"
 
 namespace awan {
@@ -20,9 +21,10 @@ namespace {
 
 // What the renders of one command share.
 struct Work {
-    explicit Work(const RenderCommand& c) : command(c) {}
+    Work(const RenderCommand& c, std::vector<Target> t) : command(c), targets(std::move(t)) {}
 
     const RenderCommand& command;
+    const std::vector<Target> targets;
     MachineSpeed speed = measure_speed();
     std::optional<Device> device;
     ProgressLine progress;
@@ -45,46 +47,68 @@ double exposure_of(const Scene& scene) {
     return scene->image.exposure.value_or(auto_exposure(scene));
 }
 
-Result<std::string> encode(const Rendered& rendered, const Scene& scene) {
-    if (scene->image.format == ImageFormat::kExr)
+Result<std::string> encode(const Rendered& rendered, const Scene& scene, const std::string& format,
+                           int bits) {
+    if (format == "exr")
         return encode_exr(rendered.image, scene->image.precision, notes_of(rendered));
-    return encode_png(rendered.image, exposure_of(scene));
+    return encode_png(rendered.image, exposure_of(scene), bits);
 }
 
-std::string percent(double share) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.2g%%", 100 * share);
-    return text.data();
-}
-
-// Which rung it was, how far off it is, and what was expected; nothing where the picture itself goes to standard
-// output.
-void say_error(const Rendered& rendered, const std::string& output) {
-    if (output == "-") return;
-    if (!std::isfinite(rendered.stated_error)) {
-        // A look has no error.
-        if (!std::isfinite(rendered.plan.predicted.error)) return;
-        std::printf("%s: %s, error not measured, the time is too short (expected %s)\n",
-                    output.c_str(), rendered.plan.rung.c_str(),
-                    percent(rendered.plan.predicted.error).c_str());
-        return;
+// Writes the picture to every file that is not an animation. frame: none for a scene that stands still.
+Status write_picture(const Rendered& rendered, const Scene& scene, const std::uint64_t* frame,
+                     Work& work, double& encode_ms) {
+    const auto start = Deadline::Clock::now();
+    for (const Target& target : work.targets) {
+        if (target.animated()) continue;
+        const auto bytes = encode(rendered, scene, target.format, work.command.bits);
+        if (!bytes) return bytes.error();
+        const std::string path =
+            frame == nullptr ? target.path : numbered_name(target.path, *frame);
+        if (Status failed = write_output(path, *bytes)) return failed;
     }
-    std::printf("%s: %s, error %s (expected %s)\n", output.c_str(), rendered.plan.rung.c_str(),
-                percent(rendered.stated_error).c_str(),
-                percent(rendered.plan.predicted.error).c_str());
+    encode_ms = ms_since(start);
+    return std::nullopt;
+}
+
+// Says what came of a picture; nothing where the picture itself goes to standard output.
+void say_result(const PictureResult& result, const Scene& scene, const Rendered* rendered,
+                Work& work) {
+    const bool taken = std::any_of(work.targets.begin(), work.targets.end(),
+                                   [](const Target& target) { return target.path == "-"; });
+    if (taken) return;
+    work.progress.clear();
+    std::string text;
+    if (work.command.json) {
+        text = result_json(result, scene, rendered);
+    } else if (result.skipped) {
+        for (const std::string& file : result.outputs) text += file + ": is there already\n";
+    } else if (rendered != nullptr && !result.frame) {
+        for (const std::string& file : result.outputs) text += result_text(file, *rendered);
+    }
+    std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);
+}
+
+bool all_finished(const std::vector<std::string>& files) {
+    return std::all_of(files.begin(), files.end(), is_finished);
 }
 
 Status render_still(const Scene& scene, Work& work) {
+    PictureResult result{
+        work.command.scene.path, files_of_frame(work.targets, nullptr), {}, false, 0};
+    if (work.command.skip_existing && all_finished(result.outputs)) {
+        result.skipped = true;
+        say_result(result, scene, nullptr, work);
+        return std::nullopt;
+    }
     work.progress.say("planning");
     auto rendered = render_frame(
         scene, plan_scene(scene, work.command.threads, Deadline{}, work.speed, &work.tiles), work);
     if (!rendered) return rendered.error();
     work.progress.say("encoding");
-    const auto bytes = encode(*rendered, scene);
-    if (!bytes) return bytes.error();
-    if (Status failed = write_output(work.command.output, *bytes)) return failed;
-    work.progress.clear();
-    say_error(*rendered, work.command.output);
+    if (Status failed = write_picture(*rendered, scene, nullptr, work, result.encode_ms))
+        return failed;
+    say_result(result, scene, &*rendered, work);
     return std::nullopt;
 }
 
@@ -97,20 +121,52 @@ Result<Rendered> render_of(const Settled& settled, double time, Work& work, Scen
     return render_frame(scene, std::move(planned), work);
 }
 
-// Frames as files of their own, or as one animation.
-Status render_frames(const Scene& scene, const std::vector<std::uint64_t>& frames,
-                     const std::string& format, Work& work) {
+// An animation that is being made, and where it goes.
+struct Film {
+    const Target* target;
+    Animation animation;
+};
+
+Result<std::vector<Film>> begin_films(const Work& work, std::size_t frames) {
+    std::vector<Film> films;
+    for (const Target& target : work.targets) {
+        if (!target.animated()) continue;
+        auto begun = Animation::begin(
+            target.format == "webp" ? AnimationFormat::kWebp : AnimationFormat::kApng,
+            work.command.frames_per_second, frames);
+        if (!begun) return begun.error();
+        films.push_back({&target, *std::move(begun)});
+    }
+    return films;
+}
+
+// The frames that are to be made: all, or those of which a file is missing.
+std::vector<std::uint64_t> missing_frames(const Scene& scene,
+                                          const std::vector<std::uint64_t>& frames, Work& work) {
+    std::vector<std::uint64_t> missing;
+    for (const std::uint64_t frame : frames) {
+        PictureResult result{work.command.scene.path, files_of_frame(work.targets, &frame), frame,
+                             true, 0};
+        if (all_finished(result.outputs))
+            say_result(result, scene, nullptr, work);
+        else
+            missing.push_back(frame);
+    }
+    return missing;
+}
+
+// Frames as files of their own, or as animations.
+Status render_frames(const Scene& scene, std::vector<std::uint64_t> frames, Work& work) {
+    auto films = begin_films(work, frames.size());
+    if (!films) return films.error();
+    if (work.command.skip_existing) {
+        // An animation holds every frame.
+        if (films->empty()) frames = missing_frames(scene, frames, work);
+        if (frames.empty()) return std::nullopt;
+    }
     work.progress.say("settling the sequence");
     auto settled = settle(scene, Settling::kMeasured, {nullptr, work.command.threads}, Deadline{});
     if (!settled) return settled.error();
-    std::optional<Animation> animation;
-    if (format == "webp" || format == "apng") {
-        auto begun =
-            Animation::begin(format == "webp" ? AnimationFormat::kWebp : AnimationFormat::kApng,
-                             work.command.frames_per_second, frames.size());
-        if (!begun) return begun.error();
-        animation.emplace(*std::move(begun));
-    }
     const Sequence& sequence = *scene->sequence;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         work.prefix =
@@ -119,66 +175,103 @@ Status render_frames(const Scene& scene, const std::vector<std::uint64_t>& frame
         Scene still = scene;
         auto rendered = render_of(*settled, frame_time(sequence, frames[i]), work, still);
         if (!rendered) return rendered.error();
-        if (animation) {
-            if (Status failed = animation->add(rendered->image, exposure_of(still))) return failed;
-            continue;
-        }
-        auto bytes = encode(*rendered, still);
-        if (!bytes) return bytes.error();
-        if (Status failed = write_output(numbered_name(work.command.output, frames[i]), *bytes))
+        for (Film& film : *films)
+            if (Status failed = film.animation.add(rendered->image, exposure_of(still)))
+                return failed;
+        PictureResult result{work.command.scene.path, files_of_frame(work.targets, &frames[i]),
+                             frames[i], false, 0};
+        if (Status failed = write_picture(*rendered, still, &frames[i], work, result.encode_ms))
             return failed;
+        say_result(result, still, &*rendered, work);
     }
-    if (!animation) return std::nullopt;
     work.progress.say("encoding");
-    auto bytes = animation->end();
-    if (!bytes) return bytes.error();
-    return write_output(work.command.output, *bytes);
+    for (Film& film : *films) {
+        auto bytes = film.animation.end();
+        if (!bytes) return bytes.error();
+        if (Status failed = write_output(film.target->path, *bytes)) return failed;
+    }
+    return std::nullopt;
+}
+
+// What the flags put in place of what the document says.
+void apply_flags(const RenderCommand& command, SceneDraft& draft) {
+    ImageSettings& image = draft.image;
+    if (command.width) image.width = *command.width;
+    if (command.height) image.height = *command.height;
+    if (command.rung || command.error || command.time_ms)
+        draft.accuracy = {command.error, command.time_ms, command.rung};
+    if (command.background == "sky") image.background = Background::kSky;
+    if (command.background == "transparent") image.background = Background::kTransparent;
+    if (command.time) draft.time = *command.time;
+}
+
+// The frames that are asked for, once it is sure that each has a name. The error is of bad usage.
+Result<std::vector<std::uint64_t>> frames_of(const Scene& scene, const Work& work) {
+    auto frames = parse_frames(work.command.frames, scene->sequence->frames);
+    if (!frames) return frames.error();
+    for (const Target& target : work.targets) {
+        const Status wrong = target.animated() ? check_not_numbered(target.path)
+                                               : check_numbered(target.path, frames->size());
+        if (wrong) return *wrong;
+    }
+    return frames;
+}
+
+Status write_dependencies(const RenderCommand& command, const std::vector<std::string>& outputs) {
+    if (command.depfile.empty()) return std::nullopt;
+    return write_depfile(command.depfile, outputs, files_of(command.scene));
 }
 
 }  // namespace
 
 int run_render(const RenderCommand& command) {
-    auto draft = read_scene_file(command.scene);
-    if (!draft) return report_error(command.scene, draft.error());
-    if (const Status wrong = begin_with_state(command.state, *draft))
-        return report_error(command.scene, *wrong);
-    ImageSettings& image = draft->image;
-    if (command.width) image.width = *command.width;
-    if (command.height) image.height = *command.height;
-    if (command.rung || command.error || command.time_ms)
-        draft->accuracy = {command.error, command.time_ms, command.rung};
-    if (command.background == "sky") image.background = Background::kSky;
-    if (command.background == "transparent") image.background = Background::kTransparent;
-    if (command.time) draft->time = *command.time;
-    const auto format =
-        output_format(command.output, command.format, {"png", "exr", "webp", "apng"},
-                      image.format == ImageFormat::kExr ? "exr" : "png");
-    if (!format) return bad_usage(format.error().message);
-    if (binary_to_terminal(command.output))
-        return bad_usage("-o -: an image is not written to a terminal");
-    image.format = *format == "exr" ? ImageFormat::kExr : ImageFormat::kPng;
+    const std::string& name = command.scene.path;
+    auto draft = read_scene_input(command.scene);
+    if (!draft) return report_error(name, draft.error());
+    apply_flags(command, *draft);
+    auto targets = targets_of(command, draft->image.format == ImageFormat::kExr ? "exr" : "png");
+    if (!targets) return bad_usage(targets.error().message);
+    const auto is_exr = [](const Target& target) { return target.format == "exr"; };
+    draft->image.format = std::any_of(targets->begin(), targets->end(), is_exr) ? ImageFormat::kExr
+                                                                                : ImageFormat::kPng;
+    const auto is_standard = [](const Target& target) { return target.path == "-"; };
+    if (command.json && std::any_of(targets->begin(), targets->end(), is_standard))
+        return bad_usage("--json: standard output takes either the picture or the line");
 
     auto scene = validate(std::move(draft).value());
-    if (!scene) return report_error(command.scene, scene.error());
-    const bool animated = *format == "webp" || *format == "apng";
-    Work work(command);
+    if (!scene) return report_error(name, scene.error());
+    Work work(command, *std::move(targets));
+    const bool animated = std::any_of(work.targets.begin(), work.targets.end(),
+                                      [](const Target& t) { return t.animated(); });
     if (!animated && command.frames.empty()) {
-        if (const Status failed = render_still(*scene, work))
-            return report_error(command.scene, *failed);
+        for (const Target& target : work.targets) {
+            if (const Status wrong = check_not_numbered(target.path))
+                return bad_usage(wrong->message);
+            if (const Status failed = check_writable(target.path)) return report_error("", *failed);
+        }
+        if (const Status failed = render_still(*scene, work)) return report_error(name, *failed);
+        if (const Status failed = write_dependencies(command, command.outputs))
+            return report_error("", *failed);
         return kExitFine;
     }
     if (!(*scene)->sequence)
         return bad_usage(std::string(animated ? "an animation" : "--frames") +
-                         " needs a scene with a `sequence`, and " + command.scene + " has none");
-    const auto frames = parse_frames(command.frames, (*scene)->sequence->frames);
+                         " needs a scene with a `sequence`, and " + name + " has none");
+    const auto frames = frames_of(*scene, work);
     if (!frames) return bad_usage(frames.error().message);
-    if (!animated)
-        if (const Status wrong = check_numbered(command.output, frames->size()))
-            return bad_usage(wrong->message);
-    if (const Status failed = check_writable(numbered_name(command.output, frames->front())))
+    std::vector<std::string> outputs;
+    for (const Target& target : work.targets) {
+        if (const Status failed = check_writable(numbered_name(target.path, frames->front())))
+            return report_error("", *failed);
+        if (target.animated()) outputs.push_back(target.path);
+    }
+    for (const std::uint64_t frame : *frames)
+        for (std::string& file : files_of_frame(work.targets, &frame))
+            outputs.push_back(std::move(file));
+    if (const Status failed = render_frames(*scene, *frames, work))
+        return report_error(name, *failed);
+    if (const Status failed = write_dependencies(command, outputs))
         return report_error("", *failed);
-    if (const Status failed = render_frames(*scene, *frames, *format, work))
-        return report_error(command.scene, *failed);
     return kExitFine;
 }
 

@@ -8,6 +8,7 @@
 #include "core/scene/rules.h"
 #include "server/cli/cli.h"
 #include "server/cli/files.h"
+#include "server/cli/frames.h"
 #include "server/cli/support.h"
 
 namespace awan {
@@ -83,17 +84,18 @@ Status begin_with_state(const std::string& path, SceneDraft& draft) {
 
 int run_state(const StateCommand& command) {
     auto scene = read_valid_scene(command.scene);
-    if (!scene) return report_error(command.scene, scene.error());
+    if (!scene) return report_error(command.scene.path, scene.error());
+    if (const Status wrong = check_not_numbered(command.output)) return bad_usage(wrong->message);
     if (binary_to_terminal(command.output))
         return bad_usage("-o -: a state is not written to a terminal");
     const auto k = choose_cloud(**scene, command);
-    if (!k) return report_error(command.scene, k.error());
+    if (!k) return report_error(command.scene.path, k.error());
     const AutomatonCloud& cloud = *(*scene)->clouds[*k].automaton;
     const double steps = std::floor(automaton_steps_at(cloud, (*scene)->time));
     AutomatonScratch scratch;
     const auto state = run_automaton(cloud, key_of(**scene, *k), static_cast<std::uint64_t>(steps),
                                      command.threads, Deadline{}, scratch);
-    if (!state) return report_error(command.scene, state.error());
+    if (!state) return report_error(command.scene.path, state.error());
     if (const Status failed = write_output(command.output, write_state(*state)))
         return report_error("", *failed);
     return kExitFine;

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/scene/validate.h"
-#include "server/cli/files.h"
 #include "server/service/problem.h"
 
 namespace awan {
@@ -82,13 +80,6 @@ Status open_for(const Plan& plan, DeviceChoice choice, std::optional<Device>& de
     if (!opened) return opened.error();
     device.emplace(*std::move(opened));
     return std::nullopt;
-}
-
-Result<Scene> read_valid_scene(const std::string& path, const std::string& state) {
-    auto draft = read_scene_file(path);
-    if (!draft) return draft.error();
-    if (const Status wrong = begin_with_state(state, *draft)) return *wrong;
-    return validate(std::move(draft).value());
 }
 
 int report_error(const std::string& subject, const Error& error) {

@@ -53,10 +53,4 @@ bool binary_to_terminal(const std::string& output);
 // Opens a device if there is none yet and the plan's rung needs one.
 Status open_for(const Plan& plan, DeviceChoice choice, std::optional<Device>& device);
 
-// state: a file to begin an automaton of the scene with, or "".
-Result<Scene> read_valid_scene(const std::string& path, const std::string& state = "");
-
-// Gives the state in a file ("": none) to the automaton of the scene that it belongs to (state.cpp).
-Status begin_with_state(const std::string& path, SceneDraft& draft);
-
 }  // namespace awan

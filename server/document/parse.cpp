@@ -14,12 +14,22 @@
 #include "core/scene/limits.h"
 #include "core/scene/rules.h"
 #include "server/document/json.h"
+#include "server/document/json_place.h"
 #include "server/document/number_runs.h"
+#include "server/document/particle_answer.h"
 
 namespace awan {
 namespace {
 
 using nlohmann::json;
+
+// What is no place in a table's fields: no member, and `particles` of an answer that comes back.
+constexpr int kNoField = -1, kAnswerField = -2;
+
+// Keys that any object may have and that nobody reads.
+bool is_left_alone(std::string_view name) {
+    return name.starts_with('_') || name == "name" || name == "description" || name == "$schema";
+}
 
 // One open bracket.
 struct Frame {
@@ -33,8 +43,8 @@ struct Frame {
     // Of an object.
     const Table* table = nullptr;
     void* object = nullptr;
-    // The member being read, in table->fields; none: -1.
-    int field = -1;
+    // The member being read, in table->fields; none: kNoField; of the scene also kAnswerField.
+    int field = kNoField;
     // Members so far, bit i for field i.
     std::uint64_t seen = 0;
     // Of a list: the field that it is the value of, and where its elements go.
@@ -49,7 +59,7 @@ int find_field(const Table& table, std::string_view name) {
     for (std::size_t i = 0; i < table.fields.size(); ++i)
         if (table.fields[i].in_documents() && table.fields[i].name == name)
             return static_cast<int>(i);
-    return -1;
+    return kNoField;
 }
 
 // `"a", "b", ...`: what find_field would find.
@@ -229,10 +239,11 @@ class SceneReader {
 
     // --- nlohmann's SAX interface; false stops the reading
 
-    bool null() { return wrong_type("null"); }
+    bool null() { return passed_over() || wrong_type("null"); }
     bool binary(json::binary_t&) { return wrong_type("binary"); }
 
     bool boolean(bool value) {
+        if (passed_over()) return true;
         const Field* const field = open_field();
         if (!field || field->access.holds != Holds::kSwitch) return wrong_type("a boolean");
         *static_cast<Switch*>(put(*field, top().object)) = value ? Switch::kOn : Switch::kOff;
@@ -240,6 +251,7 @@ class SceneReader {
     }
 
     bool number_integer(json::number_integer_t value) {
+        if (passed_over()) return true;
         const Field* const field = open_field();
         if (!field || !is_integer(*field)) return number(static_cast<double>(value));
         if (value == 0) return integer(*field, 0);  // "-0"
@@ -247,21 +259,24 @@ class SceneReader {
     }
 
     bool number_unsigned(json::number_unsigned_t value) {
+        if (passed_over()) return true;
         const Field* const field = open_field();
         if (field && is_integer(*field)) return integer(*field, value);
         return number(static_cast<double>(value));
     }
 
-    bool number_float(json::number_float_t value, const std::string& text) {
+    bool number_float(json::number_float_t value, const std::string& digits) {
+        if (passed_over()) return true;
         const Field* const field = open_field();
         if (!field || !is_integer(*field)) return number(value);
         // 200.0 is an integer written at length; beyond 2^53 its digits would be guesses.
         if (value >= 0 && value <= 9007199254740992.0 && std::floor(value) == value)
             return integer(*field, static_cast<std::uint64_t>(value));
-        return fail("must be " + wanted_of(*field) + ", not " + clipped(text));
+        return fail("must be " + wanted_of(*field) + ", not " + clipped(digits));
     }
 
     bool string(std::string& value) {
+        if (passed_over()) return true;
         const Field* const field = open_field();
         if (!field || !takes_words(*field)) return wrong_type("a string");
         if (value.size() > limits::kMaxString)
@@ -271,6 +286,7 @@ class SceneReader {
     }
 
     bool start_object(std::size_t) {
+        if (passing_over()) return pass_into();
         if (frames_.empty()) return push_object(table_of<SceneDraft>(), &draft);
         if (const Field* const field = open_field()) {
             if (field->access.holds != Holds::kObject) return wrong_type("an object");
@@ -284,10 +300,13 @@ class SceneReader {
     }
 
     bool key(std::string& name) {
+        if (passed_depth_ > 0) return true;
         Frame& frame = top();
-        frame.field = -1;
+        frame.field = kNoField;
         const int field = find_field(*frame.table, name);
         if (field < 0) {
+            if (is_left_alone(name)) return pass_over_next_ = true;
+            if (key_of_answer(name)) return true;
             std::string at = pointer() + escaped_name(name);
             return fail_at(std::move(at), "unknown field " + short_quote(name) + "; allowed are " +
                                               allowed_names(*frame.table));
@@ -300,8 +319,10 @@ class SceneReader {
     }
 
     bool end_object() {
+        if (passed_depth_ > 0) return pass_out();
         Frame& frame = top();
-        frame.field = -1;
+        frame.field = kNoField;
+        if (frames_.size() == 1 && !end_answer(frame)) return false;
         if (const Status wrong = check_written({*frame.table, frame.seen}, frame.object))
             return fail_at(pointer() + wrong->pointer, wrong->message, wrong->code);
         complete(*frame.table, frame.seen, frame.object);
@@ -309,13 +330,14 @@ class SceneReader {
     }
 
     bool start_array(std::size_t) {
+        if (passing_over()) return pass_into();
         if (frames_.empty()) return wrong_type("an array");
         if (const Field* const field = open_field()) {
             if (field->access.holds == Holds::kVector)
                 return push({.type = Frame::Type::kVector,
                              .vector = static_cast<glm::dvec3*>(put(*field, top().object))});
             if (!is_list(*field)) return wrong_type("an array");
-            void* const list = put(*field, top().object);
+            void* const list = put(*field, field == &kAnsweredParticles ? &answer_ : top().object);
             const bool pushed =
                 push({.type = Frame::Type::kList, .list_field = field, .list = list});
             if (pushed) read_ahead();
@@ -328,6 +350,7 @@ class SceneReader {
     }
 
     bool end_array() {
+        if (passed_depth_ > 0) return pass_out();
         const Frame& frame = top();
         if (frame.type == Frame::Type::kList) return pop();
         if (frame.index != 3) {
@@ -344,9 +367,10 @@ class SceneReader {
     bool parse_error(std::size_t, const std::string&, const json::exception& e) {
         constexpr int kNumberOverflow = 406;
         if (e.id == kNumberOverflow) return fail("must be finite: the number overflows");
+        const std::string_view document(begin_, static_cast<std::size_t>(text.end - begin_));
         error = Error{
             ErrorCode::kMalformed, "",
-            "not JSON at byte " + std::to_string(text.at - begin_) + ": " + reason_of(e.what())};
+            not_json(document, static_cast<std::size_t>(text.at - begin_), reason_of(e.what()))};
         return false;
     }
 
@@ -356,7 +380,67 @@ class SceneReader {
     // The row of the member whose value comes next; null outside objects.
     const Field* open_field() {
         if (frames_.empty() || top().type != Frame::Type::kObject) return nullptr;
+        if (top().field == kAnswerField) return &kAnsweredParticles;
         return &top().table->fields[static_cast<std::size_t>(top().field)];
+    }
+
+    // --- what is left alone: the value of a key that nobody reads, however deep it goes
+
+    bool passing_over() const { return pass_over_next_ || passed_depth_ > 0; }
+    // Whether the value that has just come is one of those.
+    bool passed_over() {
+        const bool passed = passing_over();
+        pass_over_next_ = false;
+        return passed;
+    }
+    bool pass_into() {
+        pass_over_next_ = false;
+        if (frames_.size() + passed_depth_ >= static_cast<std::size_t>(limits::kMaxJsonDepth))
+            return fail("nested deeper than " + std::to_string(limits::kMaxJsonDepth));
+        ++passed_depth_;
+        return true;
+    }
+    bool pass_out() {
+        --passed_depth_;
+        return true;
+    }
+
+    // --- an answer of /v1/particles that comes back (particle_answer.h)
+
+    // Whether the key may stand there; what follows from it is done.
+    bool key_of_answer(std::string_view name) {
+        if (frames_.size() != 1) return false;
+        if (name == "particles" && !has_answer_) {
+            top().field = kAnswerField;
+            return has_answer_ = true;
+        }
+        // Both follow from the particles.
+        if (name != "count" && name != "bounds") return false;
+        only_in_answers_ = name;
+        return pass_over_next_ = true;
+    }
+
+    bool end_answer(Frame& scene) {
+        if (!has_answer_) {
+            if (only_in_answers_.empty()) return true;
+            return fail_at("/" + only_in_answers_,
+                           "belongs to a list of \"particles\", and there is none");
+        }
+        const std::uint64_t clouds = std::uint64_t{1} << find_field(*scene.table, "clouds");
+        const std::uint64_t cubes = std::uint64_t{1} << find_field(*scene.table, "cubes");
+        if ((scene.seen & (clouds | cubes)) != 0)
+            return fail_at("/particles",
+                           "a scene has either \"particles\" or \"cubes\" or \"clouds\"");
+        auto cloud = cloud_of(answer_);
+        if (!cloud) {
+            error = cloud.error();
+            return false;
+        }
+        answer_ = {};
+        draft.clouds.push_back(*std::move(cloud));
+        draft.top_level_cubes = false;
+        scene.seen |= clouds;
+        return true;
     }
 
     std::string pointer() const {
@@ -364,6 +448,8 @@ class SceneReader {
         for (const Frame& frame : frames_) {
             if (frame.type != Frame::Type::kObject)
                 at += "/" + std::to_string(frame.index);
+            else if (frame.field == kAnswerField)
+                at += "/particles";
             else if (frame.field >= 0)
                 at += "/" +
                       std::string(frame.table->fields[static_cast<std::size_t>(frame.field)].name);
@@ -438,6 +524,7 @@ class SceneReader {
         Frame& frame = top();
         const Field& field = *frame.list_field;
         const std::uint64_t most = field.counts.highest;
+        if (&field == &kAnsweredParticles) frame.index = take_answered(text, answer_);
         if (field.access.holds == Holds::kFloats)
             frame.index = take_run<1>(text, most, [&](const std::array<double, 1>& v) {
                 append_to_list(frame.list, v[0]);
@@ -484,6 +571,13 @@ class SceneReader {
     const char* begin_;
     std::vector<Frame> frames_;
     glm::dvec3 row_{0};  // of the list being read
+    // The next value is to be passed over; how deep in one the parser is.
+    bool pass_over_next_ = false;
+    std::size_t passed_depth_ = 0;
+    ParticleAnswer answer_;
+    bool has_answer_ = false;
+    // A key that means something beside particles only, once it has come.
+    std::string only_in_answers_;
 };
 
 }  // namespace

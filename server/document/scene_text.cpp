@@ -5,30 +5,71 @@
 #include <algorithm>
 
 #include "core/formats/awn.h"
+#include "core/formats/numbers.h"
 #include "core/formats/particle_files.h"
 #include "server/document/json.h"
+#include "server/document/text_bytes.h"
 
 namespace awan {
 
-Result<SceneDraft> read_scene(SceneFormat format, std::string_view bytes) {
+namespace {
+
+Result<SceneDraft> read_as(SceneFormat format, std::string_view bytes,
+                           const ParticleReading& reading) {
     switch (format) {
         case SceneFormat::kAwn:
             return read_awn(bytes);
         case SceneFormat::kPly:
-            return read_particles_ply(bytes);
+            return read_particles_ply(bytes, reading);
         case SceneFormat::kCsv:
-            return read_particles_csv(bytes);
+            return read_particles_csv(bytes, reading);
         case SceneFormat::kJson:
             break;
     }
-    return parse_scene(bytes);
+    return parse_scene(without_byte_order_mark(bytes));
+}
+
+// Gives the radius to all ready particles; false when there are none to give it to.
+bool set_radii(SceneDraft& draft, double radius) {
+    bool any = false;
+    for (Cloud& cloud : draft.clouds) {
+        if (cloud.model != CloudModel::kParticles) continue;
+        any = true;
+        std::fill(cloud.ready.radii.begin(), cloud.ready.radii.end(), static_cast<float>(radius));
+    }
+    return any;
+}
+
+}  // namespace
+
+Result<SceneDraft> read_scene(SceneFormat format, std::string_view bytes,
+                              const ParticleReading& reading) {
+    std::optional<std::string> text;
+    if (format != SceneFormat::kPly || !bytes.starts_with("ply")) {
+        auto converted = from_utf16(bytes);
+        if (!converted) return converted.error();
+        text = *std::move(converted);
+        if (text && reading.notes != nullptr) reading.notes->push_back("the text is in UTF-16");
+    }
+    auto draft = read_as(format, text ? *text : bytes, reading);
+    if (draft && reading.radius && format != SceneFormat::kPly && format != SceneFormat::kCsv &&
+        !set_radii(*draft, *reading.radius))
+        return Error{ErrorCode::kInvalidScene, "",
+                     "radius is for particles that come ready-made, and the scene has none"};
+    return draft;
 }
 
 std::optional<SceneFormat> scene_format_of_type(std::string_view media_type) {
-    if (media_type == "application/json") return SceneFormat::kJson;
+    if (media_type == "application/json" || media_type == "text/json" ||
+        (media_type.starts_with("application/") && media_type.ends_with("+json")))
+        return SceneFormat::kJson;
     if (media_type == "text/x-awn") return SceneFormat::kAwn;
-    if (media_type == "application/x-ply") return SceneFormat::kPly;
-    if (media_type == "text/csv") return SceneFormat::kCsv;
+    if (media_type == "application/x-ply" || media_type == "application/ply" ||
+        media_type == "model/ply" || media_type == "model/x-ply")
+        return SceneFormat::kPly;
+    if (media_type == "text/csv" || media_type == "application/csv" ||
+        media_type == "text/tab-separated-values")
+        return SceneFormat::kCsv;
     return std::nullopt;
 }
 
@@ -38,14 +79,21 @@ std::optional<SceneFormat> scene_format_of_name(std::string_view file_name) {
                strncasecmp(file_name.data() + file_name.size() - extension.size(), extension.data(),
                            extension.size()) == 0;
     };
+    if (ends_with(".gz")) file_name.remove_suffix(3);
     if (ends_with(".json")) return SceneFormat::kJson;
     if (ends_with(".awn")) return SceneFormat::kAwn;
     if (ends_with(".ply")) return SceneFormat::kPly;
-    if (ends_with(".csv")) return SceneFormat::kCsv;
+    if (ends_with(".csv") || ends_with(".tsv") || ends_with(".xyz") || ends_with(".asc"))
+        return SceneFormat::kCsv;
     return std::nullopt;
 }
 
 SceneFormat sniff_scene_format(std::string_view bytes) {
+    bytes = without_byte_order_mark(bytes);
+    // Of UTF-16 the first letters are enough.
+    const auto converted =
+        from_utf16(bytes.substr(0, std::min<std::size_t>(bytes.size(), 512) & ~std::size_t{1}));
+    if (converted && *converted) return sniff_scene_format(**converted);
     const std::size_t start = bytes.find_first_not_of(" \t\r\n");
     if (start == std::string_view::npos) return SceneFormat::kJson;
     bytes.remove_prefix(start);
@@ -58,6 +106,8 @@ SceneFormat sniff_scene_format(std::string_view bytes) {
         const char l = static_cast<char>(c | 0x20);
         return l >= 'a' && l <= 'z' && l != 'e';
     });
+    // Comments stand in tables only.
+    if (line.starts_with("#") || line.starts_with("//")) return SceneFormat::kCsv;
     return letters ? SceneFormat::kCsv : SceneFormat::kAwn;
 }
 

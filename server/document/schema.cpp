@@ -236,8 +236,10 @@ std::string object_members(const Table& table, const void* standards, std::optio
         if (!required.empty()) required += ',';
         append_json_string(field.name, required);
     }
+    // Keys that nobody reads may stand in every object.
     std::string out =
-        R"("type":"object","properties":{)" + properties + R"(},"additionalProperties":false)";
+        R"("type":"object","properties":{)" + properties +
+        R"(},"patternProperties":{"^(_.*|name|description|\\$schema)$":{}},"additionalProperties":false)";
     if (!required.empty()) out += ",\"required\":[" + required + ']';
     return out;
 }

@@ -20,7 +20,7 @@ constexpr std::size_t kLines = 4096;
 constexpr std::size_t kLongestLine = 4096;
 
 // How long a line waits for whoever should take it.
-constexpr int kPatience_ms = 1000;
+constexpr int kLogPatience_ms = 1000;
 
 // Of what a client sent, as much as says what it was.
 std::string_view beginning(std::string_view text, std::size_t most) {
@@ -127,7 +127,7 @@ void AccessLog::add(const AccessRecord& record) noexcept {
 
 bool AccessLog::write_whole(std::string_view line) {
     pollfd ready{fd_, POLLOUT, 0};
-    if (poll(&ready, 1, kPatience_ms) <= 0 || !(ready.revents & POLLOUT)) return false;
+    if (poll(&ready, 1, kLogPatience_ms) <= 0 || !(ready.revents & POLLOUT)) return false;
     return ::write(fd_, line.data(), line.size()) == static_cast<ssize_t>(line.size());
 }
 

@@ -151,8 +151,11 @@ std::optional<FramingError> check_length(RequestHead& head) {
 
 std::optional<FramingError> check_rest(RequestHead& head) {
     for (const auto& [name, value] : head.headers) {
-        if (same(name, "Content-Encoding") && !same(value, "identity"))
-            return fail(415, "compressed bodies are not taken; send it without Content-Encoding");
+        const bool packed = same(value, "gzip") || same(value, "x-gzip");
+        if (same(name, "Content-Encoding") && !same(value, "identity") && !packed)
+            return fail(415, "bodies are taken as they are or with Content-Encoding: gzip");
+        if (same(name, "Content-Encoding") && count(head, name) > 1)
+            return fail(415, "a body is compressed once; there is more than one Content-Encoding");
         if (same(name, "Expect")) {
             if (!same(value, "100-continue"))
                 return fail(417, "only Expect: 100-continue is understood");

@@ -7,6 +7,7 @@
 #include "core/formats/numbers.h"
 #include "core/scene/rungs.h"
 #include "server/document/accuracy_text.h"
+#include "server/document/overrides.h"
 #include "server/service/problem.h"
 #include "server/service/state.h"
 
@@ -81,7 +82,7 @@ Result<Query> read_query(const Request& request) {
             wrong = read_integer(name, value, 1, kMostRuns, query.options.runs);
         } else if (name == "rungs") {
             wrong = read_rungs(value, query.options.rungs);
-        } else {
+        } else if (!is_override(name)) {
             return malformed("there is no query parameter " + short_quote(name) +
                              "; there are theme, size, samples, runs and rungs");
         }

@@ -48,6 +48,16 @@ int quality_of(std::string_view text) {
     return std::min(value, 1000);
 }
 
+// Other names for what is offered, as they are in use.
+bool is_named(std::string_view range, std::string_view offer) {
+    if (range == offer) return true;
+    if (offer == "application/x-ply")
+        return range == "application/ply" || range == "model/ply" || range == "model/x-ply";
+    if (offer == "image/x-exr")
+        return range == "image/exr" || range == "image/openexr" || range == "image/aces";
+    return offer == "text/csv" && range == "application/csv";
+}
+
 // Quality of `offer`: that of the most specific range that covers it.
 int quality(std::string_view accept, std::string_view offer) {
     const std::string_view type = offer.substr(0, offer.find('/'));
@@ -57,7 +67,7 @@ int quality(std::string_view accept, std::string_view offer) {
         std::string_view parameters = next_part(accept, ',');
         const std::string range = lower(next_part(parameters, ';'));
         int specificity = -1;
-        if (range == offer) {
+        if (is_named(range, offer)) {
             specificity = 2;
         } else if (range == std::string(type) + "/*") {
             specificity = 1;
@@ -110,12 +120,33 @@ std::optional<std::string_view> best_offer(std::string_view accept,
     return best;
 }
 
+bool takes_gzip(std::string_view accept_encoding) {
+    int of_gzip = -1, of_any = 0;
+    while (!accept_encoding.empty()) {
+        std::string_view parameters = next_part(accept_encoding, ',');
+        const std::string coding = lower(next_part(parameters, ';'));
+        int q = 1000;
+        while (!parameters.empty()) {
+            const std::string parameter = lower(next_part(parameters, ';'));
+            if (parameter.starts_with("q=")) q = quality_of(parameter.substr(2));
+        }
+        if (coding == "gzip" || coding == "x-gzip") of_gzip = q;
+        if (coding == "*") of_any = q;
+    }
+    return (of_gzip >= 0 ? of_gzip : of_any) > 0;
+}
+
 bool none_match_names(std::string_view if_none_match, std::string_view etag) {
+    constexpr std::string_view kPacked = "-gzip\"";
+    const std::string_view plain =
+        etag.substr(0, etag.size() - std::min<std::size_t>(etag.size(), 1));
     while (!if_none_match.empty()) {
         std::string_view tag = next_part(if_none_match, ',');
         if (tag == "*") return true;
         if (tag.starts_with("W/")) tag.remove_prefix(2);
         if (tag == etag) return true;
+        if (tag.ends_with(kPacked) && tag.substr(0, tag.size() - kPacked.size()) == plain)
+            return true;
     }
     return false;
 }

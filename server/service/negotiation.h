@@ -18,7 +18,11 @@ std::string media_type(std::string_view content_type);
 std::optional<std::string_view> best_offer(std::string_view accept,
                                            std::span<const std::string_view> offers);
 
-// Does If-None-Match name this strong tag (with its quotes)? Weak comparison; lists and "*" too.
+// Whether an Accept-Encoding takes gzip.
+bool takes_gzip(std::string_view accept_encoding);
+
+// Does If-None-Match name this strong tag (with its quotes), or that of the same answer compressed (compression.h)?
+// Weak comparison; lists and "*" too.
 bool none_match_names(std::string_view if_none_match, std::string_view etag);
 
 // A strong entity tag, with its quotes, over all parts.

@@ -54,6 +54,8 @@ int exit_code_of(ErrorCode code) {
 
 std::string_view status_title(int status) {
     switch (status) {
+        case 308:
+            return "Permanent Redirect";
         case 400:
             return "Bad Request";
         case 401:

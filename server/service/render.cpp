@@ -21,8 +21,6 @@ using Clock = Deadline::Clock;
 
 constexpr std::string_view kPng = "image/png";
 constexpr std::string_view kExr = "image/x-exr";
-constexpr std::array kImageOffers = {kPng, kExr};
-constexpr std::array kImageOffersExrFirst = {kExr, kPng};
 
 struct Timing {
     double queue_ms = 0;
@@ -58,7 +56,7 @@ Result<std::string> encode(const Rendered& rendered, const Scene& scene, std::st
                            const Deadline& deadline) {
     if (type == kExr)
         return encode_exr(rendered.image, scene->image.precision, notes_of(rendered), deadline);
-    return encode_png(rendered.image, scene->image.exposure.value_or(auto_exposure(scene)),
+    return encode_png(rendered.image, scene->image.exposure.value_or(auto_exposure(scene)), 8,
                       deadline);
 }
 
@@ -214,12 +212,7 @@ Drawn draw_in_lanes(Service::State& state, const Request& request, const Scene& 
 }
 
 Response answer_render(Service::State& state, const Request& request, const Scene& scene,
-                       Lanes::Pass& pass) {
-    // What the client prefers; where it has no preference, what the document says.
-    const bool exr = scene->image.format == ImageFormat::kExr;
-    const std::string_view type =
-        *best_offer(joined_header(request, "Accept"), exr ? kImageOffersExrFirst : kImageOffers);
-
+                       std::string_view type, Lanes::Pass& pass) {
     // The answer's tag names the renderer.
     if (const Status over = state.renderer.wait_until_started(request.deadline))
         return fail(*over, request);

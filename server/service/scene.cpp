@@ -10,11 +10,10 @@
 #include "core/formats/particle_files.h"
 #include "core/generate/generate.h"
 #include "core/scene/fingerprint.h"
-#include "core/scene/validate.h"
 #include "server/document/json.h"
-#include "server/document/scene_text.h"
 #include "server/service/negotiation.h"
 #include "server/service/problem.h"
+#include "server/service/scene_request.h"
 #include "server/service/state.h"
 
 namespace awan {
@@ -31,6 +30,8 @@ constexpr std::array kParticleOffers = {kJson, kCsv, kPly, kAwn};
 constexpr std::array kPlanOffers = {kJson};
 constexpr std::array kAccuracyOffers = {kJson, kCsv, std::string_view("image/png")};
 constexpr std::array<std::string_view, 2> kRenderOffers = {"image/png", "image/x-exr"};
+// Where the document prefers it.
+constexpr std::array<std::string_view, 2> kRenderOffersExrFirst = {"image/x-exr", "image/png"};
 
 // Documents over this many bytes, or scenes over this many particles, and sequences, whose rung is settled on three of
 // their frames, take long before anything is planned.
@@ -135,10 +136,9 @@ Response answer_plan(Service::State& state, const Request& request, const Scene&
 }  // namespace
 
 Result<Scene> read_request_scene(const Request& request) {
-    const auto format = scene_format_of_type(media_type(request.header("Content-Type")));
-    auto draft = read_scene(*format, request.body);
-    if (!draft) return draft.error();
-    return validate(std::move(draft).value());
+    auto read = read_scene_request(request);
+    if (!read) return read.error();
+    return std::move(read->scene);
 }
 
 Response fail(const Error& error, const Request& request) {
@@ -190,23 +190,43 @@ std::string speed_text(const Service::State& state) {
     return std::to_string(state.options.speed.slowness);
 }
 
-std::optional<Response> check_scene_request(const Request& request) {
-    if (!scene_format_of_type(media_type(request.header("Content-Type")))) {
-        Response response = problem(
-            415,
-            "a scene comes as " + std::string(kSceneTypes) + ", in UTF-8; name it in Content-Type",
-            "", request.id);
-        response.headers.emplace_back("Accept", kSceneTypes);
-        return response;
+namespace {
+
+Response not_offered(const Request& request, int status, std::string_view what) {
+    std::string detail(what);
+    const auto offers = offers_of(request.path);
+    for (const std::string_view offer : offers)
+        detail.append(offer == offers.front() ? " " : ", ").append(offer);
+    return problem(status, detail, "", request.id);
+}
+
+Response answer_as(Service::State& state, const Request& request, const Scene& scene,
+                   std::string_view type, Lanes::Pass& pass) {
+    if (request.path == "/v1/render") return answer_render(state, request, scene, type, pass);
+    if (request.path == "/v1/plan") return answer_plan(state, request, scene, pass);
+    if (request.path == kAccuracyPath) {
+        // A sweep takes long, and there is one at most: others compute beside it.
+        pass.leave();
+        return answer_accuracy(state, request, scene, type);
     }
+    return answer_particles(state, request, scene, type, pass);
+}
+
+}  // namespace
+
+std::optional<Response> check_scene_request(const Request& request) {
+    if (auto refused = check_scene_head(request)) return refused;
     if (request.path == kAccuracyPath)
         if (const Status wrong = check_accuracy_query(request)) return fail(*wrong, request);
     const auto offers = offers_of(request.path);
+    for (const auto& [name, value] : request.query)
+        if (name == "format") {
+            if (chosen_offer(request, value, offers)) return std::nullopt;
+            return not_offered(request, 400,
+                               "query parameter `format` names none of what can be answered here:");
+        }
     if (best_offer(joined_header(request, "Accept"), offers)) return std::nullopt;
-    std::string detail = "this can be answered as";
-    for (const std::string_view offer : offers)
-        detail.append(offer == offers.front() ? " " : ", ").append(offer);
-    return problem(406, detail, "", request.id);
+    return not_offered(request, 406, "this can be answered as");
 }
 
 Response answer_scene_request(Service::State& state, const Request& request) {
@@ -218,25 +238,30 @@ Response answer_scene_request(Service::State& state, const Request& request) {
         return std::move(*refused);
     WorkBudget::Lease reading = state.budget.take(reading_bytes(request.body.size()));
     if (!reading) return no_memory(state, request);
-    auto scene = read_request_scene(request);
+    if (auto refused = check_scene_body(request)) return *std::move(refused);
+    const auto read = read_scene_request(request);
     reading = {};
-    if (!scene) return fail(scene.error(), request);
+    if (!read) return fail(read.error(), request);
+    const Scene& scene = read->scene;
     // Reading a long document may take seconds.
     if (const Status over = request.deadline.over()) return fail(*over, request);
-    if ((*scene)->sequence || particle_count(**scene) > kManyParticles)
+    if (scene->sequence || particle_count(*scene) > kManyParticles)
         if (auto refused = not_let_in(pass.expect(2 * kShort_ms, request.deadline), state.lanes,
                                       Weight::kLong, request))
             return std::move(*refused);
 
-    if (request.path == "/v1/render") return answer_render(state, request, *scene, pass);
-    if (request.path == "/v1/plan") return answer_plan(state, request, *scene, pass);
-    const auto type = best_offer(joined_header(request, "Accept"), offers_of(request.path));
-    if (request.path == kAccuracyPath) {
-        // A sweep takes long, and there is one at most: others compute beside it.
-        pass.leave();
-        return answer_accuracy(state, request, *scene, *type);
-    }
-    return answer_particles(state, request, *scene, *type, pass);
+    // What the client asks for; where it has no preference, what the document says.
+    const bool exr = request.path == "/v1/render" && scene->image.format == ImageFormat::kExr;
+    const auto type = chosen_offer(
+        request, read->overrides.format.value_or(""),
+        exr ? std::span<const std::string_view>(kRenderOffersExrFirst) : offers_of(request.path));
+    if (!type)
+        return not_offered(request, 400,
+                           "the field `format` names none of what can be answered here:");
+    Response response = answer_as(state, request, scene, *type, pass);
+    const std::string notes = notes_header(read->notes);
+    if (!notes.empty()) response.headers.emplace_back("Awan-Notes", notes);
+    return response;
 }
 
 }  // namespace awan

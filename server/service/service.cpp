@@ -6,6 +6,8 @@
 #include "core/base/thrown.h"
 #include "server/document/json.h"
 #include "server/header_text.h"
+#include "server/service/compression.h"
+#include "server/service/forms.h"
 #include "server/service/negotiation.h"
 #include "server/service/problem.h"
 #include "server/service/state.h"
@@ -101,6 +103,14 @@ Route find_route(const Service::State& state, std::string_view path) {
     return {};
 }
 
+std::string_view without_slash(std::string_view path) {
+    path.remove_suffix(1);
+    return path;
+}
+bool known_without_slash(const Service::State& state, std::string_view path) {
+    return path.size() > 1 && path.ends_with('/') && find_route(state, without_slash(path)).known;
+}
+
 Response text_answer(std::string_view content_type, std::string body) {
     Response response;
     response.headers = {{"Content-Type", std::string(content_type)}, {"Cache-Control", "no-store"}};
@@ -193,6 +203,14 @@ std::optional<Response> check(const Service::State& state, const Route& route,
         response.status = 204;
         response.headers = {
             {"Allow", std::string(route.known ? route.allow() : "GET, HEAD, POST, OPTIONS")}};
+        return response;
+    }
+    if (!route.known && known_without_slash(state, request.path)) {
+        // With the method and the body as they are.
+        const std::string_view path = without_slash(request.path);
+        Response response =
+            problem(308, "this path has no slash at its end: " + std::string(path), "", request.id);
+        response.headers.emplace_back("Location", std::string(path) + query_text(request.query));
         return response;
     }
     if (!route.known) return problem(404, "there is nothing at this path", "", request.id);
@@ -303,6 +321,7 @@ Response Service::answer(const Request& request) {
             response = std::move(*refused);
         } else {
             response = route_answer(*state_, route, request);
+            compress(request, response);
         }
     } catch (const std::exception& e) {
         response = fail(error_of_thrown(e), request);

@@ -96,7 +96,7 @@ Drawn draw_in_lanes(Service::State& state, const Request& request, const Scene& 
 
 // POST /v1/render (render.cpp). pass: in a lane, after so many ms.
 Response answer_render(Service::State& state, const Request& request, const Scene& scene,
-                       Lanes::Pass& pass);
+                       std::string_view type, Lanes::Pass& pass);
 
 // An error as an answer; nobody waits for that of a cancelled request.
 Response fail(const Error& error, const Request& request);

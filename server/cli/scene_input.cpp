@@ -1,0 +1,67 @@
+#include "server/cli/scene_input.h"
+
+#include <cstdio>
+
+#include "core/scene/validate.h"
+#include "server/cli/files.h"
+#include "server/document/overrides.h"
+#include "server/document/scene_text.h"
+#include "server/document/text_bytes.h"
+
+namespace awan {
+namespace {
+
+// A gzip file may hold this much: more than any scene is allowed to be.
+constexpr std::size_t kMostUnpacked = std::size_t{1} << 30;
+
+Result<SceneDraft> read_file(const SceneInput& input, std::vector<std::string>& notes) {
+    auto bytes = read_input(input.path);
+    if (!bytes) return bytes.error();
+    if (is_gzip(*bytes)) {
+        auto unpacked = gunzip(*bytes, kMostUnpacked);
+        if (!unpacked) return unpacked.error();
+        *bytes = *std::move(unpacked);
+    }
+    const auto format = scene_format_of_name(input.path);
+    return read_scene(format ? *format : sniff_scene_format(*bytes), *bytes,
+                      {input.radius, &notes});
+}
+
+Status apply_set(const std::string& set, SceneDraft& draft) {
+    const std::size_t equals = set.find('=');
+    if (equals == std::string::npos)
+        return Error{ErrorCode::kInvalidScene, "",
+                     "--set " + set + ": must be a place and a value, /sun/elevation=12"};
+    return set_in_scene(std::string_view(set).substr(0, equals),
+                        std::string_view(set).substr(equals + 1), draft);
+}
+
+}  // namespace
+
+Result<SceneDraft> read_scene_input(const SceneInput& input) {
+    std::vector<std::string> notes;
+    auto draft = read_file(input, notes);
+    if (!draft) return draft.error();
+    for (const std::string& note : notes)
+        std::fprintf(stderr, "awan: %s: %s\n", input.path.c_str(), note.c_str());
+    for (const std::string& set : input.sets)
+        if (const Status wrong = apply_set(set, *draft)) return *wrong;
+    if (input.seed) draft->seed = *input.seed;
+    if (const Status wrong = begin_with_state(input.state, *draft)) return *wrong;
+    return draft;
+}
+
+Result<Scene> read_valid_scene(const SceneInput& input) {
+    auto draft = read_scene_input(input);
+    if (!draft) return draft.error();
+    return validate(*std::move(draft));
+}
+
+std::vector<std::string> files_of(const SceneInput& input) {
+    std::vector<std::string> files;
+    for (const std::string& path : {input.path, input.state})
+        if (!path.empty() && path != "-") files.push_back(path);
+    return files;
+}
+
+}  // namespace awan

@@ -1,0 +1,35 @@
+// The scene of a command: a file and what its flags put in place of what that says.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace awan {
+
+struct SceneInput {
+    // A file, or "-".
+    std::string path;
+    // "/sun/elevation=12", in their order.
+    std::vector<std::string> sets;
+    std::optional<std::uint64_t> seed;
+    // Of ready particles.
+    std::optional<double> radius;
+    // A file with the state of an automaton to begin with, or "".
+    std::string state;
+};
+
+// Reads it; what was taken for what in a file of particles is said on standard error.
+Result<SceneDraft> read_scene_input(const SceneInput& input);
+Result<Scene> read_valid_scene(const SceneInput& input);
+
+// The files that it is made of, for a depfile.
+std::vector<std::string> files_of(const SceneInput& input);
+
+// Gives the state in a file ("": none) to the automaton of the scene that it belongs to (state.cpp).
+Status begin_with_state(const std::string& path, SceneDraft& draft);
+
+}  // namespace awan

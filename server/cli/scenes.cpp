@@ -1,0 +1,51 @@
+// awan validate, presets, digest: what scenes are, without making anything of them.
+#include <cstdio>
+
+#include "core/scene/fingerprint.h"
+#include "core/scene/validate.h"
+#include "server/cli/cli.h"
+#include "server/cli/scene_input.h"
+#include "server/cli/support.h"
+#include "server/service/pages.h"
+
+namespace awan {
+
+int run_validate(const ValidateCommand& command) {
+    int code = kExitFine;
+    for (const std::string& path : command.scenes) {
+        SceneInput input;
+        input.path = path;
+        const auto scene = read_valid_scene(input);
+        if (!scene)
+            code = report_error(path, scene.error());
+        else
+            std::printf("%s: can be\n", path.c_str());
+    }
+    return code;
+}
+
+int run_presets(const PresetsCommand& command) {
+    std::string names;
+    for (const Preset& preset : make_presets()) {
+        const PresetEntry& entry = preset.entry;
+        if (command.name == entry.name) {
+            std::fwrite(entry.text.data(), 1, entry.text.size(), stdout);
+            return kExitFine;
+        }
+        if (command.name.empty())
+            std::printf("%-24.*s %.*s\n", static_cast<int>(entry.name.size()), entry.name.data(),
+                        static_cast<int>(entry.title.size()), entry.title.data());
+        names += (names.empty() ? "" : ", ") + std::string(entry.name);
+    }
+    if (command.name.empty()) return kExitFine;
+    return bad_usage("there is no preset " + command.name + "; there are " + names);
+}
+
+int run_digest(const DigestCommand& command) {
+    const auto scene = read_valid_scene(command.scene);
+    if (!scene) return report_error(command.scene.path, scene.error());
+    std::printf("%s  %s\n", fingerprint(*scene).c_str(), command.scene.path.c_str());
+    return kExitFine;
+}
+
+}  // namespace awan

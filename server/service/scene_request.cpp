@@ -1,0 +1,189 @@
+#include "server/service/scene_request.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/formats/quote.h"
+#include "core/scene/validate.h"
+#include "server/document/scene_text.h"
+#include "server/document/text_bytes.h"
+#include "server/header_text.h"
+#include "server/limits.h"
+#include "server/service/forms.h"
+#include "server/service/negotiation.h"
+#include "server/service/problem.h"
+#include "server/service/state.h"
+
+namespace awan {
+namespace {
+
+constexpr std::string_view kUrlencoded = "application/x-www-form-urlencoded",
+                           kMultipart = "multipart/form-data";
+
+// The query of /v1/accuracy beside the overrides (accuracy.cpp).
+constexpr std::array<std::string_view, 5> kAccuracyNames = {"theme", "size", "samples", "runs",
+                                                            "rungs"};
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kFormats = {
+    {{"json", "application/json"},
+     {"csv", "text/csv"},
+     {"ply", "application/x-ply"},
+     {"awn", "text/x-awn"},
+     {"png", "image/png"},
+     {"exr", "image/x-exr"}}};
+
+bool is_form(std::string_view type) {
+    return type == kUrlencoded || type == kMultipart;
+}
+
+Status check_names(const Request& request) {
+    const bool accuracy = request.path == kAccuracyPath;
+    for (const auto& [name, value] : request.query) {
+        if (is_override(name)) continue;
+        if (accuracy &&
+            std::find(kAccuracyNames.begin(), kAccuracyNames.end(), name) != kAccuracyNames.end())
+            continue;
+        return Error{ErrorCode::kMalformed, "",
+                     "there is no query parameter " + short_quote(name) + "; there are " +
+                         std::string(kOverrideNames) +
+                         (accuracy ? ", and here theme, size, samples, runs, rungs" : "")};
+    }
+    return std::nullopt;
+}
+
+Response wrong_type(std::string_view detail, const Request& request) {
+    Response response = problem(415, detail, "", request.id);
+    response.headers.emplace_back("Accept", kSceneTypes);
+    return response;
+}
+
+bool is_packed(const Request& request) {
+    const std::string_view encoding = request.header("Content-Encoding");
+    return same(encoding, "gzip") || same(encoding, "x-gzip");
+}
+
+// A scene in a body, before it is read.
+struct SceneBytes {
+    SceneFormat format = SceneFormat::kJson;
+    // Nothing: the body as it came.
+    std::optional<std::string> bytes;
+    // The query, and then what a form adds.
+    std::vector<std::pair<std::string, std::string>> fields;
+};
+
+// The format of a part by what says it best: its type, its file's name, its bytes.
+SceneFormat format_of(const FormPart& part) {
+    if (const auto format = scene_format_of_type(media_type(part.content_type))) return *format;
+    if (const auto format = scene_format_of_name(part.file_name)) return *format;
+    return sniff_scene_format(part.value);
+}
+
+Result<SceneBytes> of_form(std::vector<FormPart> parts, SceneBytes scene) {
+    bool found = false;
+    for (FormPart& part : parts) {
+        if (part.name == "scene" || part.name == "layout") {
+            if (found) return Error{ErrorCode::kMalformed, "", "the form has more than one scene"};
+            found = true;
+            scene.format = format_of(part);
+            scene.bytes = std::move(part.value);
+        } else if (is_override(part.name)) {
+            // Fields that are left empty on a page say nothing.
+            if (!part.value.empty())
+                scene.fields.emplace_back(std::move(part.name), std::move(part.value));
+        } else {
+            return Error{ErrorCode::kMalformed, "",
+                         "there is no field " + short_quote(part.name) +
+                             " in a form; there are scene (or layout), " +
+                             std::string(kOverrideNames)};
+        }
+    }
+    if (!found)
+        return Error{ErrorCode::kMalformed, "", "the form has no field `scene` (or `layout`)"};
+    return scene;
+}
+
+Result<SceneBytes> scene_bytes(const Request& request) {
+    SceneBytes scene;
+    scene.fields = request.query;
+    std::string_view body = request.body;
+    std::string unpacked;
+    if (is_packed(request)) {
+        auto out = gunzip(body, limits::kMaxBodyBytes);
+        if (!out) return out.error();
+        unpacked = *std::move(out);
+        body = unpacked;
+    }
+    const std::string type = media_type(request.header("Content-Type"));
+    if (type == kUrlencoded) {
+        auto parts = read_urlencoded(body);
+        if (!parts) return parts.error();
+        return of_form(*std::move(parts), std::move(scene));
+    }
+    if (type == kMultipart) {
+        auto parts = read_multipart(request.header("Content-Type"), body);
+        if (!parts) return parts.error();
+        return of_form(*std::move(parts), std::move(scene));
+    }
+    scene.format = *scene_format_of_type(type);
+    if (is_packed(request)) scene.bytes = std::move(unpacked);
+    return scene;
+}
+
+}  // namespace
+
+std::optional<Response> check_scene_head(const Request& request) {
+    const std::string type = media_type(request.header("Content-Type"));
+    if (!scene_format_of_type(type) && !is_form(type)) {
+        return wrong_type("a scene comes as " + std::string(kSceneTypes) +
+                              ", in UTF-8, or in a form; name it in Content-Type",
+                          request);
+    }
+    if (const Status wrong = check_names(request)) return problem(*wrong, request.id);
+    if (const auto overrides = read_overrides(request.query); !overrides)
+        return problem(overrides.error(), request.id);
+    return std::nullopt;
+}
+
+std::optional<Response> check_scene_body(const Request& request) {
+    if (media_type(request.header("Content-Type")) != kUrlencoded) return std::nullopt;
+    const std::size_t first = request.body.find_first_not_of(" \t\r\n");
+    if (first == std::string::npos || request.body[first] != '{') return std::nullopt;
+    return wrong_type(
+        "the body is JSON and its Content-Type a form's; send it with Content-Type: "
+        "application/json",
+        request);
+}
+
+Result<SceneRequest> read_scene_request(const Request& request) {
+    auto body = scene_bytes(request);
+    if (!body) return body.error();
+    auto overrides = read_overrides(body->fields);
+    if (!overrides) return overrides.error();
+    std::vector<std::string> notes;
+    auto draft = read_scene(body->format, body->bytes ? *body->bytes : request.body,
+                            {overrides->radius, &notes});
+    if (!draft) return draft.error();
+    // Its text is not needed any more, and may be long.
+    body->bytes.reset();
+    override_scene(*overrides, *draft);
+    auto scene = validate(*std::move(draft));
+    if (!scene) return scene.error();
+    return SceneRequest{*std::move(scene), *std::move(overrides), std::move(notes)};
+}
+
+std::optional<std::string_view> chosen_offer(const Request& request, std::string_view format,
+                                             std::span<const std::string_view> offers) {
+    if (format.empty()) return best_offer(joined_header(request, "Accept"), offers);
+    for (const auto& [name, type] : kFormats)
+        if (name == format && std::find(offers.begin(), offers.end(), type) != offers.end())
+            return type;
+    return {};
+}
+
+std::string notes_header(const std::vector<std::string>& notes) {
+    std::string all;
+    for (const std::string& note : notes) all += (all.empty() ? "" : "; ") + note;
+    return all;
+}
+
+}  // namespace awan

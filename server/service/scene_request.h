@@ -1,0 +1,40 @@
+// A POST that carries a scene: as a body of one of the scene's types, or in a form; packed or not; with a query that
+// takes the place of what the document says.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/scene/scene.h"
+#include "server/document/overrides.h"
+#include "server/service/service.h"
+
+namespace awan {
+
+// What of a request can be looked at before its body: Content-Type (415), Content-Encoding (415), the names and values
+// of its query (400).
+std::optional<Response> check_scene_head(const Request& request);
+
+// 415 for JSON that is called a form, as `curl -d @scene.json` does.
+std::optional<Response> check_scene_body(const Request& request);
+
+struct SceneRequest {
+    Scene scene;
+    // From the query and the fields of a form.
+    Overrides overrides;
+    // What was taken for what in a file of particles, for Awan-Notes.
+    std::vector<std::string> notes;
+};
+Result<SceneRequest> read_scene_request(const Request& request);
+
+// The offer that is answered: what `format` says ("" nothing), else what Accept prefers; nothing when neither fits.
+std::optional<std::string_view> chosen_offer(const Request& request, std::string_view format,
+                                             std::span<const std::string_view> offers);
+
+// Notes as one header's value; "" for none.
+std::string notes_header(const std::vector<std::string>& notes);
+
+}  // namespace awan

@@ -1,0 +1,224 @@
+// Requests as people's programs send them: queries, forms, packed bodies, paths with a slash too many.
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <string>
+
+#include "server/document/text_bytes.h"
+#include "server/service/forms.h"
+#include "server/service/negotiation.h"
+#include "service_fixture.h"
+
+namespace awan::test {
+namespace {
+
+using Query = std::vector<std::pair<std::string, std::string>>;
+using SceneRequestTest = ServiceTest;
+
+constexpr const char* kTable = "X;Y;Z;Width;Mass\n0;0;0;1;7\n1;0;0;1;7\n";
+
+Response ask(Service& service, const std::string& path, Query query,
+             const std::string& body = kScene,
+             Headers headers = {{"Content-Type", "application/json"}}) {
+    Request request = make_request("POST", path, body, std::move(headers));
+    request.query = std::move(query);
+    return service.answer(request);
+}
+
+std::string gzip(const std::string& text) {
+    std::string out(text.size() + 1000, '\0');
+    z_stream stream{};
+    EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+    stream.avail_in = static_cast<uInt>(text.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = static_cast<uInt>(out.size());
+    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+    out.resize(out.size() - stream.avail_out);
+    deflateEnd(&stream);
+    return out;
+}
+
+// --- queries
+
+TEST_F(SceneRequestTest, AQueryTakesThePlaceOfTheDocument) {
+    const Response plain = post("/v1/render");
+    const Response wide = ask(service, "/v1/render", {{"width", "32"}, {"height", "20"}});
+    ASSERT_EQ(wide.status, 200) << wide.body;
+    // The size of a PNG stands at byte 16.
+    EXPECT_EQ(wide.body.substr(16, 8), std::string("\0\0\0\x20\0\0\0\x14", 8));
+    EXPECT_NE(wide.header("ETag"), plain.header("ETag"));
+    EXPECT_EQ(ask(service, "/v1/render", {{"format", "exr"}}).header("Content-Type"),
+              "image/x-exr");
+    EXPECT_EQ(ask(service, "/v1/particles", {{"format", "csv"}}).header("Content-Type"),
+              "text/csv");
+    const Response other = ask(service, "/v1/particles", {{"seed", "8"}});
+    EXPECT_NE(other.body.find("\"seed\":8"), std::string::npos);
+    EXPECT_EQ(ask(service, "/v1/plan", {{"rung", "transport-16"}}).status, 200);
+}
+
+TEST_F(SceneRequestTest, AQueryIsNeverIgnored) {
+    for (const char* const path : {"/v1/render", "/v1/particles", "/v1/plan", "/v1/accuracy"}) {
+        const Response unknown = ask(service, path, {{"hight", "20"}});
+        expect_problem(unknown, 400);
+        EXPECT_NE(unknown.body.find("hight"), std::string::npos);
+        EXPECT_NE(unknown.body.find("height"), std::string::npos);
+        expect_problem(ask(service, path, {{"width", "0"}}), 400);
+        expect_problem(ask(service, path, {{"seed", "1"}, {"seed", "2"}}), 400);
+        expect_problem(ask(service, path, {{"format", "tiff"}}), 400);
+        expect_problem(ask(service, path, {{"radius", "1"}}), 422);
+    }
+    expect_problem(ask(service, "/v1/plan", {{"format", "png"}}), 400);
+}
+
+TEST_F(SceneRequestTest, TablesAreReadAndWhatWasTakenForWhatIsSaid) {
+    const Response response =
+        ask(service, "/v1/particles", {{"format", "csv"}}, kTable, {{"Content-Type", "text/csv"}});
+    ASSERT_EQ(response.status, 200) << response.body;
+    EXPECT_EQ(response.body.substr(response.body.find('\n') + 1, 9), "0,0,0,0.5");
+    EXPECT_NE(response.header("Awan-Notes").find("widths"), std::string::npos);
+    EXPECT_NE(response.header("Awan-Notes").find("not used: \"Mass\""), std::string::npos);
+    EXPECT_EQ(post("/v1/particles").header("Awan-Notes"), "");
+    const Response bare = ask(service, "/v1/particles", {{"radius", ".25"}, {"format", "csv"}},
+                              "x,y,z\n1,2,3\n", {{"Content-Type", "text/csv"}});
+    ASSERT_EQ(bare.status, 200) << bare.body;
+    EXPECT_NE(bare.body.find("1,2,3,0.25"), std::string::npos);
+}
+
+TEST_F(SceneRequestTest, AnAnswerComesBackIn) {
+    const std::string answer = whole_body(post("/v1/particles"));
+    const Response again = post("/v1/particles", answer);
+    ASSERT_EQ(again.status, 200) << again.body;
+    EXPECT_EQ(whole_body(again), answer);
+    EXPECT_EQ(post("/v1/render", answer).status, 200);
+}
+
+TEST_F(SceneRequestTest, TypesHaveOtherNames) {
+    EXPECT_EQ(post("/v1/plan", kScene, {}, "application/vnd.awan+json").status, 200);
+    EXPECT_EQ(post("/v1/plan", kScene, {}, "text/json; charset=utf-8").status, 200);
+    const std::string ply =
+        whole_body(post("/v1/particles", kScene, {{"Accept", "application/ply"}}));
+    EXPECT_EQ(ply.substr(0, 4), "ply\n");
+    for (const char* const type : {"application/ply", "model/ply", "application/x-ply"})
+        EXPECT_EQ(post("/v1/particles", ply, {}, type).status, 200) << type;
+    EXPECT_EQ(post("/v1/render", kScene, {{"Accept", "image/openexr"}}).header("Content-Type"),
+              "image/x-exr");
+    expect_problem(post("/v1/plan", kScene, {}, "application/xml"), 415);
+}
+
+TEST_F(SceneRequestTest, ASlashTooManyIsAnotherPath) {
+    Request request = make_request("POST", "/v1/render/", kScene);
+    request.query = {{"width", "8"}, {"rung", "a b"}};
+    const Response moved = service.answer(request);
+    EXPECT_EQ(moved.status, 308);
+    EXPECT_EQ(moved.header("Location"), "/v1/render?width=8&rung=a%20b");
+    EXPECT_EQ(get("/v1/presets/").header("Location"), "/v1/presets");
+    expect_problem(get("/nowhere/"), 404);
+    expect_problem(get("/v1/render//"), 404);
+}
+
+// --- packed
+
+TEST_F(SceneRequestTest, PackedBodiesAreTakenAndBounded) {
+    const Headers packed = {{"Content-Encoding", "gzip"}};
+    EXPECT_EQ(whole_body(post("/v1/particles", gzip(kScene), packed)),
+              whole_body(post("/v1/particles")));
+    expect_problem(post("/v1/particles", kScene, packed), 400);
+    // A hundred million blanks in a hundred thousand bytes.
+    expect_problem(post("/v1/particles", gzip(std::string(110u << 20, ' ')), packed), 413);
+}
+
+TEST_F(SceneRequestTest, AnswersArePackedForThoseWhoTakeThem) {
+    const Headers takes = {{"Accept-Encoding", "gzip, deflate, br"}};
+    const Response plain = post("/v1/particles"), packed = post("/v1/particles", kScene, takes);
+    EXPECT_EQ(plain.header("Content-Encoding"), "");
+    EXPECT_EQ(packed.header("Content-Encoding"), "gzip");
+    EXPECT_NE(packed.header("Vary").find("Accept-Encoding"), std::string::npos);
+    EXPECT_NE(packed.header("ETag"), plain.header("ETag"));
+    EXPECT_EQ(*gunzip(packed.body, 1 << 20), plain.body);
+    for (const Response* const known : {&plain, &packed})
+        EXPECT_EQ(post("/v1/particles", kScene,
+                       {{"If-None-Match", std::string(known->header("ETag"))},
+                        {"Accept-Encoding", "gzip"}})
+                      .status,
+                  304);
+    // Pictures are packed already.
+    EXPECT_EQ(post("/v1/render", kScene, takes).header("Content-Encoding"), "");
+    EXPECT_EQ(get("/openapi.json", takes).header("Content-Encoding"), "gzip");
+    // Long answers come in pieces.
+    const std::string many =
+        R"({"cubes":[{"particles":20000,"size":[2,1,2],"center":[0,0,0],"radius":0.5}]})";
+    const Response stream = post("/v1/particles", many, takes);
+    ASSERT_TRUE(stream.stream);
+    EXPECT_EQ(*gunzip(whole_body(stream), 1 << 24), whole_body(post("/v1/particles", many)));
+}
+
+TEST(TakesGzip, ByQuality) {
+    for (const char* const yes :
+         {"gzip", "GZIP", "br, gzip;q=0.5", "*", "x-gzip", "deflate, *;q=0.1"})
+        EXPECT_TRUE(takes_gzip(yes)) << yes;
+    for (const char* const no :
+         {"", "br", "gzip;q=0", "*, gzip;q=0", "identity", "gzippy", "*;q=0"})
+        EXPECT_FALSE(takes_gzip(no)) << no;
+}
+
+// --- forms
+
+TEST_F(SceneRequestTest, FormsCarryASceneAndTheQuerysNames) {
+    const std::string multipart =
+        "preamble\r\n--xx\r\nContent-Disposition: form-data; name=\"scene\"; "
+        "filename=\"a;b.csv\"\r\n"
+        "Content-Type: application/octet-stream\r\n\r\nx,y,z\r\n0,0,0\r\n\r\n--xx\r\n"
+        "Content-Disposition: form-data; name=radius\r\n\r\n.5\r\n--xx\r\n"
+        "content-disposition: form-data; name=\"width\"\r\n\r\n\r\n--xx--\r\n";
+    const Response files = ask(service, "/v1/particles", {{"format", "csv"}}, multipart,
+                               {{"Content-Type", "multipart/form-data; boundary=xx"}});
+    ASSERT_EQ(files.status, 200) << files.body;
+    EXPECT_NE(files.body.find("0,0,0,0.5"), std::string::npos);
+
+    std::string encoded = "seed=8&scene=";
+    for (const char c : std::string(kScene))
+        encoded += c == '"' ? "%22" : c == ' ' ? "+" : std::string(1, c);
+    const Headers urlencoded = {{"Content-Type", "application/x-www-form-urlencoded"}};
+    const Response field = ask(service, "/v1/particles", {}, encoded, urlencoded);
+    ASSERT_EQ(field.status, 200) << field.body;
+    EXPECT_EQ(whole_body(field), whole_body(ask(service, "/v1/particles", {{"seed", "8"}})));
+    const Response layout =
+        ask(service, "/v1/particles", {}, "layout=20%0A1%0A20+2+1+2+0+0+0+.5", urlencoded);
+    EXPECT_EQ(layout.status, 200) << layout.body;
+}
+
+TEST_F(SceneRequestTest, FormsThatCannotBeAreRefused) {
+    const Headers urlencoded = {{"Content-Type", "application/x-www-form-urlencoded"}};
+    const auto refused = [&](const std::string& body, const std::string& word,
+                             const Headers& headers) {
+        const Response response = ask(service, "/v1/particles", {}, body, headers);
+        expect_problem(response, 400);
+        EXPECT_NE(response.body.find(word), std::string::npos) << response.body;
+    };
+    const Response json = ask(service, "/v1/particles", {}, kScene, urlencoded);
+    expect_problem(json, 415);
+    EXPECT_NE(json.body.find("application/json"), std::string::npos);
+    refused("seed=8", "`scene`", urlencoded);
+    refused("scene={}&colour=red", "colour", urlencoded);
+    refused("scene={}&layout=", "more than one", urlencoded);
+    refused(std::string(1000, '&') + "a=1", "there is no field", urlencoded);
+    std::string many;
+    for (int i = 0; i < 100; ++i) many += "width=&";
+    refused(many, "64", urlencoded);
+    const auto multipart = [&](const std::string& body, const std::string& word,
+                               const std::string& boundary = "xx") {
+        refused(body, word, {{"Content-Type", "multipart/form-data; boundary=" + boundary}});
+    };
+    multipart("--xx", "behind a boundary");
+    multipart("", "boundary");
+    multipart("--xx--\r\n", "`scene`");
+    multipart("--xx\r\nContent-Disposition: form-data; name=\"scene\"\r\n\r\n{}", "no end");
+    multipart("--xx\r\nContent-Disposition: form-data; name=\"scene\"\r\n--xx--",
+              "no end of its head");
+    multipart("--xx\r\n\r\n{}\r\n--xx--", "no name");
+    multipart("{}", "boundary", "");
+}
+
+}  // namespace
+}  // namespace awan::test
