@@ -231,6 +231,18 @@ TEST(Jobs, SoManyWaitAndNoMore) {
     EXPECT_TRUE(jobs.submit(named("c")));
 }
 
+TEST(Jobs, ScenesThatWaitAreBoundedToo) {
+    JobsOptions options;
+    options.runners = 0;
+    options.bytes = 1000;
+    Jobs jobs(options, answering(1));
+    JobWork large = named("a");
+    large.request.body.assign(5000, ' ');
+    EXPECT_TRUE(jobs.submit(large)) << "alone, any is welcome";
+    large.id = "b";
+    EXPECT_FALSE(jobs.submit(large));
+}
+
 TEST(Jobs, EndWithTheServer) {
     std::atomic<bool> ended{false};
     {

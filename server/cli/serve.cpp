@@ -205,7 +205,13 @@ int run_serve(const ServeCommand& command) {
 
     const Descriptor signals(signalfd(-1, &stop_signals, SFD_CLOEXEC));
     const Descriptor over(eventfd(0, EFD_CLOEXEC));
-    std::thread herald([&] { say_renderer(renderer); });
+    std::thread herald([&] {
+        try {
+            say_renderer(renderer);
+        } catch (const std::exception&) {
+            // Without memory for its name, it goes unnamed.
+        }
+    });
     std::thread watcher([&] { watch_signals(signals, over, server); });
     std::exception_ptr thrown;
     try {

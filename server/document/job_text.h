@@ -17,8 +17,8 @@ struct JobText {
     std::string_view format;
 };
 
-// Only the outer object is read; what stands in `scene` is parse_scene()'s business. Costs no memory, whatever the text.
-// Errors: kMalformed, kInvalidScene.
+// Only the outer object is read; what stands in `scene` is parse_scene()'s business. Costs no memory, whatever the
+// text. Errors: kMalformed, kInvalidScene.
 Result<JobText> parse_job(std::string_view text);
 
 // What GET /v1/jobs/{id} says.

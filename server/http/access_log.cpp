@@ -138,13 +138,15 @@ void AccessLog::run() {
         if (lines_.empty()) return;
         std::string line = std::move(lines_.front());
         lines_.pop_front();
-        if (lost_ > 0 && format_ == LogFormat::kText)
-            line = "awan: " + std::to_string(lost_) + " lines of the log were lost\n" + line;
-        else if (lost_ > 0)
-            line = "{\"lost_lines\":" + std::to_string(lost_) + "}\n" + line;
+        char lost[80] = "";
+        if (lost_ > 0)
+            std::snprintf(lost, sizeof lost,
+                          format_ == LogFormat::kText ? "awan: %zu lines of the log were lost\n"
+                                                      : "{\"lost_lines\":%zu}\n",
+                          lost_);
         const std::size_t told = lost_;
         lock.unlock();
-        const bool written = write_whole(line);
+        const bool written = (!*lost || write_whole(lost)) && write_whole(line);
         lock.lock();
         if (written)
             lost_ -= told;

@@ -149,6 +149,8 @@ Response tell_result(const JobView& view, const Request& request) {
             problem_retry(409, "the job has not finished; ask for its state", 1, request.id);
         return response;
     }
+    if (!view.result)
+        return problem(503, "there was not enough memory for its result", "", request.id);
     Response response = *view.result;
     // The answer is of this request now.
     std::erase_if(response.headers, [](const auto& h) { return h.first == "X-Request-Id"; });

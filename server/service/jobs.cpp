@@ -68,11 +68,14 @@ bool Jobs::submit(JobWork work) {
     auto job = std::make_shared<Job>();
     job->work = std::move(work);
     const std::lock_guard lock(mutex_);
-    const auto waiting =
-        static_cast<std::size_t>(std::count_if(jobs_.begin(), jobs_.end(), [&](const auto& other) {
-            return !view_of(*other).finished();
-        }));
-    if (waiting >= options_.most_waiting || stopping_) return false;
+    std::size_t waiting = 0;
+    std::size_t bytes = job->work.request.body.size();
+    for (const auto& other : jobs_) {
+        if (!view_of(*other).finished()) ++waiting;
+        bytes += other->work.request.body.size();
+    }
+    if (waiting >= options_.most_waiting || (waiting > 0 && bytes > options_.bytes) || stopping_)
+        return false;
     jobs_.push_back(std::move(job));
     drop_old();
     changed_.notify_all();
@@ -176,6 +179,20 @@ void Jobs::finish(Job& job, Response response) {
     changed_.notify_all();
 }
 
+Response Jobs::run(const Job& job, Request& request) {
+    for (;;) {
+        Response response;
+        try {
+            response = run_(job.work, request);
+        } catch (const std::exception& e) {
+            response = problem(error_of_thrown(e), request.id);
+        }
+        // The lines are full at the moment; a job has time.
+        if (response.status != 429 || has_passed(request.deadline)) return response;
+        std::this_thread::sleep_for(kComeAgain);
+    }
+}
+
 void Jobs::serve() {
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -192,29 +209,26 @@ void Jobs::serve() {
         changed_.notify_all();
         lock.unlock();
 
-        Request request = job->work.request;
-        request.deadline = {Deadline::Clock::now() + options_.deadline, job->cancelled};
-        request.admitted = true;
-        request.progress = [&](double done) {
+        try {
+            Request request = job->work.request;
+            request.deadline = {Deadline::Clock::now() + options_.deadline, job->cancelled};
+            request.admitted = true;
+            request.progress = [&](double done) {
+                const std::lock_guard in(mutex_);
+                // A thousand changes are enough for whoever watches.
+                if (!(done >= job->progress + 0.001)) return;
+                job->progress = std::min(done, 1.0);
+                ++job->version;
+                changed_.notify_all();
+            };
+            finish(*job, run(*job, request));
+        } catch (const std::exception&) {
+            // No memory for what came of it, nor for the words of an error.
             const std::lock_guard in(mutex_);
-            // A thousand changes are enough for whoever watches.
-            if (!(done >= job->progress + 0.001)) return;
-            job->progress = std::min(done, 1.0);
+            job->state = JobState::kFailed;
             ++job->version;
             changed_.notify_all();
-        };
-        Response response;
-        for (;;) {
-            try {
-                response = run_(job->work, request);
-            } catch (const std::exception& e) {
-                response = problem(error_of_thrown(e), request.id);
-            }
-            // The lines are full at the moment; a job has time.
-            if (response.status != 429 || request.deadline.over()) break;
-            std::this_thread::sleep_for(kComeAgain);
         }
-        finish(*job, std::move(response));
         lock.lock();
     }
 }

@@ -90,6 +90,7 @@ class Jobs {
 
   private:
     void serve();
+    Response run(const Job& job, Request& request);
     void finish(Job& job, Response response);
     void drop_old();
     std::list<std::shared_ptr<Job>>::const_iterator at(std::string_view id) const;

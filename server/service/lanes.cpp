@@ -54,7 +54,7 @@ std::list<Lanes::Waiter*>::iterator Lanes::next_of(Weight weight) {
 }
 
 // Called whenever something has changed, and now and then: a lane also becomes free by time.
-void Lanes::let_in() {
+void Lanes::let_in() noexcept {
     for (;;) {
         const auto can = [&](Weight weight) {
             return !lines_[index_of(weight)].empty() && is_room(weight);
@@ -76,7 +76,8 @@ void Lanes::let_in() {
         clock = std::max(clock, waiter.start);
         auto& clocks = clocks_[index_of(weight)];
         std::erase_if(clocks, [&](const auto& client) { return client.second <= clock; });
-        runners_.push_front({weight, waiter.work->expected_ms, Clock::now(), waiter.until});
+        waiter.seat.front().since = Clock::now();
+        runners_.splice(runners_.begin(), waiter.seat);
         waiter.granted = runners_.begin();
         waiter.let_in.notify_one();
     }
@@ -117,7 +118,7 @@ double Lanes::wait_ms(Weight weight) const {
 
 Lanes::Entry Lanes::enter(const LaneWork& work, const Deadline& deadline, bool may_be_full,
                           std::optional<std::list<Runner>::iterator>& runner, double& waited_ms) {
-    if (deadline.over()) return Entry::kOver;
+    if (has_passed(deadline)) return Entry::kOver;
     const auto began = Clock::now();
     Lock lock(mutex_);
     auto& line = lines_[index_of(work.weight)];
@@ -130,7 +131,8 @@ Lanes::Entry Lanes::enter(const LaneWork& work, const Deadline& deadline, bool m
     const bool room = line.empty() && is_room(work.weight);
     if (!may_be_full && !room && (line.size() >= options_.line || own >= share))
         return Entry::kFull;
-    Waiter waiter{&work, work.weight, start_of(work), {}, {}, deadline.until};
+    Waiter waiter{&work, work.weight, start_of(work), {}, {}, {}};
+    waiter.seat.push_back({work.weight, work.expected_ms, began, deadline.until});
     if (!room && deadline.until != Clock::time_point::max() &&
         wait_ms(work.weight, waiter.start) >= ms_until(deadline.until, began))
         return Entry::kTooLate;
@@ -140,7 +142,7 @@ Lanes::Entry Lanes::enter(const LaneWork& work, const Deadline& deadline, bool m
     while (!waiter.granted) {
         waiter.let_in.wait_for(lock, kLookInLine);
         if (waiter.granted) break;
-        if (deadline.over()) {
+        if (has_passed(deadline)) {
             line.remove(&waiter);
             waited_ms += ms_since(began);
             return Entry::kOver;

@@ -30,6 +30,13 @@ inline constexpr double kShort_ms = 1000;
 // Of how long a piece of work takes before anything is known of it.
 inline constexpr double kTypical_ms = 50;
 
+// Whether a deadline is over, said without memory, which may have run out: a word of it may not be had then.
+inline bool has_passed(const Deadline& deadline) noexcept {
+    return (deadline.cancelled && deadline.cancelled->load(std::memory_order_relaxed)) ||
+           (deadline.until != Deadline::Clock::time_point::max() &&
+            Deadline::Clock::now() >= deadline.until);
+}
+
 inline Weight weight_of(double expected_ms) {
     return expected_ms <= kShort_ms ? Weight::kShort : Weight::kLong;
 }
@@ -66,9 +73,10 @@ class Lanes {
         Weight weight;
         // When it is due by its client's clock.
         double start;
+        // One element, made before it waits: who lets it in must not run out of memory.
+        std::list<Runner> seat;
         std::optional<std::list<Runner>::iterator> granted;
         std::condition_variable let_in;
-        Deadline::Clock::time_point until;
     };
 
   public:
@@ -126,7 +134,7 @@ class Lanes {
 
     Entry enter(const LaneWork& work, const Deadline& deadline, bool may_be_full,
                 std::optional<std::list<Runner>::iterator>& runner, double& waited_ms);
-    void let_in();
+    void let_in() noexcept;
     bool is_room(Weight weight) const;
     // Running: short work in time, and the rest.
     std::pair<std::size_t, std::size_t> running() const;

@@ -10,6 +10,7 @@
 
 #include "core/base/thrown.h"
 #include "core/scene/validate.h"
+#include "server/service/lanes.h"
 
 namespace awan {
 namespace {
@@ -143,7 +144,13 @@ void RenderThread::State::run(const OpenRenderer& open) {
 
         lock.unlock();
         if (!renderer && worth_it) renderer = open_again(open);
-        std::optional<Result<Rendered>> result(render(renderer, *job));
+        std::optional<Result<Rendered>> result;
+        try {
+            result.emplace(render(renderer, *job));
+        } catch (const std::exception&) {
+            // Not even for the words of an error.
+            result.emplace(Error{ErrorCode::kOutOfMemory, {}, {}});
+        }
         const bool at_fault = !result->ok() && (result->error().code == ErrorCode::kInternal ||
                                                 result->error().code == ErrorCode::kOutOfMemory);
         if (at_fault) renderer.reset();
@@ -211,9 +218,9 @@ RenderJobResult RenderThread::render(const Scene& scene, Planned planned,
         const auto waiting = std::find(state_->queue.begin(), state_->queue.end(), &job);
         // The job is done, or running.
         if (job.result || waiting == state_->queue.end()) continue;
-        if (auto over = deadline.over()) {
+        if (has_passed(deadline)) {
             state_->queue.erase(waiting);
-            return {*over, ms_since(job.queued_at)};
+            return {*deadline.over(), ms_since(job.queued_at)};
         }
     }
     return {std::move(*job.result), job.queue_ms};

@@ -1,5 +1,5 @@
-// The frames of a sequence as one animation. What is settled for all frames is settled once; then each frame has a lane for
-// itself, so that others compute between two of them.
+// The frames of a sequence as one animation. What is settled for all frames is settled once; then each frame has a
+// lane for itself, so that others compute between two of them.
 #include <chrono>
 #include <thread>
 #include <utility>
