@@ -161,7 +161,7 @@ TEST(Awn, RejectsWordsAndHexadecimalAndDecimalCommas) {
 }
 
 TEST(Awn, RejectsAParticleCountThatIsNotAnIntegerFromZero) {
-    for (const char* const bad : {"-1", "2.5", "99999999999999999999", "1e3", "+5"}) {
+    for (const char* const bad : {"-1", "2.5", "99999999999999999999", "1e3", "+-5", "++5"}) {
         expect_malformed(std::string(bad) + "\n0\n", "line 1", {"integer"});
         expect_malformed(std::string("5\n1\n") + bad + ", 1, 2, 3, 4, 5, 6, 7\n", "line 3",
                          {"particles", "integer"});

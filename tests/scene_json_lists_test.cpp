@@ -54,11 +54,11 @@ TEST(SceneJsonLists, RejectsInLongListsWhatItRejectsElsewhere) {
     for (const char* const bad :
          {"[1,]", "[,1]", "[1,,2]", "[1 2]", "[01]", "[1,01]", "[1,.5]", "[1,5.]", "[1,+1]",
           "[1,1e]", "[1,-]", "[1,NaN]", "[1,-inf]", "[1,0x1]", "[1,2}", "[1,1.e3]"})
-        expect_malformed(lists_with(bad, "[]"), {"byte"});
+        expect_malformed(lists_with(bad, "[]"), {"line 1, column "});
     for (const char* const bad :
          {"[[1,2,3],]", "[[1,2,3][4,5,6]]", "[[1,2,3],[1,2,]]", "[[1,2,3],[01,2,3]]", "[[1,2,3",
           "[[1,2,3],", "[[1,2,3]", "[[1,2,3}]"})
-        expect_malformed(lists_with("[]", bad), {"byte"});
+        expect_malformed(lists_with("[]", bad), {"line 1, column "});
     expect_invalid(lists_with("[1, 2, null]", "[]"), "/clouds/0/radii/2", {"a number"});
     expect_invalid(lists_with("[1, 2, \"3\", 4]", "[]"), "/clouds/0/radii/2", {"a number"});
     expect_invalid(lists_with("[1, 2, [3]]", "[]"), "/clouds/0/radii/2", {"a number"});
@@ -74,7 +74,7 @@ TEST(SceneJsonLists, RejectsInLongListsWhatItRejectsElsewhere) {
 
 TEST(SceneJsonLists, CountsTheBytesThatWereReadAhead) {
     const std::string before = lists_with("[1, 2, 3, 4, 5, 6, 7]", "[[1, 2, 3], [4, 5, 6");
-    expect_malformed(before + "x", {("byte " + std::to_string(before.size() - 2)).c_str()});
+    expect_malformed(before + "x", {("line 1, column " + std::to_string(before.size() - 2)).c_str()});
 }
 
 // --- hostile documents

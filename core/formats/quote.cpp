@@ -47,8 +47,11 @@ std::size_t utf8_length(std::string_view text) {
 
 std::string short_quote(std::string_view text) {
     constexpr int kLongest = 40;
+    // Bytes that are named take four each.
+    constexpr std::size_t kMostBytes = 100;
     std::string out = "\"";
-    for (int letters = 0; letters < kLongest && !text.empty(); ++letters) {
+    for (int letters = 0; letters < kLongest && out.size() < kMostBytes && !text.empty();
+         ++letters) {
         const std::size_t length = utf8_length(text);
         const std::string_view letter = text.substr(0, length == 0 ? 1 : length);
         if (length == 0 || is_obeyed(letter))

@@ -11,8 +11,8 @@ namespace awan {
 // surrogates, nothing beyond U+10FFFF).
 std::size_t utf8_length(std::string_view text);
 
-// `text` in double quotes, at most 40 letters of it. Letters of every script stay; control characters, marks that turn
-// the direction of writing, and bytes that are no UTF-8 are written as \x1B.
+// `text` in double quotes, at most 40 letters of it, and fewer where they take long to write. Letters of every script
+// stay; control characters, marks that turn the direction of writing, and bytes that are no UTF-8 are written as \x1B.
 std::string short_quote(std::string_view text);
 
 }  // namespace awan
