@@ -17,6 +17,8 @@ constexpr std::size_t kWorthIt = 1024;
 constexpr int kLevel = 2;
 
 bool is_packable(std::string_view type) {
+    // Events leave when they happen; a packer would wait for more.
+    if (type.starts_with("text/event-stream")) return false;
     return type.starts_with("text/") || type.starts_with("application/json") ||
            type.starts_with("application/problem+json") || type.starts_with("application/x-ply") ||
            type.starts_with("application/javascript") || type.starts_with("image/svg+xml");

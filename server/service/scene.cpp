@@ -192,6 +192,15 @@ std::string speed_text(const Service::State& state) {
 
 namespace {
 
+// A packed body may become so many times as long (zlib's technical details: 1032).
+constexpr std::size_t kMostPacked = 1032;
+
+std::size_t unpacked_bytes(const Request& request) {
+    const std::size_t size = request.body.size();
+    if (request.header("Content-Encoding").empty()) return size;
+    return std::min(kMostPacked * size, limits::kMaxBodyBytes);
+}
+
 Response not_offered(const Request& request, int status, std::string_view what) {
     std::string detail(what);
     const auto offers = offers_of(request.path);
@@ -236,7 +245,7 @@ Response answer_scene_request(Service::State& state, const Request& request) {
     if (auto refused =
             not_let_in(pass.enter(work, request.deadline), state.lanes, work.weight, request))
         return std::move(*refused);
-    WorkBudget::Lease reading = state.budget.take(reading_bytes(request.body.size()));
+    WorkBudget::Lease reading = state.budget.take(reading_bytes(unpacked_bytes(request)));
     if (!reading) return no_memory(state, request);
     if (auto refused = check_scene_body(request)) return *std::move(refused);
     const auto read = read_scene_request(request);
