@@ -112,8 +112,12 @@ run 0 particles scene.json -o whole.csv
 same "its file, when it has ended" "" "$(ls -A | grep '^.awan-')"
 
 # --- too little memory is an exit code, not a crash
-(ulimit -v 800000; "$awan" render scene.json -o small.png 2>err); same "splats in little memory" 4 "$?"
+(ulimit -v 300000; "$awan" render scene.json -o small.png 2>err); same "splats in little memory" 4 "$?"
 contains "little memory" "memory" "$(cat err)"
+for kib in 100000 450000 500000 550000 800000; do
+    (ulimit -v $kib; "$awan" render scene.json -o small.png 2>err)
+    case $? in 0 | 4) ;; *) fail "splats in $kib KiB: $? $(cat err)" ;; esac
+done
 
 # --- scenes that cannot be
 run 3 plan impossible.json
