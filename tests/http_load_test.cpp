@@ -73,7 +73,7 @@ TEST(SlowClients, DoNotStandBeforeHealth) {
     std::vector<RawClient> renders;
     for (int i = 0; i < 3; ++i) renders.push_back(server.client());
     for (RawClient& client : renders) client.send(post("/v1/render", kScene));
-    ASSERT_TRUE(eventually([&] { return server.waiting() == 3; }));
+    ASSERT_TRUE(eventually([&] { return server.in_line() == 2; })) << "one is drawn";
     EXPECT_EQ(server.ask(post("/v1/render", kScene)).status, 429);
 
     const auto start = Clock::now();
@@ -140,7 +140,7 @@ TEST(Queue, IsRefusedWhenFullWithATimeToComeAgain) {
     RawClient waiting = server.client();
     running.send(post("/v1/render", kScene));
     waiting.send(post("/v1/render", kScene));
-    ASSERT_TRUE(eventually([&] { return server.waiting() == 2; }));
+    ASSERT_TRUE(eventually([&] { return server.in_line() == 1; }));
     RawClient third = server.client();
     third.send(post("/v1/render", kScene));
     const Answer refused = third.read();

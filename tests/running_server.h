@@ -45,6 +45,8 @@ class Running {
     int port() const { return http_.port(); }
     // POSTs that are answered or wait.
     std::size_t waiting() const { return service_.in_progress(); }
+    // POSTs that wait for a lane.
+    std::size_t in_line() const { return service_.in_line(); }
     RawClient client() const { return RawClient(port()); }
     Answer ask(const std::string& bytes) const {
         RawClient c = client();

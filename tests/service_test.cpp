@@ -262,6 +262,7 @@ TEST_F(ServiceTest, FullLineRefusesBeforeAnythingIsComputed) {
         EXPECT_TRUE(eventually([&] { return small.in_progress() == i + 1; }));
     }
     EXPECT_TRUE(eventually([&] { return renderer.begun() == 2; })) << "one a lane";
+    EXPECT_TRUE(eventually([&] { return small.in_line() == 1; }));
     const std::string generated = metrics.text({});
     const Response ready = small.answer(make_request("GET", "/readyz"));
     expect_problem(ready, 503);

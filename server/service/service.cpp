@@ -303,6 +303,15 @@ std::size_t Service::in_progress() const {
     return state_->in_progress;
 }
 
+std::size_t Service::in_line() const {
+    std::size_t waiting = 0;
+    for (const Lanes* lanes : {&state_->lanes, &state_->device_lane}) {
+        const Lanes::Load load = lanes->load();
+        waiting += load.waiting_short + load.waiting_long;
+    }
+    return waiting;
+}
+
 std::optional<Response> Service::refuse(const Request& request) {
     const Route route = find_route(*state_, request.path);
     std::optional<Response> response = check(*state_, route, request);

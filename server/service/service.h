@@ -108,6 +108,8 @@ class Service {
 
     // How many POSTs are being answered, waiting ones among them.
     std::size_t in_progress() const;
+    // How many of these wait for a lane.
+    std::size_t in_line() const;
 
     struct State;
 
