@@ -2,21 +2,11 @@
 # The command line as renderers' users and farms know it: values by flag, several outputs, frames, files that are there
 # already, what make reads, lines that programs read. $1: the binary.
 set -uo pipefail
+. "$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/shell_checks.sh"
 awan=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
-failures=0
-
-fail() { echo "FAILED: $*" >&2; failures=$((failures + 1)); }
-same() { [ "$2" = "$3" ] || fail "$1: expected '$2', got '$3'"; }
-contains() { case $3 in *"$2"*) ;; *) fail "$1: '$2' is not in '$3'" ;; esac; }
-run() {
-    local expected=$1
-    shift
-    "$awan" "$@" >out 2>err
-    same "exit code of awan $*" "$expected" "$?"
-}
 
 cat >scene.json <<'END_SCENE'
 {"name":"puff","cubes":[{"_":"left","particles":60,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],

@@ -1,23 +1,11 @@
 #!/usr/bin/env bash
 # The command line: exit codes, messages, files that appear whole or not at all. $1: the binary.
 set -uo pipefail
+. "$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/shell_checks.sh"
 awan=$1
 work=$(mktemp -d)
 trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
 cd "$work" || exit 1
-failures=0
-
-fail() { echo "FAILED: $*" >&2; failures=$((failures + 1)); }
-same() { [ "$2" = "$3" ] || fail "$1: expected '$2', got '$3'"; }
-contains() { case $3 in *"$2"*) ;; *) fail "$1: '$2' is not in '$3'" ;; esac; }
-
-# run EXIT ARGUMENTS...: runs awan and expects that exit code; output in $work/out, messages in err.
-run() {
-    local expected=$1
-    shift
-    "$awan" "$@" >out 2>err
-    same "exit code of awan $*" "$expected" "$?"
-}
 
 cat >scene.json <<'END'
 {"cubes":[{"particles":60,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],"image":{"width":64,"height":48},"accuracy":{"rung":"harris"}}

@@ -1,16 +1,12 @@
 #!/usr/bin/env bash
 # The built program as a stranger uses it: real curl against a real server. $1: the binary.
 set -uo pipefail
+. "$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/shell_checks.sh"
 awan=$1
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 work=$(mktemp -d)
 server=
-failures=0
 trap '[ -n "$server" ] && kill -KILL "$server" 2>/dev/null; rm -rf "$work"' EXIT
-
-fail() { echo "FAILED: $*" >&2; failures=$((failures + 1)); }
-same() { [ "$2" = "$3" ] || fail "$1: expected '$2', got '$3'"; }
-contains() { case $3 in *"$2"*) ;; *) fail "$1: '$2' is not in '$3'" ;; esac; }
 
 # start ARGUMENTS...: serves on a free port (of $listen); sets $server and $url.
 start() {

@@ -1,6 +1,5 @@
 // Requests as people's programs send them: queries, forms, packed bodies, paths with a slash too many.
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <string>
 
@@ -8,6 +7,7 @@
 #include "server/service/forms.h"
 #include "server/service/negotiation.h"
 #include "service_fixture.h"
+#include "tests/gzip.h"
 
 namespace awan::test {
 namespace {
@@ -23,20 +23,6 @@ Response ask(Service& service, const std::string& path, Query query,
     Request request = make_request("POST", path, body, std::move(headers));
     request.query = std::move(query);
     return service.answer(request);
-}
-
-std::string gzip(const std::string& text) {
-    std::string out(text.size() + 1000, '\0');
-    z_stream stream{};
-    EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-    stream.avail_in = static_cast<uInt>(text.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-    out.resize(out.size() - stream.avail_out);
-    deflateEnd(&stream);
-    return out;
 }
 
 // --- queries
@@ -121,11 +107,11 @@ TEST_F(SceneRequestTest, ASlashTooManyIsAnotherPath) {
 
 TEST_F(SceneRequestTest, PackedBodiesAreTakenAndBounded) {
     const Headers packed = {{"Content-Encoding", "gzip"}};
-    EXPECT_EQ(whole_body(post("/v1/particles", gzip(kScene), packed)),
+    EXPECT_EQ(whole_body(post("/v1/particles", test::gzip(kScene), packed)),
               whole_body(post("/v1/particles")));
     expect_problem(post("/v1/particles", kScene, packed), 400);
     // A hundred million blanks in a hundred thousand bytes.
-    expect_problem(post("/v1/particles", gzip(std::string(110u << 20, ' ')), packed), 413);
+    expect_problem(post("/v1/particles", test::gzip(std::string(110u << 20, ' ')), packed), 413);
 }
 
 TEST_F(SceneRequestTest, AnswersArePackedForThoseWhoTakeThem) {

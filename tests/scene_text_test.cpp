@@ -1,7 +1,6 @@
 // Scenes as texts that people hand over: encodings, packed files, keys of their own, answers that come back, and what
 // is said of a text that is not JSON.
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <fstream>
 #include <sstream>
@@ -13,6 +12,7 @@
 #include "server/document/overrides.h"
 #include "server/document/scene_text.h"
 #include "server/document/text_bytes.h"
+#include "tests/gzip.h"
 
 namespace awan {
 namespace {
@@ -30,20 +30,6 @@ std::string message_of(const Result<SceneDraft>& draft) {
 std::string utf16(const std::string& ascii, bool big, bool mark) {
     std::string out = !mark ? "" : big ? "\xFE\xFF" : "\xFF\xFE";
     for (const char c : ascii) out += big ? std::string{'\0', c} : std::string{c, '\0'};
-    return out;
-}
-
-std::string gzip(const std::string& text) {
-    z_stream stream{};
-    EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
-    std::string out(text.size() / 2 + 1000, '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-    stream.avail_in = static_cast<uInt>(text.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-    out.resize(out.size() - stream.avail_out);
-    deflateEnd(&stream);
     return out;
 }
 
@@ -87,7 +73,7 @@ TEST(SceneText, AByteOrderMarkBeforeAnyTextIsNothing) {
 
 TEST(SceneText, GzipIsBounded) {
     const std::string text(200'000, 'a');
-    const std::string packed = gzip(text);
+    const std::string packed = test::gzip(text);
     EXPECT_TRUE(is_gzip(packed));
     EXPECT_EQ(*gunzip(packed, 200'000), text);
     EXPECT_EQ(*gunzip(packed + packed, 400'000), text + text);
@@ -101,7 +87,7 @@ TEST(SceneText, GzipIsBounded) {
     damaged[packed.size() - 6] = static_cast<char>(damaged[packed.size() - 6] ^ 1);
     EXPECT_EQ(gunzip(damaged, 1 << 20).error().code, ErrorCode::kMalformed);
     EXPECT_EQ(gunzip("", 10).error().code, ErrorCode::kMalformed);
-    EXPECT_EQ(*gunzip(gzip(""), 0), "");
+    EXPECT_EQ(*gunzip(test::gzip(""), 0), "");
 }
 
 // --- keys of one's own

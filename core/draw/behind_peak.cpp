@@ -57,11 +57,11 @@ double share_within(const std::vector<double>& kept, double angle) {
 // A direction's neighbours, and what their light is.
 class Around {
   public:
-    Around(const Scene& scene, const View& view, const GroundLight& ground,
+    Around(const Scene& scene, const SkyDome& sky, const View& view, const GroundLight& ground,
            const std::vector<Ring>& rings, bool from_sky, bool from_ground)
         : eye_(view.eye),
           ground_(ground),
-          sky_(outside_of(scene).sky),
+          sky_(sky),
           grounded_(scene->ground && view.eye.y > scene->ground->height),
           from_sky_(from_sky),
           from_ground_(from_ground) {
@@ -93,7 +93,7 @@ class Around {
     }
     glm::dvec3 eye_;
     const GroundLight& ground_;
-    SkyDome sky_;
+    const SkyDome& sky_;
     bool grounded_, from_sky_, from_ground_;
     struct Turn {
         glm::dvec3 to;
@@ -170,8 +170,9 @@ std::vector<float> means_around(const Around& around, const View& view, int widt
 BehindPeak behind_through_peak(const Scene& scene, const View& view, int width, int height,
                                const GroundLight& ground, const Peak& peak, bool from_sky,
                                bool from_ground, int threads) {
+    const SkyDome sky = outside_of(scene).sky;
     const auto behind = [&](double x) {
-        const Around around(scene, view, ground, rings_of_peak(scene->medium, peak, x, kRings),
+        const Around around(scene, sky, view, ground, rings_of_peak(scene->medium, peak, x, kRings),
                             from_sky, from_ground);
         return means_around(around, view, width, height, threads);
     };

@@ -98,11 +98,7 @@ Status write_rows(const Image& image, float largest, Imf::PixelType type, const 
 
 Result<std::string> encode_exr(const Image& image, Precision precision, const PictureNotes& notes,
                                const Deadline& deadline) {
-    const auto failed = [](const std::string& what) {
-        return Error{ErrorCode::kInternal, "", "the image could not be encoded: " + what};
-    };
-    if (image.width < 1 || image.height < 1 || image.pixels.size() != 4 * image.pixel_count())
-        return failed("it has no pixels, or not as many as it says");
+    if (const Status wrong = check_pixels(image)) return *wrong;
     const bool half_floats = precision == Precision::kHalf;
     const Imf::PixelType type = half_floats ? Imf::HALF : Imf::FLOAT;
     std::string bytes;
@@ -116,7 +112,7 @@ Result<std::string> encode_exr(const Image& image, Precision precision, const Pi
         if (late) return *late;
     } catch (const std::exception& e) {
         const Error error = error_of_thrown(e);
-        return error.code == ErrorCode::kInternal ? failed(error.message) : error;
+        return error.code == ErrorCode::kInternal ? encoder_error(error.message) : error;
     }
     return bytes;
 }

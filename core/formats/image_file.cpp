@@ -41,6 +41,12 @@ void transparent_row(const float* from, int width, float gain, const DisplayTabl
 
 }  // namespace
 
+Status check_pixels(const Image& image) {
+    if (image.width < 1 || image.height < 1 || image.pixels.size() != 4 * image.pixel_count())
+        return encoder_error("it has no pixels, or not as many as it says");
+    return std::nullopt;
+}
+
 std::vector<std::uint8_t> display_pixels(const Image& image, double exposure_stops) {
     const DisplayTable table;
     const auto gain = static_cast<float>(std::exp2(exposure_stops));

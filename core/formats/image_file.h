@@ -17,6 +17,14 @@ namespace awan {
 Result<std::string> encode_png(const Image& image, double exposure_stops, int bits = 8,
                                const Deadline& deadline = {});
 
+// What an encoder of pictures answers when it cannot.
+inline Error encoder_error(const std::string& what) {
+    return {ErrorCode::kInternal, "", "the image could not be encoded: " + what};
+}
+
+// That the picture has as many pixels as it says, and some.
+Status check_pixels(const Image& image);
+
 // The pixels of it in 8 bits, row by row: 3 bytes each when image.opaque, else 4.
 std::vector<std::uint8_t> display_pixels(const Image& image, double exposure_stops);
 

@@ -109,11 +109,7 @@ bool write_png(png_structp png, png_infop info, const RowMaker& maker, std::uint
 
 Result<std::string> encode_png(const Image& image, double exposure_stops, int bits,
                                const Deadline& deadline) {
-    const auto failed = [](const std::string& what) {
-        return Error{ErrorCode::kInternal, "", "the image could not be encoded: " + what};
-    };
-    if (image.width < 1 || image.height < 1 || image.pixels.size() != 4 * image.pixel_count())
-        return failed("it has no pixels, or not as many as it says");
+    if (const Status wrong = check_pixels(image)) return *wrong;
     const DisplayTable table;
     const RowMaker maker{image, static_cast<float>(std::exp2(exposure_stops)), table, bits};
     const std::size_t channels = image.opaque ? 3 : 4;
@@ -131,7 +127,7 @@ Result<std::string> encode_png(const Image& image, double exposure_stops, int bi
     png_destroy_write_struct(&png, &info);
     if (const auto over = deadline.over(); over && !written) return *over;
     if (sink.no_memory) return error_of_thrown(std::bad_alloc());
-    if (!written) return failed(sink.error.empty() ? "libpng could not begin" : sink.error);
+    if (!written) return encoder_error(sink.error.empty() ? "libpng could not begin" : sink.error);
     return std::move(sink.bytes);
 }
 

@@ -163,9 +163,10 @@ Gauges gauges(const Service::State& state) {
     now.work_bytes_most = state.budget.bytes();
     now.cache_bytes = state.results.bytes_in_use();
     now.cache_entries = state.results.entries();
-    now.jobs_waiting = state.jobs->load().waiting;
-    now.jobs_running = state.jobs->load().running;
-    now.job_bytes = state.jobs->load().bytes;
+    const Jobs::Load jobs = state.jobs->load();
+    now.jobs_waiting = jobs.waiting;
+    now.jobs_running = jobs.running;
+    now.job_bytes = jobs.bytes;
     return now;
 }
 
