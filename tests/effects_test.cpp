@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "core/plan/criteria.h"
+#include "tests/patience.h"
 #include "tests/scenes.h"
 
 namespace awan {
@@ -114,6 +115,15 @@ std::vector<Row> table() {
     return rows;
 }
 
+// Those whose pictures are made.
+std::vector<Row> rendered_rows() {
+    std::vector<Row> rows;
+    std::size_t i = 0;
+    for (Row& row : table())
+        if (i++ % test::or_fewer<std::size_t>(1, 5) == 0) rows.push_back(std::move(row));
+    return rows;
+}
+
 Rendered render_with(const Row& row, Switch to) {
     SceneDraft draft = row.draft;
     effect(draft, row.effect) = to;
@@ -149,7 +159,7 @@ constexpr double kUnseen = 0.015;
 
 TEST(Effects, ForcedOnWhereTheyAreNotNeededAreNotSeen) {
     int unneeded = 0;
-    for (Row& row : table()) {
+    for (Row& row : rendered_rows()) {
         const auto planned = plan_scene(test::valid(row.draft), 2, {});
         ASSERT_TRUE(planned.ok());
         const Criterion own = criterion(row.effect, test::valid(row.draft), planned->survey);
@@ -159,13 +169,13 @@ TEST(Effects, ForcedOnWhereTheyAreNotNeededAreNotSeen) {
             difference(render_with(row, Switch::kOn).image, render_with(row, Switch::kOff).image);
         EXPECT_LE(d, kUnseen) << row.name << ": " << own.reason;
     }
-    EXPECT_GE(unneeded, 20);
+    EXPECT_GE(unneeded, test::or_fewer(20, 3));
 }
 
 TEST(Effects, LeftOutWhereTheyAreNeededCostWhatThePlanSays) {
     int needed = 0;
     std::vector<std::vector<double>> ratios(kEffectCount);
-    for (Row& row : table()) {
+    for (Row& row : rendered_rows()) {
         const auto planned = plan_scene(test::valid(row.draft), 2, {});
         ASSERT_TRUE(planned.ok());
         const Criterion own = criterion(row.effect, test::valid(row.draft), planned->survey);
@@ -179,7 +189,7 @@ TEST(Effects, LeftOutWhereTheyAreNeededCostWhatThePlanSays) {
         EXPECT_LE(d, 1.5 * own.left_out + 0.01) << row.name << ": " << own.reason;
         ratios[static_cast<std::size_t>(row.effect)].push_back(own.left_out / std::max(d, 1e-4));
     }
-    EXPECT_GE(needed, 30);
+    EXPECT_GE(needed, test::or_fewer(30, 5));
     for (std::size_t i = 0; i < ratios.size(); ++i) {
         if (ratios[i].empty()) continue;
         std::sort(ratios[i].begin(), ratios[i].end());

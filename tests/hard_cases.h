@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/truth/oracles.h"
+#include "tests/patience.h"
 #include "tests/physical_bounds.h"
 #include "tests/scenes.h"
 

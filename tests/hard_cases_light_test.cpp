@@ -295,6 +295,7 @@ TEST(HardCases, AFurnaceIsAsBrightAsItsWalls) {
     for (const char* rung : {"transport-16", "transport-24", "transport-32"})
         for (const double g : {-.9, 0., .85, .999})
             for (const double density : {1e-3, .2, 5., 1e5}) {
+                if (test::kSanitized && std::string(rung) == "transport-32") continue;
                 const SceneDraft draft = furnace(density, g);
                 const auto outcome = test::render_on(draft, rung, 2);
                 test::expect_within_bounds(draft, outcome.rendered);

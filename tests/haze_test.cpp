@@ -11,6 +11,7 @@
 #include "core/survey/haze_view.h"
 #include "core/truth/haze_walk.h"
 #include "tests/march_lights.h"
+#include "tests/patience.h"
 
 namespace awan {
 namespace {
@@ -263,7 +264,7 @@ PictureError against_paths(SceneDraft draft, const char* rung, bool shafts, bool
     test::effect(draft, Effect::kLightShafts) = shafts ? Switch::kOn : Switch::kOff;
     const test::Stage stage = test::stage(draft);
     TruthOptions options;
-    options.samples = 32;
+    options.samples = test::or_fewer(32u, 16u);
     options.threads = 2;
     options.eye_effects.light_shafts = shadows;
     const auto truth = trace_truth(stage.scene, stage.particles, stage.view, options, {}, {});
@@ -398,7 +399,7 @@ TEST(Haze, AnyLayerGivesFinitePictures) {
     const auto power = [&](double low, double high) {
         return std::pow(10, low + (high - low) * unit(random));
     };
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < test::or_fewer(40, 6); ++i) {
         SceneDraft draft = hazy(test::balls({{{0, 1, 0}, 3, 1}, {{2, -1, 3}, 1, 8}}), power(-8, 6),
                                 (unit(random) - 0.5) * power(0, 9), power(-9, 9));
         draft.sky = {};

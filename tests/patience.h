@@ -1,17 +1,25 @@
-// How long a test waits for what should take next to no time.
+// How long a test waits and how much it looks at: sanitizers take 5 to 20 times as long for the same.
 #pragma once
 
 #include <chrono>
 
 namespace awan::test {
 
-// So many seconds, and thirty times as many under sanitizers, which are slow.
-inline std::chrono::seconds patience(int seconds) {
 #ifdef AWAN_SANITIZED
-    return std::chrono::seconds(30 * seconds);
+inline constexpr bool kSanitized = true;
 #else
-    return std::chrono::seconds(seconds);
+inline constexpr bool kSanitized = false;
 #endif
+
+// How long to wait for what should take so many seconds at most.
+inline std::chrono::seconds patience(int seconds) {
+    return std::chrono::seconds(kSanitized ? 30 * seconds : seconds);
+}
+
+// As many scenes, paths or pixels as a law is tried on; under sanitizers so few that they have been through the same code.
+template <typename Number>
+constexpr Number or_fewer(Number all, Number sanitized) {
+    return kSanitized ? sanitized : all;
 }
 
 }  // namespace awan::test
