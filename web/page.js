@@ -89,6 +89,7 @@ const figures = createFigures(store);
 const time = createTime(store, { failed: fail, copy, note: say, show: () => loop.changed({ moving: true, playing: true }) });
 const stage = createStage({
   nudge: camera.nudge,
+  letGo: () => loop.letGo(),
   toggle() {
     if (time.canMove) time.toggle();
     return time.canMove;
@@ -139,22 +140,34 @@ async function askPlan() {
 }
 
 let rung = ""; // of the last picture
-function textFor(reduction) {
-  if (reduction === 1) return store.text;
-  const scene = time.playing ? time.playedScene(/^transport-/.test(rung) ? "transport-16" : null) : store.scene;
+const kQuick = { time_ms: 120 };
+// Rungs that are quicker than what a short time would choose keep their look.
+const isQuick = ({ rung: named, time_ms: ms }) => (named !== undefined && !/^(transport-|truth$)/.test(named)) || ms < kQuick.time_ms;
+
+function quickened(scene) {
+  if (time.playing) return time.playedScene(/^transport-/.test(rung) ? "transport-16" : null);
+  if (atOrDefault(scene, "/look") !== "physical" || isQuick(scene.accuracy ?? {})) return scene; // a look has no error
+  return { ...scene, accuracy: kQuick };
+}
+function textFor({ reduction, quick }) {
+  if (reduction === 1 && !quick) return store.text;
+  const scene = quick ? coarser(quickened(store.scene), reduction) : store.scene;
   const side = (member) => Math.max(1, Math.round(atOrDefault(scene, `/image/${member}`) / reduction));
-  return compactJson(withAt(withAt(coarser(scene, reduction), "/image/width", side("width")), "/image/height", side("height")));
+  return compactJson(withAt(withAt(scene, "/image/width", side("width")), "/image/height", side("height")));
 }
 
+const MARKS = { "": "", coarse: "coarse, being refined", earlier: "of an earlier state" };
+
 const loop = createRenderLoop({
-  async render(reduction, signal) {
+  async render(how, signal) {
+    const { reduction } = how;
     const width = atOrDefault(store.scene, "/image/width");
     const height = atOrDefault(store.scene, "/image/height");
     const transparent = atOrDefault(store.scene, "/image/background") === "transparent";
-    const picture = await api.render(textFor(reduction), { signal });
+    const picture = await api.render(textFor(how), { signal });
     return { ...picture, width, height, reduction, transparent };
   },
-  async shown({ blob, figures: said, width, height, reduction, transparent }, { full }) {
+  async shown({ blob, figures: said, width, height, reduction, transparent }, { whole }) {
     stage.shape(width, height, transparent);
     const count = said.particles === null ? "" : ` of ${said.particles} particles`;
     await stage.show(blob, `Cloud${count}, ${width} by ${height} pixels`);
@@ -162,13 +175,17 @@ const loop = createRenderLoop({
     problem = null;
     showProblem();
     rung = said.rung ?? "";
-    if (full) askPlan();
+    if (whole) askPlan();
     time.shown();
   },
   failed: fail,
   busy(yes) {
     byId("stage").setAttribute("aria-busy", String(yes));
     byId("busy").hidden = !yes || time.playing;
+  },
+  marked(how) {
+    byId("left").dataset.picture = how;
+    byId("mark").textContent = time.playing ? "" : MARKS[how];
   },
 });
 
@@ -187,7 +204,7 @@ function refreshControls() {
   byId("undo").disabled = !store.canUndo;
   byId("redo").disabled = !store.canRedo;
 }
-store.subscribe(({ moving, preset, replaced, same }) => {
+store.subscribe(({ moving, preset, replaced, same = false }) => {
   planFlight?.abort();
   if (replaced) {
     time.forget();
@@ -197,7 +214,7 @@ store.subscribe(({ moving, preset, replaced, same }) => {
   if (!same && !moving) follow(preset ?? "");
   refreshControls();
   if (problem) showProblem(); // rows may have been rebuilt
-  loop.changed({ moving, playing: time.playing });
+  loop.changed({ moving, playing: time.playing, same, another: replaced });
 });
 
 byId("undo").addEventListener("click", () => store.undo());
