@@ -352,7 +352,7 @@ const tests = {
     await scene((document) => ({ ...document, image: { width: 16, height: 12 } }));
     await page.waitForTimeout(300); // until the service has seen that nobody waits for the first
     await button.click();
-    await page.waitForFunction(() => document.querySelector("#sweep-plot").naturalWidth === 1120, null, { timeout: 45_000 });
+    await page.waitForFunction(() => document.querySelector("#sweep-plot").naturalWidth === 1120, null, { timeout: 120_000 });
     await page.waitForSelector('#sweep[aria-busy="false"]');
     await page.keyboard.press("Escape");
     await page.waitForSelector("#sweep:not([open])", { state: "attached" });

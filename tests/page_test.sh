@@ -35,7 +35,9 @@ if [ -z "$ready" ]; then
     fail "the server did not become ready"
 fi
 
-if ! timeout 540 node "$here/page.mjs" "http://127.0.0.1:$port" "$scratch"; then
+patience=540
+[ -z "${AWAN_SANITIZED:-}" ] || patience=1700
+if ! timeout $patience node "$here/page.mjs" "http://127.0.0.1:$port" "$scratch"; then
     tail -n 40 "$scratch/server.log" >&2
     exit 1
 fi
