@@ -159,6 +159,16 @@ void add_errors(const Rendered& rendered, Response& response) {
         response.headers.emplace_back("Awan-Time", number_text("%.1f", predicted.time_ms));
 }
 
+// An answer that is good without being kept is not lost for want of the memory to keep it.
+void keep_answer(Service::State& state, const std::string& etag, const Response& response) {
+    try {
+        state.results.keep(
+            etag, std::make_shared<const KeptResult>(KeptResult{
+                      response.headers, std::make_shared<const std::string>(response.body)}));
+    } catch (const std::bad_alloc&) {
+    }
+}
+
 // What a kept answer has of its own: not the time it took, not what is said of keeping it.
 Response kept_answer(const KeptResult& kept) {
     Response response;
@@ -267,7 +277,7 @@ Response answer_render(Service::State& state, const Request& request, const Scen
     response.body = std::move(bytes).value();
     if (state.results.keeps()) {
         state.metrics.cache_asked(false);
-        state.results.keep(etag, response.headers, response.body);
+        keep_answer(state, etag, response);
         response.headers.emplace_back("Awan-Cache", "miss");
     }
     response.stages = stages_of(timing, state.metrics);

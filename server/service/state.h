@@ -22,7 +22,7 @@ struct Service::State {
           metrics(m),
           options(std::move(o)),
           budget(options.work_bytes),
-          results(options.cache_bytes),
+          results(options.cache_bytes, options.cache_bytes / 8),
           lanes(options.lanes),
           device_lane({1, 0, options.lanes.line, options.lanes.patience}) {}
 
