@@ -67,7 +67,9 @@ TEST(ByteCache, ManyThreadsAtOnce) {
             for (int i = 0; i < 500; ++i) {
                 const int key = (7 * i + t) % 40;
                 const auto found = cache.find(std::to_string(key));
-                if (found) EXPECT_EQ(found->bytes(), static_cast<std::size_t>(10 + key));
+                if (found) {
+                    EXPECT_EQ(found->bytes(), static_cast<std::size_t>(10 + key));
+                }
                 cache.keep(std::to_string(key), text_of(static_cast<std::size_t>(10 + key)));
                 EXPECT_LE(cache.bytes_in_use(), 1000u);
             }
