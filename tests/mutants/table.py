@@ -51,7 +51,7 @@ MUTANTS = [
     M("whole numbers need not be", "scene", "core/scene/check_ranges.cpp",
       "if (field.whole && v[i] != std::floor(v[i]))", "if (field.whole && v[i] != v[i])",
       "a copied line", ["contract_test"]),
-    M("a default that depends is the struct's", "document", "server/document/parse.cpp",
+    M("a default that depends is the struct's", "document", "server/document/field_values.cpp",
       "(seen >> i & 1) != 0) continue;", "(seen >> i & 1) == 0) continue;", "a sign",
       ["scene_json_test", "contract_test"]),
     M("defaults of the kind, not of the place", "document", "server/document/write_scene.cpp",
