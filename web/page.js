@@ -18,6 +18,7 @@ import { clearMarks, focusProblem, markProblem, placeName } from "./problems.js"
 import { atOrDefault } from "./schema.js";
 import { createStage } from "./stage.js";
 import { createTime } from "./time.js";
+import { createTokenField } from "./token.js";
 
 const DRAFT = "awan.draft";
 
@@ -64,6 +65,7 @@ function fail(error) {
   problem = { message: error.message, pointer: error.pointer ?? null };
   say("");
   showProblem();
+  if (error.status === 401) tokenField.ask();
 }
 // Said at once, whatever the service is busy with; it is asked all the same, and says it in its own words.
 addEventListener("wrongnumber", ({ detail }) => {
@@ -79,6 +81,7 @@ byId("go-to-field").addEventListener("click", () => {
 
 // --- the parts ---
 
+const tokenField = createTokenField(() => (begun ? loop.changed({ moving: false }) : begin()));
 const camera = cameraPanel(store, bounds);
 const panels = createPanels(store, camera);
 const accuracy = createAccuracyPanel(store, { failed: fail, open: window.matchMedia("(min-width: 60rem)").matches });
@@ -174,6 +177,7 @@ const loop = createRenderLoop({
     figures.picture(said, Math.round(width / reduction), Math.round(height / reduction));
     problem = null;
     showProblem();
+    tokenField.done();
     rung = said.rung ?? "";
     if (whole) askPlan();
     time.shown();
@@ -251,6 +255,7 @@ addEventListener("hashchange", () => {
   if (name && name !== presetName && name !== "groups") choosePreset(name);
 });
 
+let begun = false; // the presets are there, and a document
 async function begin() {
   let draft = null;
   try {
@@ -272,6 +277,7 @@ async function begin() {
     }
     store.forgetHistory();
     refreshControls();
+    begun = true;
   } catch (error) {
     fail(error);
   }

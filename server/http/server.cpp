@@ -290,6 +290,7 @@ Status HttpServer::bind() {
                          s.options.allowed_hosts.end());
     s.rules.origins = s.options.allowed_origins;
     s.rules.token = s.options.token;
+    s.rules.open_paths = s.service.page_paths();
     return std::nullopt;
 }
 
