@@ -174,7 +174,7 @@ echo short >"$work/token"
 "$awan" serve --listen 0.0.0.0:0 --token-file "$work/token" 2>"$work/second"
 same "a token that can be guessed" 5 "$?"
 echo 0123456789abcdef >"$work/token"
-deadline=0.5
+deadline=4.5
 [ -z "${AWAN_SANITIZED:-}" ] || deadline=15 # nothing else would fit
 listen=0.0.0.0:0 start --software --token-file "$work/token" --log json --deadline "$deadline" --max-body 1 --queue 3
 url=${url/0.0.0.0/127.0.0.1}

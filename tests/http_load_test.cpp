@@ -225,6 +225,36 @@ TEST(GoneClients, AreNotThoseThatOnlySayTheyHaveSentAll) {
     EXPECT_EQ(answer.status, 200);
 }
 
+// What it sent before it closed its side may hold more requests than the one that is at work.
+TEST(GoneClients, AreAnsweredAllThatTheyHaveSent) {
+    Running server;
+    server.renderer.hold();
+    RawClient client = server.client();
+    client.send(post("/v1/render", kScene) + get("/healthz"));
+    ASSERT_TRUE(eventually([&] { return server.renderer.begun() == 1; }));
+    client.send(post("/v1/plan", kScene));
+    client.close_sending();
+    std::this_thread::sleep_for(100ms);
+    server.renderer.release();
+    Answer answer = client.read();
+    if (answer.status == 100) answer = client.read();
+    EXPECT_EQ(answer.status, 200);
+    EXPECT_EQ(client.read().body, "ok\n");
+    answer = client.read();
+    if (answer.status == 100) answer = client.read();
+    EXPECT_EQ(answer.status, 200);
+    EXPECT_TRUE(client.closes_within(1s));
+}
+
+TEST(SlowClients, AreAnsweredBehindWhatTheyTookLongToRead) {
+    const Running server;
+    RawClient client(server.port(), 4096);
+    client.send(post("/v1/particles", many_particles(100'000)) + get("/healthz"));
+    std::this_thread::sleep_for(300ms);  // until the rest of the answer waits in the server
+    EXPECT_EQ(client.read().status, 200);
+    EXPECT_EQ(client.read().body, "ok\n");
+}
+
 TEST(GoneClients, AreNoFailuresOfTheServer) {
     Running server;
     server.renderer.hold();

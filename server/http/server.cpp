@@ -137,7 +137,7 @@ void HttpServer::State::on_event(Connection& c, short events) {
         case Stand::kWriting:
             if (!send_unsent(c, parked)) return end(c);
             if (!c.unsent()) written(c);
-            return;
+            return advance(c);
         case Stand::kLingering: {
             std::string thrown_away;
             if (receive(c, kLongBody, thrown_away) == Received::kClosed) end(c);
