@@ -174,7 +174,7 @@ echo short >"$work/token"
 "$awan" serve --listen 0.0.0.0:0 --token-file "$work/token" 2>"$work/second"
 same "a token that can be guessed" 5 "$?"
 echo 0123456789abcdef >"$work/token"
-listen=0.0.0.0:0 start --software --token-file "$work/token" --log json --deadline 0.5 --max-body 1 --queue 3
+listen=0.0.0.0:0 start --software --token-file "$work/token" --log json --deadline 3 --max-body 1 --queue 3
 url=${url/0.0.0.0/127.0.0.1}
 same "health without a token" 200 "$(code "$url/healthz")"
 same "without a token" 401 "$(code -H "$json" -d "$scene" "$url/v1/plan")"
