@@ -2,6 +2,8 @@
 // and how it stops.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
 #include <thread>
 
 #include "running_server.h"
@@ -111,6 +113,30 @@ TEST(Connections, SlowBodiesMakeRoomToo) {
     EXPECT_EQ(server.ask(post("/v1/plan", kScene)).status, 200);
     EXPECT_TRUE(stuck[2].closes_within(1s)) << "the slowest goes";
     EXPECT_FALSE(stuck[0].closes_within(100ms));
+}
+
+// As many as there is room for and more, each opened anew when it is closed; tests/bench/stuck.sh has a thousand.
+TEST(Connections, HealthIsAnsweredBesideBodiesThatAreStuck) {
+    constexpr std::size_t kPlaces = 100;
+    HttpOptions options;
+    options.max_connections = kPlaces;
+    const Running server(options);
+    const auto stuck_one = [&] {
+        auto client = std::make_unique<RawClient>(server.port());
+        client->send(with("Content-Length: 1000\r\n", "{"));
+        return client;
+    };
+    std::vector<std::unique_ptr<RawClient>> stuck;
+    for (std::size_t i = 0; i < kPlaces + 50; ++i) stuck.push_back(stuck_one());
+    std::vector<double> seconds;
+    for (std::size_t i = 0; i < 200; ++i) {
+        stuck[i % stuck.size()] = stuck_one();
+        const auto start = Clock::now();
+        ASSERT_EQ(server.ask(get(i % 2 == 0 ? "/healthz" : "/metrics")).status, 200) << i;
+        seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    }
+    std::sort(seconds.begin(), seconds.end());
+    EXPECT_LT(seconds[197], 2) << "it was 31 s once";
 }
 
 TEST(Connections, TooManyAtWorkAreRefused) {

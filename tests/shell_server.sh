@@ -29,4 +29,6 @@ stop() {  # expects exit code $1 after signal $2
     same "exit code after SIG$2" "$1" "$?"
     server=
 }
-code() { curl -s -o /dev/null -w '%{http_code}' --max-time 20 "$@"; }
+patience=20 # seconds
+[ -z "${AWAN_SANITIZED:-}" ] || patience=300
+code() { curl -s -o /dev/null -w '%{http_code}' --max-time "$patience" "$@"; }
