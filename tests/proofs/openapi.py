@@ -487,7 +487,7 @@ def try_methods(server, contract, job):
 
 def main():
     chance = random.Random(SEED)
-    with Server(AWAN, "--software", "--deadline", "10", "--queue", "64") as server:
+    with Server(AWAN, "--software", "--deadline", "30", "--queue", "64") as server:
         contract = Contract(server.ask("GET", "/openapi.json").json())
         jsonschema.Draft202012Validator.check_schema(contract.document["components"]["schemas"]["Scene"])
         job = server.post("/v1/jobs", {"kind": "render", "scene": SCENE}).json()["id"]
