@@ -235,13 +235,14 @@ void HttpServer::State::taken_back(Connection& c, bool alive) {
 
 void HttpServer::State::written(Connection& c) {
     const auto now = Clock::now();
+    // More requests may have come before the client closed its side; that they end is found out by reading.
+    c.half_closed = false;
     if (c.close_after) {
         shutdown(c.socket.get(), SHUT_WR);
         c.stand = Stand::kLingering;
         c.until = now + limits::kLingerDeadline;
         return;
     }
-    // Also of a client that sends no more: what it sent before may hold further requests, and then comes the end.
     c.stand = Stand::kHead;
     c.head = {};
     c.since = now;

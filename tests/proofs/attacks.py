@@ -174,7 +174,7 @@ def try_rows(front):
 def try_pipelines(front):
     for name, data, expected in table.PIPELINED:
         bodiless = 1 if data.startswith(b"HEAD") else 0
-        found = final_statuses(send(front.port, data, False), bodiless)
+        found = final_statuses(front.send(data), bodiless)
         check.that(found == expected, f"{front.way}: {name}", found)
 
 
