@@ -142,12 +142,15 @@ Status OutputFile::commit() {
     if (fd_ == STDOUT_FILENO) return std::nullopt;
     // Pipes and devices have nothing to sync and say EINVAL.
     if (fsync(fd_) != 0 && errno != EINVAL && errno != EROFS) return io_error("write", path_);
+    const bool takes_place = !temporary_.empty();
+    // Still locked: who clears a folder of what was left there would take an unlocked file for that.
+    if (takes_place) {
+        if (rename(temporary_.c_str(), path_.c_str()) != 0) return io_error("write", path_);
+        temporary_.clear();
+        release_interrupts();
+    }
     if (::close(std::exchange(fd_, -1)) != 0) return io_error("write", path_);
-    if (temporary_.empty()) return std::nullopt;
-    if (rename(temporary_.c_str(), path_.c_str()) != 0) return io_error("write", path_);
-    temporary_.clear();
-    release_interrupts();
-    sync_directory(directory_of(path_));
+    if (takes_place) sync_directory(directory_of(path_));
     return std::nullopt;
 }
 

@@ -1,6 +1,6 @@
 """Asks a running server for everything that its /openapi.json says, in the manner of schemathesis.
 
-  openapi.py AWAN [SCENES [SEED]]     the program; random scenes a route (default 60); the seed of chance (default 1)
+  openapi.py AWAN [SCENES [SEED]]     the program; random scenes a route (default 25); the seed of chance (default 1)
 
 Valid requests, made from the schemas: an answer whose status, type, headers and JSON are declared, never 500 or 503. Each
 constraint of a schema broken by itself: 4xx, a problem document whose pointer names the place. Methods, paths and types that
@@ -19,7 +19,7 @@ import jsonschema
 from serving import JSON, SCENE, Checks, Server
 
 AWAN = sys.argv[1]
-SCENES = int(sys.argv[2]) if len(sys.argv) > 2 else 60
+SCENES = int(sys.argv[2]) if len(sys.argv) > 2 else 25
 SEED = int(sys.argv[3]) if len(sys.argv) > 3 else 1
 METHODS = ["GET", "HEAD", "POST", "PUT", "PATCH", "DELETE"]
 # Headers that every answer may have: HTTP's own, and what openapi.json says of all answers.
