@@ -135,6 +135,15 @@ cmp -s p.00.csv p.11.csv && fail "nothing moved"
 run 2 particles moving.json --frames all -o p.csv
 run 2 particles scene.json --frames all -o "p.%d.csv"
 
+# --- many at once in one folder: nobody takes another's file for one that was left half-written
+mkdir crowd
+for writer in 1 2 3 4; do
+    for i in $(seq 40); do "$awan" convert scene.json "crowd/$writer-$i.json" 2>>crowd.log; done &
+done
+wait
+same "files of a crowd" 160 "$(ls -A crowd | wc -l)"
+same "what a crowd complains of" "" "$(cat crowd.log)"
+
 # --- what make and ninja read
 cp scene.json "my scene.json"
 run 0 render "my scene.json" -o a.png -o a.exr --depfile a.d

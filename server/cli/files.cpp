@@ -82,9 +82,9 @@ int create_temporary(const std::string& directory, mode_t mode, std::string& nam
                std::string(kTemporaryEnds);
         const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
         if (fd < 0) return fd;
-        // Before it was locked, another may have taken it for one that was left.
+        // Before it was locked, another may have taken it for one that was left; who has locked it is about to remove it.
         struct stat created {};
-        flock(fd, LOCK_EX | LOCK_NB);
+        flock(fd, LOCK_EX);
         if (fstat(fd, &created) != 0 || created.st_nlink > 0) return fd;
         ::close(fd);
     }
@@ -178,12 +178,15 @@ Status OutputFile::commit() {
     if (fd_ == STDOUT_FILENO) return std::nullopt;
     // Pipes and devices have nothing to sync and say EINVAL.
     if (fsync(fd_) != 0 && errno != EINVAL && errno != EROFS) return io_error("write", path_);
+    const bool takes_place = !temporary_.empty();
+    // Still locked: who clears a folder of what was left there would take an unlocked file for that.
+    if (takes_place) {
+        if (rename(temporary_.c_str(), path_.c_str()) != 0) return io_error("write", path_);
+        temporary_.clear();
+        release_interrupts();
+    }
     if (::close(std::exchange(fd_, -1)) != 0) return io_error("write", path_);
-    if (temporary_.empty()) return std::nullopt;
-    if (rename(temporary_.c_str(), path_.c_str()) != 0) return io_error("write", path_);
-    temporary_.clear();
-    release_interrupts();
-    sync_directory(directory_of(path_));
+    if (takes_place) sync_directory(directory_of(path_));
     return std::nullopt;
 }
 
