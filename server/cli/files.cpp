@@ -82,7 +82,7 @@ int create_temporary(const std::string& directory, mode_t mode, std::string& nam
                std::string(kTemporaryEnds);
         const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
         if (fd < 0) return fd;
-        // Before it was locked, another may have taken it for one that was left; who has locked it is about to remove it.
+        // Before it was locked, another may have taken it for one that was left, and is about to remove it.
         struct stat created {};
         flock(fd, LOCK_EX);
         if (fstat(fd, &created) != 0 || created.st_nlink > 0) return fd;
