@@ -87,6 +87,9 @@ inline constexpr std::size_t kBytesPerParticle = 150;
 inline constexpr std::size_t kBytesPerPixel = 24;
 // Bytes of answers to renders that are kept: a few hundred pictures of the usual size.
 inline constexpr std::size_t kCacheBytes = 64u << 20;
+// Bytes of a folder of kept answers, where there is one, and of those that wait to be written there.
+inline constexpr std::size_t kDiskCacheBytes = 1024u << 20;
+inline constexpr std::size_t kDiskWaitingBytes = 64u << 20;
 // Bytes of lights that are kept to settle the rungs of sequences: a few dozen coarse grids, or one of the finest.
 inline constexpr std::size_t kSettlingLightBytes = 64u << 20;
 

@@ -99,13 +99,15 @@ same "another's file" ".awan-writing.tmp" "$(ls -A | grep '^.awan-')"
 run 0 particles scene.json -o whole.csv
 same "its file, when it has ended" "" "$(ls -A | grep '^.awan-')"
 
-# --- too little memory is an exit code, not a crash
-(ulimit -v 300000; "$awan" render scene.json -o small.png 2>err); same "splats in little memory" 4 "$?"
-contains "little memory" "memory" "$(cat err)"
-for kib in 100000 450000 500000 550000 800000; do
-    (ulimit -v $kib; "$awan" render scene.json -o small.png 2>err)
-    case $? in 0 | 4) ;; *) fail "splats in $kib KiB: $? $(cat err)" ;; esac
-done
+# --- too little memory is an exit code, not a crash; a program with AddressSanitizer needs 20 TB of addresses to begin
+if [ -z "${AWAN_SANITIZED:-}" ]; then
+    (ulimit -v 300000; "$awan" render scene.json -o small.png 2>err); same "splats in little memory" 4 "$?"
+    contains "little memory" "memory" "$(cat err)"
+    for kib in 100000 450000 500000 550000 800000; do
+        (ulimit -v $kib; "$awan" render scene.json -o small.png 2>err)
+        case $? in 0 | 4) ;; *) fail "splats in $kib KiB: $? $(cat err)" ;; esac
+    done
+fi
 
 # --- scenes that cannot be
 run 3 plan impossible.json

@@ -2,6 +2,8 @@
 // and how it stops.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
 #include <thread>
 
 #include "running_server.h"
@@ -111,6 +113,30 @@ TEST(Connections, SlowBodiesMakeRoomToo) {
     EXPECT_EQ(server.ask(post("/v1/plan", kScene)).status, 200);
     EXPECT_TRUE(stuck[2].closes_within(1s)) << "the slowest goes";
     EXPECT_FALSE(stuck[0].closes_within(100ms));
+}
+
+// As many as there is room for and more, each opened anew when it is closed; tests/bench/stuck.sh has a thousand.
+TEST(Connections, HealthIsAnsweredBesideBodiesThatAreStuck) {
+    constexpr std::size_t kPlaces = 100;
+    HttpOptions options;
+    options.max_connections = kPlaces;
+    const Running server(options);
+    const auto stuck_one = [&] {
+        auto client = std::make_unique<RawClient>(server.port());
+        client->send(with("Content-Length: 1000\r\n", "{"));
+        return client;
+    };
+    std::vector<std::unique_ptr<RawClient>> stuck;
+    for (std::size_t i = 0; i < kPlaces + 50; ++i) stuck.push_back(stuck_one());
+    std::vector<double> seconds;
+    for (std::size_t i = 0; i < 200; ++i) {
+        stuck[i % stuck.size()] = stuck_one();
+        const auto start = Clock::now();
+        ASSERT_EQ(server.ask(get(i % 2 == 0 ? "/healthz" : "/metrics")).status, 200) << i;
+        seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    }
+    std::sort(seconds.begin(), seconds.end());
+    EXPECT_LT(seconds[197], 2) << "it was 31 s once";
 }
 
 TEST(Connections, TooManyAtWorkAreRefused) {
@@ -223,6 +249,36 @@ TEST(GoneClients, AreNotThoseThatOnlySayTheyHaveSentAll) {
     answer = at_once.read();
     if (answer.status == 100) answer = at_once.read();
     EXPECT_EQ(answer.status, 200);
+}
+
+// What it sent before it closed its side may hold more requests than the one that is at work.
+TEST(GoneClients, AreAnsweredAllThatTheyHaveSent) {
+    Running server;
+    server.renderer.hold();
+    RawClient client = server.client();
+    client.send(post("/v1/render", kScene) + get("/healthz"));
+    ASSERT_TRUE(eventually([&] { return server.renderer.begun() == 1; }));
+    client.send(post("/v1/plan", kScene));
+    client.close_sending();
+    std::this_thread::sleep_for(100ms);
+    server.renderer.release();
+    Answer answer = client.read();
+    if (answer.status == 100) answer = client.read();
+    EXPECT_EQ(answer.status, 200);
+    EXPECT_EQ(client.read().body, "ok\n");
+    answer = client.read();
+    if (answer.status == 100) answer = client.read();
+    EXPECT_EQ(answer.status, 200);
+    EXPECT_TRUE(client.closes_within(1s));
+}
+
+TEST(SlowClients, AreAnsweredBehindWhatTheyTookLongToRead) {
+    const Running server;
+    RawClient client(server.port(), 4096);
+    client.send(post("/v1/particles", many_particles(100'000)) + get("/healthz"));
+    std::this_thread::sleep_for(300ms);  // until the rest of the answer waits in the server
+    EXPECT_EQ(client.read().status, 200);
+    EXPECT_EQ(client.read().body, "ok\n");
 }
 
 TEST(GoneClients, AreNoFailuresOfTheServer) {

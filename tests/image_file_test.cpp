@@ -438,6 +438,20 @@ TEST(ImageFile, RejectsImagesWithoutTheirPixels) {
     }
 }
 
+TEST(ImageFile, ThreadsDoNotShowInAnExr) {
+    const Image image = image_of(200, 700, false, [](int x, int y) {
+        const float v = 0.01f * static_cast<float>((x * x + 7 * y) % 313);
+        return std::array<float, 4>{v, 2 * v, 0.5f * v, 0.25f};
+    });
+    for (const Precision precision : {Precision::kHalf, Precision::kFloat}) {
+        const std::string alone = exr_of(image, precision);
+        for (const int threads : {2, 5, 1}) {
+            set_exr_threads(threads);
+            EXPECT_EQ(exr_of(image, precision), alone) << threads;
+        }
+    }
+}
+
 #ifndef AWAN_SANITIZED
 TEST(ImageFile, NothingIsEncodedForWhoHasGoneOrWaitsNoLonger) {
     const Image image = plain({0, 0, 0, 1}, true);
@@ -445,8 +459,8 @@ TEST(ImageFile, NothingIsEncodedForWhoHasGoneOrWaitsNoLonger) {
     passed.until = Deadline::Clock::now() - std::chrono::seconds(1);
     Deadline gone;
     gone.cancelled = std::make_shared<std::atomic<bool>>(true);
-    for (const auto& [deadline, code] : {std::pair(passed, ErrorCode::kOverDeadline),
-                                         std::pair(gone, ErrorCode::kCancelled)}) {
+    for (const auto& [deadline, code] :
+         {std::pair(passed, ErrorCode::kOverDeadline), std::pair(gone, ErrorCode::kCancelled)}) {
         const auto png = encode_png(image, 0, 8, deadline);
         ASSERT_FALSE(png.ok());
         EXPECT_EQ(png.error().code, code);

@@ -79,6 +79,59 @@ const tests = {
     assert.equal((await look(page)).hash, (await look(page, truth)).hash, "what is shown is the last state");
   },
 
+  // A drag shows pictures on the way, none of which is cancelled for another; how many in a second is printed.
+  async "shows pictures all along a drag, coarse ones first, and the whole one at its end"(page) {
+    const before = await look(page);
+    const from = renders.length;
+    const box = await page.locator("#stage").boundingBox();
+    await page.mouse.move(box.x + 100, box.y + 200);
+    await page.mouse.down();
+    const shown = page.evaluate(async () => {
+      const picture = document.querySelector("#picture");
+      const sizes = [];
+      const watch = new MutationObserver(() => sizes.push(picture.naturalWidth));
+      watch.observe(picture, { attributeFilter: ["src"] });
+      await new Promise((done) => addEventListener("pointerup", done, { once: true }));
+      watch.disconnect();
+      return sizes;
+    });
+    const begun = Date.now();
+    for (let step = 1; step <= 30 || !renders.slice(from).some(({ state }) => state === "done"); step += 1) {
+      await page.mouse.move(box.x + 100 + 4 * step, box.y + 200);
+      await page.waitForTimeout(33);
+    }
+    const took = Date.now() - begun;
+    await page.mouse.up();
+    const sizes = await shown;
+    console.log(`  ${sizes.length} pictures in a drag of ${took} ms`);
+    assert.ok(sizes.length >= 1, "nothing was shown during the drag");
+    await settled(page);
+    const coarse = renders.slice(from).filter(({ scene }) => scene.image.width < before.width);
+    assert.deepEqual(coarse.filter(({ state }) => state !== "done"), [], "no coarse picture is cancelled");
+    assert.deepEqual(coarse[0].scene.accuracy, { time_ms: 120 });
+    const after = await look(page);
+    assert.equal(after.width, before.width);
+    assert.notEqual(after.hash, before.hash);
+    assert.equal(await page.textContent("#mark"), "");
+    await page.click("#undo");
+    await settled(page);
+  },
+
+  // Whatever the service says of the latest state, what is on the screen says which state it is of.
+  async "marks a picture that is of an earlier state"(page) {
+    await page.route("**/v1/render", (route) => route.fulfill({
+      status: 400, contentType: "application/problem+json", body: JSON.stringify({ title: "late", detail: "The deadline is over." }) }));
+    const elevation = group(page, "Sun").getByLabel("Elevation, °");
+    const old = await elevation.inputValue();
+    await elevation.fill("44");
+    await page.waitForFunction(() => document.querySelector("#mark").textContent === "of an earlier state");
+    assert.match(await page.textContent("#alert"), /deadline/);
+    await page.unroute("**/v1/render");
+    await elevation.fill(old);
+    await settled(page);
+    assert.equal(await page.textContent("#mark"), "");
+  },
+
   async "sets daylight, ground, haze and detail, and takes them back"(page) {
     const sent = () => renders[renders.length - 1].scene;
     const before = sent();
@@ -299,7 +352,7 @@ const tests = {
     await scene((document) => ({ ...document, image: { width: 16, height: 12 } }));
     await page.waitForTimeout(300); // until the service has seen that nobody waits for the first
     await button.click();
-    await page.waitForFunction(() => document.querySelector("#sweep-plot").naturalWidth === 1120, null, { timeout: 45_000 });
+    await page.waitForFunction(() => document.querySelector("#sweep-plot").naturalWidth === 1120, null, { timeout: 120_000 });
     await page.waitForSelector('#sweep[aria-busy="false"]');
     await page.keyboard.press("Escape");
     await page.waitForSelector("#sweep:not([open])", { state: "attached" });

@@ -19,7 +19,8 @@ export const context = await chromium.launchPersistentContext(path.join(scratch,
   args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync"],
 });
-context.setDefaultTimeout(15_000);
+const patience = process.env.AWAN_SANITIZED ? 10 : 1; // a program with sanitizers is slow
+context.setDefaultTimeout(patience * 15_000);
 await context.grantPermissions(["clipboard-read", "clipboard-write"], { origin });
 
 // --- what is watched all the time ---
@@ -114,7 +115,7 @@ export async function openQuiet({ pictures = true, contract = true } = {}) {
 export async function settled(page) {
   await page.waitForFunction(() =>
     document.querySelector("#stage").getAttribute("aria-busy") === "false" &&
-    document.querySelector("#picture").naturalWidth > 0, null, { polling: 30, timeout: 40_000 }); // on a busy machine
+    document.querySelector("#picture").naturalWidth > 0, null, { polling: 30, timeout: patience * 40_000 }); // on a busy machine
 }
 
 // Size, mean, variance and a hash of the pixels on the screen, or of a PNG given as base64.

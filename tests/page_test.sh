@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# page_test.sh AWAN: the page in a real browser, against a server of its own.
+# page_test.sh AWAN: the page in a real browser, against servers of its own.
 set -euo pipefail
 awan=$1
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -12,30 +12,43 @@ command -v node >/dev/null || fail "node is missing"
 
 scratch=$(mktemp -d)
 server=
-cleanup() {
+stop() {
     if [ -n "$server" ]; then
         kill "$server" 2>/dev/null || true
         wait "$server" 2>/dev/null || true
     fi
-    rm -rf "$scratch"
+    server=
 }
-trap cleanup EXIT
+trap 'stop; rm -rf "$scratch"' EXIT
 
-port=$(node -e 'const s = require("net").createServer().listen(0, "127.0.0.1", () => { console.log(s.address().port); s.close(); })')
-"$awan" serve --listen "127.0.0.1:$port" >"$scratch/server.log" 2>&1 &
-server=$!
-ready=
-for _ in $(seq 100); do
-    if curl -fsS -o /dev/null "http://127.0.0.1:$port/readyz" 2>/dev/null; then ready=yes; break; fi
-    kill -0 "$server" 2>/dev/null || break
-    sleep 0.1
-done
-if [ -z "$ready" ]; then
-    cat "$scratch/server.log" >&2
-    fail "the server did not become ready"
-fi
+patience=540
+[ -z "${AWAN_SANITIZED:-}" ] || patience=1700
 
-if ! timeout 540 node "$here/page.mjs" "http://127.0.0.1:$port" "$scratch"; then
-    tail -n 40 "$scratch/server.log" >&2
-    exit 1
-fi
+# use SCRIPT ARGUMENTS...: a server with these flags, and the script in $arguments against it.
+use() {
+    local script=$1 port ready=
+    shift
+    port=$(node -e 'const s = require("net").createServer().listen(0, "127.0.0.1", () => { console.log(s.address().port); s.close(); })')
+    "$awan" serve --listen "127.0.0.1:$port" "$@" >"$scratch/server.log" 2>&1 &
+    server=$!
+    for _ in $(seq 100); do
+        if curl -fsS -o /dev/null "http://127.0.0.1:$port/readyz" 2>/dev/null; then ready=yes; break; fi
+        kill -0 "$server" 2>/dev/null || break
+        sleep 0.1
+    done
+    if [ -z "$ready" ]; then
+        cat "$scratch/server.log" >&2
+        fail "the server did not become ready"
+    fi
+    if ! timeout $patience node "$here/$script" "http://127.0.0.1:$port" "$scratch" $arguments; then
+        tail -n 40 "$scratch/server.log" >&2
+        exit 1
+    fi
+    stop
+}
+
+arguments=
+use page.mjs
+echo 0123456789abcdef >"$scratch/token"
+arguments=0123456789abcdef
+use page_token.mjs --token-file "$scratch/token"

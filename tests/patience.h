@@ -16,7 +16,7 @@ inline std::chrono::seconds patience(int seconds) {
     return std::chrono::seconds(kSanitized ? 30 * seconds : seconds);
 }
 
-// As many scenes, paths or pixels as a law is tried on; under sanitizers so few that they have been through the same code.
+// As many scenes, paths or pixels as a law is tried on; under sanitizers only so few that all its code runs.
 template <typename Number>
 constexpr Number or_fewer(Number all, Number sanitized) {
     return kSanitized ? sanitized : all;

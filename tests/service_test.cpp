@@ -330,19 +330,17 @@ TEST_F(ServiceTest, KeptAnswersCostNothing) {
     EXPECT_EQ(post("/v1/render").header("Awan-Cache"), "") << "a service that keeps none";
 }
 
-TEST(ResultCache, KeepsWhatFitsAndDropsTheOldest) {
-    ResultCache cache(1 << 16);
-    const std::string body(4000, 'x');
-    for (int i = 0; i < 40; ++i) {
-        cache.keep(std::to_string(i), {{"A", "b"}}, body);
-        EXPECT_TRUE(cache.find("0") || i > 20) << i;
-        EXPECT_LE(cache.bytes_in_use(), 1u << 16);
-    }
-    EXPECT_FALSE(cache.find("1"));
-    ASSERT_TRUE(cache.find("39"));
-    EXPECT_EQ(*cache.find("39")->body, body);
-    cache.keep("large", {}, std::string(1 << 14, 'x'));
-    EXPECT_FALSE(cache.find("large")) << "one answer must not push out all others";
+TEST(KeptResult, CountsAllThatItHolds) {
+    const auto of = [](std::string name, std::string value, std::size_t body) {
+        return KeptResult{{{std::move(name), std::move(value)}},
+                          std::make_shared<const std::string>(body, 'x')}
+            .bytes();
+    };
+    const std::size_t least = of("", "", 0);
+    EXPECT_GE(least, sizeof(KeptResult));
+    EXPECT_EQ(of("Name", "", 0), least + 4);
+    EXPECT_EQ(of("", "value", 0), least + 5);
+    EXPECT_EQ(of("", "", 6), least + 6);
 }
 
 // --- deadlines

@@ -44,6 +44,17 @@ TEST(Survey, VolumeHoldsTheMassExactly) {
     }
 }
 
+TEST(Survey, BreaksOffAtItsDeadline) {
+    const ParticleSet particles = *generate(valid(balls({{}})), 1, {});
+    Deadline over;
+    over.until = Deadline::Clock::now();
+    EXPECT_GT(mass_in(density_volume(particles, 16)), 0);
+    EXPECT_EQ(mass_in(density_volume(particles, 16, kMaxVolumeWork, over)), 0);
+    const auto surveyed = survey(valid(balls({{}})), particles, 1, over);
+    ASSERT_FALSE(surveyed.ok());
+    EXPECT_EQ(surveyed.error().code, ErrorCode::kOverDeadline);
+}
+
 TEST(Survey, OneGaussiansFigures) {
     const Survey survey = planned(balls({{{0, 0, 0}, 2, 0.7}})).survey;  // s = 1
     EXPECT_NEAR(survey.optical_depth_sun, 0.7 * kRootTwoPi, 1e-6);

@@ -1,6 +1,7 @@
 // The service's calls, as the page uses them.
 
 import { parseJson } from "./json_text.js";
+import { authorization, refusal } from "./token.js";
 
 // An answer of application/problem+json (RFC 9457), or something as near to it as can be had.
 export class Problem extends Error {
@@ -13,15 +14,16 @@ export class Problem extends Error {
   }
 }
 
-async function call(path, options) {
+async function call(path, options = {}) {
   let response;
   try {
-    response = await fetch(path, options);
+    response = await fetch(path, { ...options, headers: { ...options.headers, ...authorization() } });
   } catch (error) {
     if (error.name === "AbortError") throw error;
     throw new Problem(0, { title: "No answer", detail: "The service cannot be reached." }, 2);
   }
   if (response.ok) return response;
+  if (response.status === 401) throw new Problem(401, { title: "Unauthorized", detail: refusal() });
   const text = await response.text();
   let body = {};
   try {

@@ -5,6 +5,7 @@ import { sceneFromAwn, whyNoLayout } from "./document.js";
 import { byId, el } from "./dom.js";
 import { prettyJson } from "./json_text.js";
 import { placeName } from "./problems.js";
+import { hasToken } from "./token.js";
 
 function save(blob, name) {
   const url = URL.createObjectURL(blob);
@@ -29,10 +30,12 @@ export async function copy(text) {
   if (!done) throw new Error("The browser does not let the page copy.");
 }
 
-// The shell command that makes the picture. A quoted here-document keeps the scene as it is.
+// The shell command that makes the picture. A quoted here-document keeps the scene as it is. A token stays out of it, so
+// that it can be shown: the shell has it in a variable.
 export function curlCommand(text, origin) {
   return [
     `curl -sS --fail-with-body '${origin}/v1/render' \\`,
+    ...(hasToken() ? ['  -H "Authorization: Bearer $AWAN_TOKEN" \\'] : []),
     "  -H 'Content-Type: application/json' -H 'Accept: image/png' \\",
     "  -o cloud.png --data-binary @- <<'END_OF_SCENE'",
     text.trimEnd(),
@@ -75,7 +78,8 @@ export function createFiles(store, { name, failed, note }) {
       button("PLY", listed("application/x-ply", ".ply"), { "aria-label": "Particles as PLY" })),
     button("Copy curl", async () => {
       await copy(curlCommand(store.text, location.origin));
-      note("The command is on the clipboard.");
+      note(hasToken() ? "The command is on the clipboard. It takes the token from the variable AWAN_TOKEN."
+        : "The command is on the clipboard.");
     }, { title: "The command that makes this picture" }),
   );
 

@@ -18,6 +18,7 @@ import { clearMarks, focusProblem, markProblem, placeName } from "./problems.js"
 import { atOrDefault } from "./schema.js";
 import { createStage } from "./stage.js";
 import { createTime } from "./time.js";
+import { createTokenField } from "./token.js";
 
 const DRAFT = "awan.draft";
 
@@ -64,6 +65,7 @@ function fail(error) {
   problem = { message: error.message, pointer: error.pointer ?? null };
   say("");
   showProblem();
+  if (error.status === 401) tokenField.ask();
 }
 // Said at once, whatever the service is busy with; it is asked all the same, and says it in its own words.
 addEventListener("wrongnumber", ({ detail }) => {
@@ -79,6 +81,7 @@ byId("go-to-field").addEventListener("click", () => {
 
 // --- the parts ---
 
+const tokenField = createTokenField(() => (begun ? loop.changed({ moving: false }) : begin()));
 const camera = cameraPanel(store, bounds);
 const panels = createPanels(store, camera);
 const accuracy = createAccuracyPanel(store, { failed: fail, open: window.matchMedia("(min-width: 60rem)").matches });
@@ -89,6 +92,7 @@ const figures = createFigures(store);
 const time = createTime(store, { failed: fail, copy, note: say, show: () => loop.changed({ moving: true, playing: true }) });
 const stage = createStage({
   nudge: camera.nudge,
+  letGo: () => loop.letGo(),
   toggle() {
     if (time.canMove) time.toggle();
     return time.canMove;
@@ -139,36 +143,53 @@ async function askPlan() {
 }
 
 let rung = ""; // of the last picture
-function textFor(reduction) {
-  if (reduction === 1) return store.text;
-  const scene = time.playing ? time.playedScene(/^transport-/.test(rung) ? "transport-16" : null) : store.scene;
+const kQuick = { time_ms: 120 };
+// Rungs that are quicker than what a short time would choose keep their look.
+const isQuick = ({ rung: named, time_ms: ms }) => (named !== undefined && !/^(transport-|truth$)/.test(named)) || ms < kQuick.time_ms;
+
+function quickened(scene) {
+  if (time.playing) return time.playedScene(/^transport-/.test(rung) ? "transport-16" : null);
+  if (atOrDefault(scene, "/look") !== "physical" || isQuick(scene.accuracy ?? {})) return scene; // a look has no error
+  return { ...scene, accuracy: kQuick };
+}
+function textFor({ reduction, quick }) {
+  if (reduction === 1 && !quick) return store.text;
+  const scene = quick ? coarser(quickened(store.scene), reduction) : store.scene;
   const side = (member) => Math.max(1, Math.round(atOrDefault(scene, `/image/${member}`) / reduction));
-  return compactJson(withAt(withAt(coarser(scene, reduction), "/image/width", side("width")), "/image/height", side("height")));
+  return compactJson(withAt(withAt(scene, "/image/width", side("width")), "/image/height", side("height")));
 }
 
+const MARKS = { "": "", coarse: "coarse, being refined", earlier: "of an earlier state" };
+
 const loop = createRenderLoop({
-  async render(reduction, signal) {
+  async render(how, signal) {
+    const { reduction } = how;
     const width = atOrDefault(store.scene, "/image/width");
     const height = atOrDefault(store.scene, "/image/height");
     const transparent = atOrDefault(store.scene, "/image/background") === "transparent";
-    const picture = await api.render(textFor(reduction), { signal });
+    const picture = await api.render(textFor(how), { signal });
     return { ...picture, width, height, reduction, transparent };
   },
-  async shown({ blob, figures: said, width, height, reduction, transparent }, { full }) {
+  async shown({ blob, figures: said, width, height, reduction, transparent }, { whole }) {
     stage.shape(width, height, transparent);
     const count = said.particles === null ? "" : ` of ${said.particles} particles`;
     await stage.show(blob, `Cloud${count}, ${width} by ${height} pixels`);
     figures.picture(said, Math.round(width / reduction), Math.round(height / reduction));
     problem = null;
     showProblem();
+    tokenField.done();
     rung = said.rung ?? "";
-    if (full) askPlan();
+    if (whole) askPlan();
     time.shown();
   },
   failed: fail,
   busy(yes) {
     byId("stage").setAttribute("aria-busy", String(yes));
     byId("busy").hidden = !yes || time.playing;
+  },
+  marked(how) {
+    byId("left").dataset.picture = how;
+    byId("mark").textContent = time.playing ? "" : MARKS[how];
   },
 });
 
@@ -187,7 +208,7 @@ function refreshControls() {
   byId("undo").disabled = !store.canUndo;
   byId("redo").disabled = !store.canRedo;
 }
-store.subscribe(({ moving, preset, replaced, same }) => {
+store.subscribe(({ moving, preset, replaced, same = false }) => {
   planFlight?.abort();
   if (replaced) {
     time.forget();
@@ -197,7 +218,7 @@ store.subscribe(({ moving, preset, replaced, same }) => {
   if (!same && !moving) follow(preset ?? "");
   refreshControls();
   if (problem) showProblem(); // rows may have been rebuilt
-  loop.changed({ moving, playing: time.playing });
+  loop.changed({ moving, playing: time.playing, same, another: replaced });
 });
 
 byId("undo").addEventListener("click", () => store.undo());
@@ -234,6 +255,7 @@ addEventListener("hashchange", () => {
   if (name && name !== presetName && name !== "groups") choosePreset(name);
 });
 
+let begun = false; // the presets are there, and a document
 async function begin() {
   let draft = null;
   try {
@@ -255,6 +277,7 @@ async function begin() {
     }
     store.forgetHistory();
     refreshControls();
+    begun = true;
   } catch (error) {
     fail(error);
   }

@@ -1,71 +1,116 @@
-// When to render. What is shown ends up being the latest state, whatever happens on the way:
-//  * one request is in flight at a time; a change waits kSettleMs for its fellows;
-//  * while a slider moves, the picture is made at reduced size; a small picture that is under way
-//    may finish if it is young (so that a long drag shows something), anything else is cancelled;
-//  * kIdleMs after the last movement the full picture is made;
-//  * while time plays, small pictures are made one after the other, and none is cancelled.
+// When to render, and how finely. What is shown ends up being the latest state, whatever happens on the way:
+//  * one request is in flight at a time, and the latest state waits for it;
+//  * while something moves, and first of all after any other edit, a picture is made coarsely: small, and with little
+//    time for its light. Coarse pictures are never cancelled, so that a long drag shows one after the other;
+//  * once the pointer is let go, or nothing has moved for kRestMs, the picture is refined: at half its size, if the whole
+//    takes long, and whole. A newer state cancels what refines an older one;
+//  * while time plays, coarse pictures are made one after the other.
 
 import { Problem } from "./api.js";
 
-const kSettleMs = 40;
-const kIdleMs = 160;
-const kYoungMs = 400;
-const kSlowPreviewMs = 150; // a half-size picture that takes longer makes the next one a quarter
+const kSettleMs = 30; // a change waits so long for its fellows
+const kRestMs = 400;
+const kSlowCoarseMs = 150; // a coarse picture at half size that takes longer makes the next one a quarter,
+const kFastCoarseMs = 50; // and one at a quarter that takes less, a half
+const kShortWholeMs = 250; // what is expected to take no longer needs none before it
+const kLongWholeMs = 1200; // what is expected to take longer is shown at half its size before
 
-// render(reduction, signal) -> promise of a picture; reduction 1 is full size.
-// shown(picture, { full }) -> promise, failed(problem); busy(true) from the first change until the
-// full picture of the latest state is shown or has failed.
-export function createRenderLoop({ render, shown, failed, busy }) {
-  let want = null; // "full" | "preview" | null
-  let flight = null; // { kind, started, controller }
+// render({ reduction, quick }, signal) -> promise of a picture with sides `reduction` times smaller, `quick`: coarsely.
+// shown(picture, { whole }) -> promise, failed(problem).
+// busy(true) from the first change until the whole picture of the latest state is shown or has failed.
+// marked(how): what the picture on the screen is: "" of the latest state and whole, "coarse" of it, "earlier" of a state
+// before, and there will be none of the latest.
+export function createRenderLoop({ render, shown, failed, busy, marked }) {
+  let version = 0; // of the state
+  let onScreen = { version: -1, step: "" };
+  let failedVersion = -1;
+  let want = null; // the next step: "coarse" | "half" | "whole" | null
+  let flight = null; // { step, version, started, controller }
+  let moving = false;
+  let playing = false;
   let startTimer = 0;
-  let idleTimer = 0;
+  let restTimer = 0;
   let retryTimer = 0;
-  let reduction = 2;
+  let reduction = 4; // of coarse pictures
+  let wholeMs = Infinity; // what the whole picture is expected to take
+
+  function nextStep() {
+    if (failedVersion === version) return null;
+    const shownOfIt = onScreen.version === version ? onScreen.step : "";
+    if (shownOfIt === "whole") return null;
+    if (shownOfIt === "" && wholeMs > kShortWholeMs) return "coarse";
+    return shownOfIt !== "half" && wholeMs > kLongWholeMs ? "half" : "whole";
+  }
+
+  function mark() {
+    if (onScreen.version === version) marked(onScreen.step === "whole" ? "" : "coarse");
+    else if (failedVersion === version) marked("earlier");
+  }
 
   function start() {
     startTimer = 0;
-    if (flight || want === null) return; // the end of the flight calls start() again
-    const kind = want;
+    if (flight) return; // its end calls start() again
+    if (want === null && !moving && !playing) want = nextStep();
+    if (want === null) {
+      if (!restTimer) busy(false);
+      return;
+    }
+    const mine = { step: want, version, started: performance.now(), controller: new AbortController() };
+    const { signal } = mine.controller;
     want = null;
-    const mine = { kind, started: performance.now(), controller: new AbortController() };
     flight = mine;
-    render(kind === "full" ? 1 : reduction, mine.controller.signal)
-      .then((picture) => {
-        if (mine.controller.signal.aborted) return undefined;
-        if (kind === "preview") {
-          const slow = performance.now() - mine.started > kSlowPreviewMs;
-          reduction = slow ? 4 : 2;
-        }
-        return shown(picture, { full: kind === "full" });
+    render({ reduction: { coarse: reduction, half: 2, whole: 1 }[mine.step], quick: mine.step === "coarse" }, signal)
+      .then(async (picture) => {
+        if (signal.aborted) return;
+        const took = performance.now() - mine.started;
+        if (mine.step === "whole") wholeMs = took;
+        if (mine.step === "coarse" && took > kSlowCoarseMs) reduction = 4;
+        if (mine.step === "coarse" && took < kFastCoarseMs) reduction = 2;
+        await shown(picture, { whole: mine.step === "whole" });
+        onScreen = mine;
       })
       .catch((error) => {
-        if (mine.controller.signal.aborted) return;
+        if (signal.aborted || (mine.version !== version && want !== null)) return; // the latest state speaks for itself
+        failedVersion = mine.version;
         failed(error);
-        if (error instanceof Problem && error.retryAfterSeconds !== null && want === null) {
+        if (error instanceof Problem && error.retryAfterSeconds !== null && mine.version === version) {
           retryTimer = setTimeout(() => changed({ moving: false }), error.retryAfterSeconds * 1000);
         }
       })
       .finally(() => {
         flight = null;
-        if (want !== null && !startTimer) start();
-        if (want === null && !flight && !idleTimer) busy(false);
+        mark();
+        if (!startTimer) start();
       });
   }
 
-  function changed({ moving, playing = false }) {
+  function rest() {
+    restTimer = 0;
+    moving = false;
+    if (!startTimer) start();
+  }
+
+  // same: the state is what it was. another: it is another document, whose pictures take another time.
+  function changed({ moving: moves, playing: plays = false, same = false, another = false }) {
     clearTimeout(retryTimer);
-    clearTimeout(idleTimer);
-    idleTimer = 0;
+    clearTimeout(restTimer);
+    restTimer = 0;
+    if (!same) version += 1;
+    if (another) wholeMs = Infinity;
+    [moving, playing] = [moves && !plays, plays];
     busy(true);
-    want = moving || playing ? "preview" : "full";
-    if (moving && !playing) idleTimer = setTimeout(() => changed({ moving: false }), kIdleMs);
-    if (flight) {
-      const young = playing || performance.now() - flight.started < kYoungMs;
-      if (!(want === "preview" && flight.kind === "preview" && young)) flight.controller.abort();
-    }
+    if (flight && flight.step !== "coarse" && flight.version !== version) flight.controller.abort();
+    want = !same && (moving || playing) ? "coarse" : null;
+    if (moving) restTimer = setTimeout(rest, kRestMs);
     if (!startTimer) startTimer = setTimeout(start, playing ? 0 : kSettleMs);
   }
 
-  return { changed };
+  // The pointer is let go: nothing is waited for.
+  function letGo() {
+    if (!restTimer) return;
+    clearTimeout(restTimer);
+    rest();
+  }
+
+  return { changed, letGo };
 }

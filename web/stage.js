@@ -7,8 +7,8 @@ const DEGREES_PER_PIXEL = 0.35;
 const KEY_DEGREES = 5;
 const KEY_RATIO = 0.9;
 
-// nudge(step, options): around the cloud. toggle(): play or pause; false when nothing can move.
-export function createStage({ nudge, toggle }) {
+// nudge(step, options): around the cloud. letGo(): the pointer has been. toggle(): play or pause; false when nothing can move.
+export function createStage({ nudge, letGo, toggle }) {
   const stage = byId("stage");
   const image = byId("picture");
   let url = null;
@@ -52,6 +52,7 @@ export function createStage({ nudge, toggle }) {
   });
   const release = () => {
     from = null;
+    letGo();
     stage.classList.remove("dragging");
   };
   stage.addEventListener("pointerup", release);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <numbers>
 
 #include "core/formats/tone.h"
@@ -71,7 +72,12 @@ std::uint8_t byte_of(double value) {
 }
 
 cairo_status_t append(void* bytes, const unsigned char* data, unsigned int size) {
-    static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), size);
+    // Nothing may be thrown through Cairo.
+    try {
+        static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), size);
+    } catch (const std::exception&) {
+        return CAIRO_STATUS_NO_MEMORY;
+    }
     return CAIRO_STATUS_SUCCESS;
 }
 
@@ -185,8 +191,9 @@ void PlotCanvas::picture(const std::vector<std::uint8_t>& pixels, int width, int
 
 Result<std::string> PlotCanvas::png() const {
     const auto failed = [](cairo_status_t status) {
-        return Error{ErrorCode::kInternal, "",
-                     std::string("the plot could not be drawn: ") + cairo_status_to_string(status)};
+        return Error{
+            status == CAIRO_STATUS_NO_MEMORY ? ErrorCode::kOutOfMemory : ErrorCode::kInternal, "",
+            std::string("the plot could not be drawn: ") + cairo_status_to_string(status)};
     };
     if (const auto status = cairo_status(pen()); status != CAIRO_STATUS_SUCCESS)
         return failed(status);

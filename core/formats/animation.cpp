@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/thrown.h"
 #include "core/formats/apng.h"
 #include "core/formats/image_file.h"
 
@@ -20,6 +21,13 @@ constexpr float kWebpQuality = 90;
 Error failed(const std::string& what) {
     return {ErrorCode::kInternal, "", "the animation could not be encoded: " + what};
 }
+
+bool is_no_memory(WebPEncodingError error) {
+    return error == VP8_ENC_ERROR_OUT_OF_MEMORY || error == VP8_ENC_ERROR_BITSTREAM_OUT_OF_MEMORY;
+}
+
+// The longest side that libwebp takes, pixels.
+constexpr int kLongestSide = WEBP_MAX_DIMENSION;
 
 struct DeleteEncoder {
     void operator()(WebPAnimEncoder* encoder) const { WebPAnimEncoderDelete(encoder); }
@@ -95,12 +103,16 @@ Status Animation::add(const Image& image, double exposure_stops) {
         if (WebPAnimEncoderOptionsInit(&options) == 0)
             return failed("libwebp is of another version");
         state.webp.reset(WebPAnimEncoderNew(image.width, image.height, &options));
-        if (!state.webp) return failed("no memory, or a picture larger than 16383 pixels");
+        if (!state.webp && std::max(image.width, image.height) > kLongestSide)
+            return failed("a side is over " + std::to_string(kLongestSide) + " pixels");
+        if (!state.webp) return error_of_thrown(std::bad_alloc());
     }
     Picture picture;
-    if (!picture.import(image, exposure_stops)) return failed("no memory for a frame");
+    if (!picture.import(image, exposure_stops)) return error_of_thrown(std::bad_alloc());
     if (WebPAnimEncoderAdd(state.webp.get(), picture.get(), state.at_ms(), &config) == 0)
-        return failed(WebPAnimEncoderGetError(state.webp.get()));
+        return is_no_memory(picture.get()->error_code)
+                   ? error_of_thrown(std::bad_alloc())
+                   : failed(WebPAnimEncoderGetError(state.webp.get()));
     ++state.count;
     return std::nullopt;
 }

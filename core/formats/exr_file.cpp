@@ -6,6 +6,7 @@
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
+#include <ImfThreading.h>
 #include <half.h>
 
 #include <algorithm>
@@ -64,7 +65,7 @@ Imf::Header header_of(const Image& image, Imf::PixelType type, const PictureNote
     return header;
 }
 
-// Rows that are handed over at once: four of EXR's blocks of 16 lines.
+// Rows that are handed over at once, for each thread: four of EXR's blocks of 16 lines.
 constexpr int kRowsAtOnce = 64;
 
 // Compressing is most of what large pictures of floats cost, so the deadline is looked at in between. T: float or half.
@@ -72,10 +73,11 @@ template <typename T>
 Status write_rows(const Image& image, float largest, Imf::PixelType type, const Deadline& deadline,
                   Imf::OutputFile& file) {
     const std::size_t row = 4 * static_cast<std::size_t>(image.width);
-    std::vector<T> rows(row * kRowsAtOnce);
-    for (int y = 0; y < image.height; y += kRowsAtOnce) {
+    const int at_once = std::min(kRowsAtOnce * std::max(Imf::globalThreadCount(), 1), image.height);
+    std::vector<T> rows(row * static_cast<std::size_t>(at_once));
+    for (int y = 0; y < image.height; y += at_once) {
         if (Status over = deadline.over()) return over;
-        const int count = std::min(kRowsAtOnce, image.height - y);
+        const int count = std::min(at_once, image.height - y);
         const float* const first = image.pixels.data() + row * static_cast<std::size_t>(y);
         std::transform(first, first + row * static_cast<std::size_t>(count), rows.begin(),
                        [=](float value) { return T(storable(value, largest)); });
@@ -104,7 +106,7 @@ Result<std::string> encode_exr(const Image& image, Precision precision, const Pi
     std::string bytes;
     try {
         StringStream stream(bytes);
-        Imf::OutputFile file(stream, header_of(image, type, notes), 0);
+        Imf::OutputFile file(stream, header_of(image, type, notes), Imf::globalThreadCount());
         const Status late =
             half_floats
                 ? write_rows<half>(image, HALF_MAX, type, deadline, file)
@@ -115,6 +117,14 @@ Result<std::string> encode_exr(const Image& image, Precision precision, const Pi
         return error.code == ErrorCode::kInternal ? encoder_error(error.message) : error;
     }
     return bytes;
+}
+
+void set_exr_threads(int threads) {
+    try {
+        Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
+    } catch (const std::exception&) {
+        // As many as could be had.
+    }
 }
 
 }  // namespace awan

@@ -41,6 +41,10 @@ struct PictureNotes {
 Result<std::string> encode_exr(const Image& image, Precision precision,
                                const PictureNotes& notes = {}, const Deadline& deadline = {});
 
+// How many threads pack EXR from now on, 1 to 256; before it is said, the caller alone. The bytes are the same. OpenEXR
+// has one set of threads for the whole process, so it is said where that begins, before anything is encoded.
+void set_exr_threads(int threads);
+
 // Exposure in stops for "auto": what a photographer would meter on the sunlit side of a thick cloud, which is half of
 // the sun's light, as from a white wall at 45 degrees, and the sky's mean radiance. It is brought to kMeteredLevel
 // before the tone curve. Depends on the lights only, so it does not flicker as a camera moves. A setting sun is made

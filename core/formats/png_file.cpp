@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <exception>
 #include <vector>
 
@@ -21,8 +22,23 @@ struct PngSink {
     bool no_memory = false;
 };
 
+// libpng says in many words that it has no memory, so it gets it here.
+void* on_png_malloc(png_structp png, png_alloc_size_t size) {
+    void* const memory = std::malloc(size);
+    if (memory == nullptr) static_cast<PngSink*>(png_get_mem_ptr(png))->no_memory = true;
+    return memory;
+}
+void on_png_free(png_structp, void* memory) {
+    std::free(memory);
+}
+
 void on_png_error(png_structp png, png_const_charp message) {
-    static_cast<PngSink*>(png_get_error_ptr(png))->error = message;
+    auto* const sink = static_cast<PngSink*>(png_get_error_ptr(png));
+    try {
+        sink->error = message;
+    } catch (const std::exception&) {
+        sink->no_memory = true;
+    }
     png_longjmp(png, 1);
 }
 void on_png_warning(png_structp, png_const_charp) {}
@@ -116,8 +132,8 @@ Result<std::string> encode_png(const Image& image, double exposure_stops, int bi
     std::vector<std::uint8_t> row(channels * static_cast<std::size_t>(image.width) *
                                   static_cast<std::size_t>(bits / 8));
     PngSink sink;
-    png_structp png =
-        png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, on_png_error, on_png_warning);
+    png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &sink, on_png_error,
+                                                on_png_warning, &sink, on_png_malloc, on_png_free);
     png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
     bool written = false;
     if (info != nullptr) {

@@ -77,15 +77,23 @@ Result<EglContext> EglContext::open_display(EGLDisplay display, std::string plat
     if (eglInitialize(display, nullptr, nullptr) != EGL_TRUE) return egl_error("eglInitialize");
     result.display_ = display;
     if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) return egl_error("eglBindAPI(OpenGL)");
-    const std::array<EGLint, 7> attributes = {EGL_CONTEXT_MAJOR_VERSION,
-                                              4,
-                                              EGL_CONTEXT_MINOR_VERSION,
-                                              5,
-                                              EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                              EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                              EGL_NONE};
+    // Told when the device is reset (glGetGraphicsResetStatus), where the driver can tell.
+    std::array<EGLint, 9> attributes = {EGL_CONTEXT_MAJOR_VERSION,
+                                        4,
+                                        EGL_CONTEXT_MINOR_VERSION,
+                                        5,
+                                        EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                        EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                        EGL_LOSE_CONTEXT_ON_RESET,
+                                        EGL_NONE};
     result.context_ =
         eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+    if (result.context_ == EGL_NO_CONTEXT) {
+        attributes[6] = EGL_NONE;
+        result.context_ =
+            eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+    }
     if (result.context_ == EGL_NO_CONTEXT) return egl_error("eglCreateContext(OpenGL 4.5 core)");
     if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, result.context_) != EGL_TRUE)
         return egl_error("eglMakeCurrent");

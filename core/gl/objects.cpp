@@ -1,5 +1,7 @@
 #include "core/gl/objects.h"
 
+#include <EGL/egl.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -131,6 +133,10 @@ GLint Program::uniform(const char* name) const {
 }
 
 Status gl_status(const char* step) {
+    // Without a context, calls do nothing and nothing says so. After a reset, they may give anything.
+    if (eglGetCurrentContext() == EGL_NO_CONTEXT || glGetGraphicsResetStatus() != GL_NO_ERROR)
+        return Error{ErrorCode::kNoRenderer, "",
+                     std::string("the OpenGL context was lost in ") + step};
     const GLenum error = glGetError();
     if (error == GL_NO_ERROR) return std::nullopt;
     while (glGetError() != GL_NO_ERROR) {

@@ -83,7 +83,8 @@ class Program {
     GLuint name_ = 0;
 };
 
-// The first error flag of the context since the last call, as an Error that names `step`.
+// The first error flag of the context since the last call, as an Error that names `step`; kNoRenderer where the context
+// is lost, and with it whatever was drawn.
 Status gl_status(const char* step);
 
 }  // namespace awan::gl

@@ -1,47 +1,11 @@
 #include "core/light/light_cache.h"
 
-#include <algorithm>
 #include <bit>
 #include <cstdint>
 
 #include "core/scene/fingerprint.h"
 
 namespace awan {
-
-std::list<LightCache::Entry>::iterator LightCache::at(const std::string& key) {
-    return std::find_if(entries_.begin(), entries_.end(),
-                        [&](const Entry& entry) { return entry.key == key; });
-}
-
-// Summed up anew each time: there are few entries, and a total that is kept beside them could go wrong.
-std::size_t LightCache::used() const {
-    std::size_t sum = 0;
-    for (const Entry& entry : entries_) sum += entry.bytes;
-    return sum;
-}
-
-std::shared_ptr<const TransportLight> LightCache::find(const std::string& key) {
-    const std::lock_guard lock(mutex_);
-    const auto found = at(key);
-    if (found == entries_.end()) return nullptr;
-    entries_.splice(entries_.begin(), entries_, found);
-    return found->light;
-}
-
-void LightCache::keep(const std::string& key, std::shared_ptr<const TransportLight> light) {
-    const std::size_t size = light->bytes();
-    const std::lock_guard lock(mutex_);
-    if (size > bytes_) return;
-    // It is here already where two requests for the same light were solved at once.
-    if (const auto same = at(key); same != entries_.end()) entries_.erase(same);
-    while (used() + size > bytes_) entries_.pop_back();
-    entries_.push_front({key, std::move(light), size});
-}
-
-std::size_t LightCache::bytes_in_use() const {
-    const std::lock_guard lock(mutex_);
-    return used();
-}
 
 // The settings are taken apart by name, so that one that is added to them does not compile until it is in the key.
 std::string light_key(const Scene& scene, const TransportSettings& settings, std::uint64_t variant,

@@ -103,7 +103,7 @@ Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int thre
     parallel_for(threads, 6, [&](std::size_t task) {
         switch (task) {
             case 0:
-                survey.volume = density_volume(particles, kVolumeCells);
+                survey.volume = density_volume(particles, kVolumeCells, kMaxVolumeWork, deadline);
                 break;
             case 1:
                 measure_picture(particles, survey);
@@ -123,6 +123,7 @@ Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int thre
                 measure_projection(particles, scene->image.height, survey);
         }
     });
+    if (auto error = deadline.over()) return *error;
     for (const float cell : survey.volume.extinction)
         survey.max_extinction = std::max(survey.max_extinction, static_cast<double>(cell));
     survey.detail.extinction = typical_extinction(survey.volume);

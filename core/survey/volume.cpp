@@ -10,6 +10,9 @@
 namespace awan {
 namespace {
 
+// Particles between two looks at the deadline: some milliseconds.
+constexpr std::size_t kBetweenLooks = 1u << 14;
+
 struct CellSpan {
     int first, last;  // cells, inclusive
 };
@@ -45,7 +48,8 @@ double work_at(const ParticleSet& particles, double cell) {
 
 }  // namespace
 
-DensityVolume density_volume(const ParticleSet& particles, int max_cells, double most_work) {
+DensityVolume density_volume(const ParticleSet& particles, int max_cells, double most_work,
+                             const Deadline& deadline) {
     DensityVolume volume;
     if (particles.size() == 0) return volume;
     glm::dvec3 low(particles.center[0]), high(low);
@@ -75,6 +79,7 @@ DensityVolume density_volume(const ParticleSet& particles, int max_cells, double
     std::vector<float> wx(static_cast<std::size_t>(n.x)), wy(static_cast<std::size_t>(n.y)),
         wz(static_cast<std::size_t>(n.z));
     for (std::size_t i = 0; i < particles.size(); ++i) {
+        if (i % kBetweenLooks == 0 && deadline.over()) break;
         const double s = gaussian_s(particles, i), mass = gaussian_mass(particles, i);
         if (!(mass > 0)) continue;
         const glm::dvec3 c = particles.center[i];

@@ -142,6 +142,9 @@ struct ServeCommand {
     // MiB for all scenes that are being worked on; 0: half of what the machine or its container has, at most
     // limits::kWorkBytes. MiB of kept answers.
     std::size_t memory_mib = 0, cache_mib = limits::kCacheBytes >> 20;
+    // A folder of answers that outlive the server, or "", and its MiB.
+    std::string cache_dir;
+    std::size_t cache_disk_mib = limits::kDiskCacheBytes >> 20;
     // Seconds from a whole request to its answer.
     double deadline_seconds = std::chrono::duration<double>(limits::kRequestDeadline).count();
     // MiB of a request's body.

@@ -1,9 +1,7 @@
 #include "server/cli/files.h"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -13,7 +11,7 @@
 #include <memory>
 #include <utility>
 
-#include "server/service/problem.h"
+#include "core/base/temporary_file.h"
 
 namespace awan {
 namespace {
@@ -54,40 +52,6 @@ void sync_directory(const std::string& directory) {
     if (fd < 0) return;
     fsync(fd);
     ::close(fd);
-}
-
-// Names of files that are not whole yet.
-constexpr std::string_view kTemporaryBegins = ".awan-";
-constexpr std::string_view kTemporaryEnds = ".tmp";
-
-// Removes what a program left in `directory` that was killed while it wrote. Who still writes holds a lock.
-void remove_abandoned(const std::string& directory) {
-    const std::unique_ptr<DIR, int (*)(DIR*)> entries(opendir(directory.c_str()), closedir);
-    if (!entries) return;
-    while (const dirent* const entry = readdir(entries.get())) {
-        const std::string_view name = entry->d_name;
-        if (!name.starts_with(kTemporaryBegins) || !name.ends_with(kTemporaryEnds)) continue;
-        const int fd = openat(dirfd(entries.get()), entry->d_name,
-                              O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-        if (fd < 0) continue;
-        if (flock(fd, LOCK_EX | LOCK_NB) == 0) unlinkat(dirfd(entries.get()), entry->d_name, 0);
-        ::close(fd);
-    }
-}
-
-// A new file beside `path`, locked; -1, with errno.
-int create_temporary(const std::string& directory, mode_t mode, std::string& name) {
-    for (;;) {
-        name = directory + "/" + std::string(kTemporaryBegins) + request_id_from("") +
-               std::string(kTemporaryEnds);
-        const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-        if (fd < 0) return fd;
-        // Before it was locked, another may have taken it for one that was left, and is about to remove it.
-        struct stat created {};
-        flock(fd, LOCK_EX);
-        if (fstat(fd, &created) != 0 || created.st_nlink > 0) return fd;
-        ::close(fd);
-    }
 }
 
 }  // namespace

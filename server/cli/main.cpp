@@ -134,6 +134,10 @@ Run add_serve(CLI::App& app) {
         ->check(CLI::Range(0, 1 << 20));
     add(*serve, "--cache", command->cache_mib, "MiB of answers to renders that are kept; 0: none")
         ->check(CLI::Range(0, 1 << 20));
+    add(*serve, "--cache-dir", command->cache_dir,
+        "a folder where answers are kept that outlive the server; several may share it");
+    add(*serve, "--cache-disk", command->cache_disk_mib, "MiB of that folder")
+        ->check(CLI::Range(1, 1 << 24));
     add(*serve, "--max-connections", command->connections, "connections at once")
         ->check(CLI::Range(1, 100'000));
     add_threads(*serve, command->threads);

@@ -47,10 +47,15 @@ double exposure_of(const Scene& scene) {
     return scene->image.exposure.value_or(auto_exposure(scene));
 }
 
+// Pixels of an EXR that take one thread longer than others take to begin.
+constexpr std::size_t kLargePicture = 1u << 18;
+
 Result<std::string> encode(const Rendered& rendered, const Scene& scene, const std::string& format,
-                           int bits) {
-    if (format == "exr")
+                           int bits, int threads) {
+    if (format == "exr") {
+        if (rendered.image.pixel_count() >= kLargePicture) set_exr_threads(threads);
         return encode_exr(rendered.image, scene->image.precision, notes_of(rendered));
+    }
     return encode_png(rendered.image, exposure_of(scene), bits);
 }
 
@@ -60,7 +65,8 @@ Status write_picture(const Rendered& rendered, const Scene& scene, const std::ui
     const auto start = Deadline::Clock::now();
     for (const Target& target : work.targets) {
         if (target.animated()) continue;
-        const auto bytes = encode(rendered, scene, target.format, work.command.bits);
+        const auto bytes =
+            encode(rendered, scene, target.format, work.command.bits, work.command.threads);
         if (!bytes) return bytes.error();
         const std::string path =
             frame == nullptr ? target.path : numbered_name(target.path, *frame);

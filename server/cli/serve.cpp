@@ -13,6 +13,7 @@
 #include <fstream>
 #include <thread>
 
+#include "core/formats/image_file.h"
 #include "core/light/machine_speed.h"
 #include "server/cli/cli.h"
 #include "server/cli/files.h"
@@ -115,6 +116,16 @@ Result<std::string> read_token(const std::string& path) {
     return text;
 }
 
+Result<std::shared_ptr<DiskCache>> open_disk_cache(const ServeCommand& command) {
+    DiskCacheOptions options;
+    options.folder = command.cache_dir;
+    options.bytes = command.cache_disk_mib << 20;
+    options.say = [](const std::string& what) { std::fprintf(stderr, "awan: %s\n", what.c_str()); };
+    auto cache = DiskCache::open(std::move(options));
+    if (cache) return cache;
+    return Error{cache.error().code, "", "--cache-dir " + cache.error().message};
+}
+
 // Names and addresses that only programs of this machine can reach.
 bool is_loopback(const std::string& host) {
     return host == "localhost" || host.starts_with("127.") || host == "[::1]" || host == "::1";
@@ -168,6 +179,7 @@ int run_serve(const ServeCommand& command) {
     const sigset_t stop_signals = block_stop_signals();
     std::signal(SIGPIPE, SIG_IGN);
     raise_descriptor_limit(command.connections);
+    set_exr_threads(command.threads);
 
     ServiceOptions service_options;
     service_options.threads = command.threads;
@@ -183,6 +195,11 @@ int run_serve(const ServeCommand& command) {
                                      : std::min(limits::kWorkBytes, memory_there_is() / 2);
     service_options.jobs = lanes.lanes;
     service_options.cache_bytes = command.cache_mib << 20;
+    if (!command.cache_dir.empty()) {
+        auto opened = open_disk_cache(command);
+        if (!opened) return report_error("", opened.error());
+        service_options.disk = *std::move(opened);
+    }
     const auto lights = std::make_shared<LightCache>(kLightCacheBytes);
     service_options.on_processor = processor_renderer(lights);
 

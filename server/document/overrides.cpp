@@ -52,6 +52,8 @@ Status read_one(std::string_view name, std::string_view value, Overrides& to) {
     if (name == "radius") return read_positive(name, value, to.radius);
     if (name == "rung") return read_rung(value, to.rung);
     if (name == "format") {
+        if (value.empty())
+            return wrong_value(name, "the name of a format, such as json or png", value);
         to.format = value;
     } else if (name == "background") {
         if (value != "sky" && value != "transparent")

@@ -13,8 +13,10 @@
 #include "core/formats/numbers.h"
 #include "core/scene/limits.h"
 #include "core/scene/rules.h"
+#include "server/document/field_values.h"
 #include "server/document/json.h"
 #include "server/document/json_place.h"
+#include "server/document/left_alone.h"
 #include "server/document/number_runs.h"
 #include "server/document/particle_answer.h"
 
@@ -25,11 +27,6 @@ using nlohmann::json;
 
 // What is no place in a table's fields: no member, and `particles` of an answer that comes back.
 constexpr int kNoField = -1, kAnswerField = -2;
-
-// Keys that any object may have and that nobody reads.
-bool is_left_alone(std::string_view name) {
-    return name.starts_with('_') || name == "name" || name == "description" || name == "$schema";
-}
 
 // One open bracket.
 struct Frame {
@@ -54,154 +51,6 @@ struct Frame {
     std::size_t index = 0;
     glm::dvec3* vector = nullptr;
 };
-
-int find_field(const Table& table, std::string_view name) {
-    for (std::size_t i = 0; i < table.fields.size(); ++i)
-        if (table.fields[i].in_documents() && table.fields[i].name == name)
-            return static_cast<int>(i);
-    return kNoField;
-}
-
-// `"a", "b", ...`: what find_field would find.
-std::string allowed_names(const Table& table) {
-    std::string names;
-    for (const Field& field : table.fields) {
-        if (!field.in_documents()) continue;
-        names += names.empty() ? "\"" : ", \"";
-        names += field.name;
-        names += '"';
-    }
-    return names;
-}
-
-void set_absent(const Table& table, void* object, bool absent) {
-    if (const Field* const field = absence_of(table))
-        *static_cast<bool*>(field->access.put(object)) = absent;
-}
-
-bool set_word(const Field& field, void* object, std::string_view word) {
-    for (std::size_t i = 0; i < field.words.size(); ++i)
-        if (field.words[i] == word) {
-            field.access.set_word(field.access.put(object), i);
-            return true;
-        }
-    return false;
-}
-
-// Defaults that depend on other fields of the object, once it has ended.
-void complete(const Table& table, std::uint64_t seen, void* object) {
-    for (std::size_t i = 0; i < table.fields.size(); ++i) {
-        const Field& field = table.fields[i];
-        if (field.usual == nullptr || field.access.optional || (seen >> i & 1) != 0) continue;
-        *static_cast<double*>(field.access.put(object)) = field.usual(object);
-    }
-}
-
-// A word in place of an object.
-bool set_object_by_word(const Field& field, void* object, std::string_view word) {
-    const Table& table = field.access.table();
-    const Field* const absence = absence_of(table);
-    if (absence != nullptr && absence->absent == word) {
-        set_absent(table, field.access.put(object), true);
-        return true;
-    }
-    if (table.shorthand == nullptr) return false;
-    const int which = find_field(table, table.shorthand);
-    void* const inner = field.access.put(object);
-    if (!set_word(table.fields[static_cast<std::size_t>(which)], inner, word)) return false;
-    complete(table, std::uint64_t{1} << which, inner);
-    return true;
-}
-
-// Whether any string may be the field's value.
-bool takes_words(const Field& field) {
-    if (field.absent != nullptr || !field.words.empty()) return true;
-    if (field.access.holds == Holds::kText) return true;
-    if (field.access.holds != Holds::kObject) return false;
-    const Table& table = field.access.table();
-    return table.shorthand != nullptr || absence_of(table) != nullptr;
-}
-
-// Takes the word that a field has for "not given".
-void set_not_given(const Field& field, void* object) {
-    if (field.access.set_unused != nullptr)
-        *field.access.set_unused(object) = true;
-    else if (field.access.holds == Holds::kSwitch)
-        *static_cast<Switch*>(field.access.put(object)) = Switch::kAuto;
-    else if (field.access.clear != nullptr)
-        field.access.clear(object);
-}
-
-// The value, which is then used.
-void* put(const Field& field, void* object) {
-    if (field.access.set_unused != nullptr) *field.access.set_unused(object) = false;
-    return field.access.put(object);
-}
-
-// Out of float32's range becomes infinite, which validate() refuses.
-float to_float(double value) {
-    constexpr double kLargest = std::numeric_limits<float>::max();
-    if (std::abs(value) <= kLargest) return static_cast<float>(value);
-    return std::copysign(std::numeric_limits<float>::infinity(),
-                         static_cast<float>(value > 0) - 0.5f);
-}
-
-// Whether the word is one that the field has.
-bool take_word(const Field& field, void* object, std::string& word) {
-    if (field.absent != nullptr && word == field.absent) {
-        set_not_given(field, object);
-        return true;
-    }
-    switch (field.access.holds) {
-        case Holds::kText:
-            *static_cast<std::string*>(put(field, object)) = std::move(word);
-            return true;
-        case Holds::kWord:
-            return set_word(field, object, word);
-        case Holds::kObject:
-            return set_object_by_word(field, object, word);
-        default:
-            return false;
-    }
-}
-
-// Lists of numbers, and of three numbers each.
-bool is_of_rows(const Field& list) {
-    return list.access.holds == Holds::kPoints || list.access.holds == Holds::kColors;
-}
-void append_to_list(void* list, double value) {
-    static_cast<std::vector<float>*>(list)->push_back(to_float(value));
-}
-void append_row(const Field& field, void* list, const glm::dvec3& v) {
-    if (field.access.holds == Holds::kPoints)
-        static_cast<std::vector<glm::dvec3>*>(list)->push_back(v);
-    else
-        static_cast<std::vector<glm::vec3>*>(list)->emplace_back(to_float(v.x), to_float(v.y),
-                                                                 to_float(v.z));
-}
-
-// Completes "must be ...", for an element of a list.
-const char* wanted_element(const Field& list) {
-    switch (list.access.holds) {
-        case Holds::kFloats:
-            return "a number";
-        case Holds::kPoints:
-            return "[x, y, z]: three numbers";
-        case Holds::kColors:
-            return "[r, g, b]: three numbers";
-        default:
-            return "an object";
-    }
-}
-
-bool is_list(const Field& field) {
-    return field.access.holds == Holds::kObjects || field.access.holds == Holds::kFloats ||
-           is_of_rows(field);
-}
-
-bool is_integer(const Field& field) {
-    return field.access.holds == Holds::kInteger || field.access.holds == Holds::kInt;
-}
 
 // RFC 6901. A name that is long or not plain is left out: the pointer is then the object's.
 std::string escaped_name(std::string_view name) {
@@ -239,36 +88,36 @@ class SceneReader {
 
     // --- nlohmann's SAX interface; false stops the reading
 
-    bool null() { return passed_over() || wrong_type("null"); }
+    bool null() { return left_.passed() || wrong_type("null"); }
     bool binary(json::binary_t&) { return wrong_type("binary"); }
 
     bool boolean(bool value) {
-        if (passed_over()) return true;
+        if (left_.passed()) return true;
         const Field* const field = open_field();
         if (!field || field->access.holds != Holds::kSwitch) return wrong_type("a boolean");
-        *static_cast<Switch*>(put(*field, top().object)) = value ? Switch::kOn : Switch::kOff;
+        *static_cast<Switch*>(put_field(*field, top().object)) = value ? Switch::kOn : Switch::kOff;
         return true;
     }
 
     bool number_integer(json::number_integer_t value) {
-        if (passed_over()) return true;
+        if (left_.passed()) return true;
         const Field* const field = open_field();
-        if (!field || !is_integer(*field)) return number(static_cast<double>(value));
+        if (!field || !is_integer_field(*field)) return number(static_cast<double>(value));
         if (value == 0) return integer(*field, 0);  // "-0"
         return fail("must be " + wanted_of(*field) + ", not " + std::to_string(value));
     }
 
     bool number_unsigned(json::number_unsigned_t value) {
-        if (passed_over()) return true;
+        if (left_.passed()) return true;
         const Field* const field = open_field();
-        if (field && is_integer(*field)) return integer(*field, value);
+        if (field && is_integer_field(*field)) return integer(*field, value);
         return number(static_cast<double>(value));
     }
 
     bool number_float(json::number_float_t value, const std::string& digits) {
-        if (passed_over()) return true;
+        if (left_.passed()) return true;
         const Field* const field = open_field();
-        if (!field || !is_integer(*field)) return number(value);
+        if (!field || !is_integer_field(*field)) return number(value);
         // 200.0 is an integer written at length; beyond 2^53 its digits would be guesses.
         if (value >= 0 && value <= 9007199254740992.0 && std::floor(value) == value)
             return integer(*field, static_cast<std::uint64_t>(value));
@@ -276,7 +125,7 @@ class SceneReader {
     }
 
     bool string(std::string& value) {
-        if (passed_over()) return true;
+        if (left_.passed()) return true;
         const Field* const field = open_field();
         if (!field || !takes_words(*field)) return wrong_type("a string");
         if (value.size() > limits::kMaxString)
@@ -286,11 +135,11 @@ class SceneReader {
     }
 
     bool start_object(std::size_t) {
-        if (passing_over()) return pass_into();
+        if (left_.passing()) return pass_into();
         if (frames_.empty()) return push_object(table_of<SceneDraft>(), &draft);
         if (const Field* const field = open_field()) {
             if (field->access.holds != Holds::kObject) return wrong_type("an object");
-            return push_object(field->access.table(), put(*field, top().object));
+            return push_object(field->access.table(), put_field(*field, top().object));
         }
         const Field* const list = top().list_field;
         if (list == nullptr || list->access.holds != Holds::kObjects)
@@ -300,12 +149,12 @@ class SceneReader {
     }
 
     bool key(std::string& name) {
-        if (passed_depth_ > 0) return true;
+        if (left_.inside()) return true;
         Frame& frame = top();
         frame.field = kNoField;
         const int field = find_field(*frame.table, name);
         if (field < 0) {
-            if (is_left_alone(name)) return pass_over_next_ = true;
+            if (is_left_alone(name)) return pass_over_next();
             if (key_of_answer(name)) return true;
             std::string at = pointer() + escaped_name(name);
             return fail_at(std::move(at), "unknown field " + short_quote(name) + "; allowed are " +
@@ -319,25 +168,26 @@ class SceneReader {
     }
 
     bool end_object() {
-        if (passed_depth_ > 0) return pass_out();
+        if (left_.leave()) return true;
         Frame& frame = top();
         frame.field = kNoField;
         if (frames_.size() == 1 && !end_answer(frame)) return false;
         if (const Status wrong = check_written({*frame.table, frame.seen}, frame.object))
             return fail_at(pointer() + wrong->pointer, wrong->message, wrong->code);
-        complete(*frame.table, frame.seen, frame.object);
+        complete_defaults(*frame.table, frame.seen, frame.object);
         return pop();
     }
 
     bool start_array(std::size_t) {
-        if (passing_over()) return pass_into();
+        if (left_.passing()) return pass_into();
         if (frames_.empty()) return wrong_type("an array");
         if (const Field* const field = open_field()) {
             if (field->access.holds == Holds::kVector)
                 return push({.type = Frame::Type::kVector,
-                             .vector = static_cast<glm::dvec3*>(put(*field, top().object))});
-            if (!is_list(*field)) return wrong_type("an array");
-            void* const list = put(*field, field == &kAnsweredParticles ? &answer_ : top().object);
+                             .vector = static_cast<glm::dvec3*>(put_field(*field, top().object))});
+            if (!is_list_field(*field)) return wrong_type("an array");
+            void* const list =
+                put_field(*field, field == &kAnsweredParticles ? &answer_.answer : top().object);
             const bool pushed =
                 push({.type = Frame::Type::kList, .list_field = field, .list = list});
             if (pushed) read_ahead();
@@ -350,7 +200,7 @@ class SceneReader {
     }
 
     bool end_array() {
-        if (passed_depth_ > 0) return pass_out();
+        if (left_.leave()) return true;
         const Frame& frame = top();
         if (frame.type == Frame::Type::kList) return pop();
         if (frame.index != 3) {
@@ -384,62 +234,39 @@ class SceneReader {
         return &top().table->fields[static_cast<std::size_t>(top().field)];
     }
 
-    // --- what is left alone: the value of a key that nobody reads, however deep it goes
-
-    bool passing_over() const { return pass_over_next_ || passed_depth_ > 0; }
-    // Whether the value that has just come is one of those.
-    bool passed_over() {
-        const bool passed = passing_over();
-        pass_over_next_ = false;
-        return passed;
+    bool pass_over_next() {
+        left_.expect();
+        return true;
     }
     bool pass_into() {
-        pass_over_next_ = false;
-        if (frames_.size() + passed_depth_ >= static_cast<std::size_t>(limits::kMaxJsonDepth))
-            return fail("nested deeper than " + std::to_string(limits::kMaxJsonDepth));
-        ++passed_depth_;
-        return true;
-    }
-    bool pass_out() {
-        --passed_depth_;
-        return true;
+        if (left_.enter(frames_.size())) return true;
+        return fail("nested deeper than " + std::to_string(limits::kMaxJsonDepth));
     }
 
-    // --- an answer of /v1/particles that comes back (particle_answer.h)
-
-    // Whether the key may stand there; what follows from it is done.
+    // Whether a key of the scene itself may stand there for an answer that comes back; what follows from it is done.
     bool key_of_answer(std::string_view name) {
         if (frames_.size() != 1) return false;
-        if (name == "particles" && !has_answer_) {
-            top().field = kAnswerField;
-            return has_answer_ = true;
+        switch (answer_.key(name)) {
+            case AnswerInScene::Key::kParticles:
+                top().field = kAnswerField;
+                return true;
+            case AnswerInScene::Key::kFollows:
+                return pass_over_next();
+            case AnswerInScene::Key::kNone:
+                break;
         }
-        // Both follow from the particles.
-        if (name != "count" && name != "bounds") return false;
-        only_in_answers_ = name;
-        return pass_over_next_ = true;
+        return false;
     }
 
     bool end_answer(Frame& scene) {
-        if (!has_answer_) {
-            if (only_in_answers_.empty()) return true;
-            return fail_at("/" + only_in_answers_,
-                           "belongs to a list of \"particles\", and there is none");
-        }
         const std::uint64_t clouds = std::uint64_t{1} << find_field(*scene.table, "clouds");
         const std::uint64_t cubes = std::uint64_t{1} << find_field(*scene.table, "cubes");
-        if ((scene.seen & (clouds | cubes)) != 0)
-            return fail_at("/particles",
-                           "a scene has either \"particles\" or \"cubes\" or \"clouds\"");
-        auto cloud = cloud_of(answer_);
-        if (!cloud) {
-            error = cloud.error();
+        const auto made = answer_.end((scene.seen & (clouds | cubes)) != 0, draft);
+        if (!made) {
+            error = made.error();
             return false;
         }
-        answer_ = {};
-        draft.clouds.push_back(*std::move(cloud));
-        draft.top_level_cubes = false;
-        scene.seen |= clouds;
+        if (*made) scene.seen |= clouds;
         return true;
     }
 
@@ -478,7 +305,7 @@ class SceneReader {
     }
 
     bool integer(const Field& field, std::uint64_t value) {
-        void* const place = put(field, top().object);
+        void* const place = put_field(field, top().object);
         if (field.access.holds == Holds::kInteger) {
             *static_cast<std::uint64_t*>(place) = value;
             return true;
@@ -497,9 +324,9 @@ class SceneReader {
             case Frame::Type::kObject: {
                 const Field& field = *open_field();
                 if (field.access.holds == Holds::kNumber)
-                    *static_cast<double*>(put(field, frame.object)) = value;
+                    *static_cast<double*>(put_field(field, frame.object)) = value;
                 else if (field.one_for_all)
-                    *static_cast<glm::dvec3*>(put(field, frame.object)) = glm::dvec3(value);
+                    *static_cast<glm::dvec3*>(put_field(field, frame.object)) = glm::dvec3(value);
                 else
                     return wrong_type("a number");
                 return true;
@@ -524,7 +351,7 @@ class SceneReader {
         Frame& frame = top();
         const Field& field = *frame.list_field;
         const std::uint64_t most = field.counts.highest;
-        if (&field == &kAnsweredParticles) frame.index = take_answered(text, answer_);
+        if (&field == &kAnsweredParticles) frame.index = take_answered(text, answer_.answer);
         if (field.access.holds == Holds::kFloats)
             frame.index = take_run<1>(text, most, [&](const std::array<double, 1>& v) {
                 append_to_list(frame.list, v[0]);
@@ -571,13 +398,8 @@ class SceneReader {
     const char* begin_;
     std::vector<Frame> frames_;
     glm::dvec3 row_{0};  // of the list being read
-    // The next value is to be passed over; how deep in one the parser is.
-    bool pass_over_next_ = false;
-    std::size_t passed_depth_ = 0;
-    ParticleAnswer answer_;
-    bool has_answer_ = false;
-    // A key that means something beside particles only, once it has come.
-    std::string only_in_answers_;
+    LeftAlone left_;
+    AnswerInScene answer_;
 };
 
 }  // namespace

@@ -52,6 +52,33 @@ Result<Cloud> cloud_of(const ParticleAnswer& answer) {
     return cloud;
 }
 
+AnswerInScene::Key AnswerInScene::key(std::string_view name) {
+    if (name == "particles" && !is_there_) {
+        is_there_ = true;
+        return Key::kParticles;
+    }
+    if (name != "count" && name != "bounds") return Key::kNone;
+    follows_ = name;
+    return Key::kFollows;
+}
+
+Result<bool> AnswerInScene::end(bool other_clouds, SceneDraft& draft) {
+    const auto wrong = [](std::string pointer, std::string message) {
+        return Error{ErrorCode::kInvalidScene, std::move(pointer), std::move(message)};
+    };
+    if (!is_there_ && follows_.empty()) return false;
+    if (!is_there_)
+        return wrong("/" + follows_, "belongs to a list of \"particles\", and there is none");
+    if (other_clouds)
+        return wrong("/particles", "a scene has either \"particles\" or \"cubes\" or \"clouds\"");
+    auto cloud = cloud_of(answer);
+    if (!cloud) return cloud.error();
+    answer = {};
+    draft.clouds.push_back(*std::move(cloud));
+    draft.top_level_cubes = false;
+    return true;
+}
+
 std::size_t take_answered(TextCursor& cursor, ParticleAnswer& answer) {
     TextCursor c = cursor;
     while (answer.particles.size() < limits::kMaxParticles) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/result.h"
@@ -63,6 +65,26 @@ inline constexpr Field kAnsweredParticles =
 
 // The answer as a scene's one cloud. The error's pointer is into the answer, "/particles/7/radius".
 Result<Cloud> cloud_of(const ParticleAnswer& answer);
+
+// Such an answer on its way, in the outermost object of a document.
+class AnswerInScene {
+  public:
+    // Where kAnsweredParticles go.
+    ParticleAnswer answer;
+
+    // What a key is: `particles`, the first time; what follows from them and is not read (`count`, `bounds`); neither.
+    enum class Key { kNone, kParticles, kFollows };
+    Key key(std::string_view name);
+
+    // At the end of the object. other_clouds: it has `cubes` or `clouds`. True: the answer is the draft's one cloud
+    // now; false: there was none. kInvalidScene where it cannot stand there.
+    Result<bool> end(bool other_clouds, SceneDraft& draft);
+
+  private:
+    bool is_there_ = false;
+    // A key that means something beside particles only, once it has come.
+    std::string follows_;
+};
 
 // Reads ahead what is written as our own answers are (number_runs.h); how many.
 std::size_t take_answered(TextCursor& cursor, ParticleAnswer& answer);

@@ -8,6 +8,7 @@
 #include "core/formats/numbers.h"
 #include "core/formats/particle_files.h"
 #include "server/document/json.h"
+#include "server/document/media_types.h"
 #include "server/document/text_bytes.h"
 
 namespace awan {
@@ -60,16 +61,12 @@ Result<SceneDraft> read_scene(SceneFormat format, std::string_view bytes,
 }
 
 std::optional<SceneFormat> scene_format_of_type(std::string_view media_type) {
-    if (media_type == "application/json" || media_type == "text/json" ||
-        (media_type.starts_with("application/") && media_type.ends_with("+json")))
+    const std::string_view type = usual_media_type(media_type);
+    if (type == "application/json" || (type.starts_with("application/") && type.ends_with("+json")))
         return SceneFormat::kJson;
-    if (media_type == "text/x-awn") return SceneFormat::kAwn;
-    if (media_type == "application/x-ply" || media_type == "application/ply" ||
-        media_type == "model/ply" || media_type == "model/x-ply")
-        return SceneFormat::kPly;
-    if (media_type == "text/csv" || media_type == "application/csv" ||
-        media_type == "text/tab-separated-values")
-        return SceneFormat::kCsv;
+    if (type == "text/x-awn") return SceneFormat::kAwn;
+    if (type == "application/x-ply") return SceneFormat::kPly;
+    if (type == "text/csv" || type == "text/tab-separated-values") return SceneFormat::kCsv;
     return std::nullopt;
 }
 

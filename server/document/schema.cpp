@@ -12,6 +12,7 @@
 #include "core/scene/spheres.h"
 #include "server/document/json.h"
 #include "server/document/json_text.h"
+#include "server/document/particle_answer.h"
 
 namespace awan {
 namespace {
@@ -335,11 +336,31 @@ std::string object_schema(const Table& table, const void* standards, Schemas& sc
     return out + '}';
 }
 
+// A document in which ready particles stand in place of cubes and clouds, as /v1/particles answers.
+std::string scene_of_particles(Schemas& schemas) {
+    Table scene = table_of<SceneDraft>();
+    std::vector<Field> rest;
+    for (const Field& field : scene.fields)
+        if (field.name != std::string_view("cubes") && field.name != std::string_view("clouds"))
+            rest.push_back(field);
+    scene.fields = rest;
+    std::string out = '{' + object_members(scene, scene.standard(), {}, schemas);
+    const ParticleAnswer none;
+    const std::string own =
+        "\"particles\":" + field_schema(kAnsweredParticles, &none, schemas) +
+        R"(,"count":{"description":"Not read: the list says it."},"bounds":{"description":"Not read."},)";
+    constexpr std::string_view kProperties = "\"properties\":{";
+    out.insert(out.find(kProperties) + kProperties.size(), own);
+    words("description", "An answer of /v1/particles, with whatever else a scene has.", out);
+    return out + R"(,"required":["particles"]})";
+}
+
 }  // namespace
 
 std::string scene_schemas() {
     Schemas schemas;
     object_reference(table_of<SceneDraft>(), nullptr, schemas);
+    schemas["SceneOfParticles"] = scene_of_particles(schemas);
     std::vector<const char*> rungs;
     for (const Rung& rung : ladder()) rungs.push_back(rung.name);
     schemas["Rung"] = words_schema(rungs);

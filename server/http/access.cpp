@@ -30,9 +30,15 @@ bool same_secret(std::string_view a, std::string_view b) {
     return difference == 0;
 }
 
-bool needs_token(const RequestHead& head) {
+bool only_reads(const RequestHead& head) {
+    return head.method == "GET" || head.method == "HEAD";
+}
+
+bool needs_token(const RequestHead& head, const AccessRules& rules) {
     const std::string_view path = std::string_view(head.target).substr(0, head.target.find('?'));
-    return path != "/healthz" && path != "/readyz" && head.method != "OPTIONS";
+    if (path == "/healthz" || path == "/readyz" || head.method == "OPTIONS") return false;
+    return !only_reads(head) || std::find(rules.open_paths.begin(), rules.open_paths.end(), path) ==
+                                    rules.open_paths.end();
 }
 
 bool shows_token(const RequestHead& head, std::string_view token) {
@@ -60,9 +66,9 @@ std::optional<FramingError> check_access(const RequestHead& head, const AccessRu
         return FramingError{421,
                             "this server does not answer for that Host; "
                             "awan serve --allow-host names more"};
-    if (!rules.token.empty() && needs_token(head) && !shows_token(head, rules.token))
+    if (!rules.token.empty() && needs_token(head, rules) && !shows_token(head, rules.token))
         return FramingError{401, "this server wants its token: Authorization: Bearer ..."};
-    if (head.method == "GET" || head.method == "HEAD") return std::nullopt;
+    if (only_reads(head)) return std::nullopt;
     for (const auto& [name, value] : head.headers)
         if (same(name, "Origin") && !own_origin(value, head.host) &&
             !contains(rules.origins, value))

@@ -18,11 +18,14 @@ struct AccessRules {
     std::vector<std::string> origins;
     // "": none is needed.
     std::string token;
+    // Paths that anyone may read: what they say is the same for everyone.
+    std::vector<std::string> open_paths;
 };
 
 // 421 for a foreign Host: a page on evil.example whose name has been rebound to 127.0.0.1 must not
 // talk to this server. 403 for anything but GET and HEAD from a foreign Origin, "null" included. 401 without the token
-// (Authorization: Bearer, RFC 6750), except for /healthz, /readyz and OPTIONS, which tell nothing.
+// (Authorization: Bearer, RFC 6750), except for OPTIONS, /healthz and /readyz, which tell nothing, and for GET and HEAD
+// of open paths.
 std::optional<FramingError> check_access(const RequestHead& head, const AccessRules& rules);
 
 // The Origin to name in Access-Control-Allow-Origin: an allowed one that is not this server's own.

@@ -60,8 +60,7 @@ class HttpCodec::Impl : public httplib::Server {
             try {
                 fill(answer_(request), out);
             } catch (const std::exception&) {
-                out.status = 503;
-                out.headers.emplace("Retry-After", "1");
+                say_no_memory(out);
             }
             return HandlerResponse::Handled;
         });
@@ -87,6 +86,17 @@ class HttpCodec::Impl : public httplib::Server {
     }
 
   private:
+    // There is none even for the words of an error.
+    void say_no_memory(httplib::Response& out) noexcept {
+        try {
+            out = {};
+            out.status = 503;
+            out.headers.emplace("Retry-After", "1");
+        } catch (const std::exception&) {
+            stream_->drop();
+        }
+    }
+
     void fill(Response response, httplib::Response& out) {
         if (response.abandoned) stream_->drop();
         out.status = response.status;

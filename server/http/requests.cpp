@@ -235,7 +235,9 @@ void HttpServer::State::taken_back(Connection& c, bool alive) {
 
 void HttpServer::State::written(Connection& c) {
     const auto now = Clock::now();
-    if (c.close_after || c.half_closed) {
+    // More requests may have come before the client closed its side; that they end is found out by reading.
+    c.half_closed = false;
+    if (c.close_after) {
         shutdown(c.socket.get(), SHUT_WR);
         c.stand = Stand::kLingering;
         c.until = now + limits::kLingerDeadline;

@@ -28,8 +28,8 @@ constexpr std::chrono::milliseconds kAcceptPause{100};
 // Connections beyond the table, kept just long enough to tell them so.
 constexpr std::size_t kTurnedAway = 32;
 
-// How long a body may come before its connection may have to make room for another, if it is the slowest.
-constexpr std::chrono::milliseconds kBodyGrace{500};
+// How long a head or a body may come before its connection may have to make room for another, if it is the slowest.
+constexpr std::chrono::milliseconds kGrace{500};
 
 // After memory ran out outside any connection.
 constexpr std::chrono::milliseconds kMemoryPause{20};
@@ -137,7 +137,7 @@ void HttpServer::State::on_event(Connection& c, short events) {
         case Stand::kWriting:
             if (!send_unsent(c, parked)) return end(c);
             if (!c.unsent()) written(c);
-            return;
+            return advance(c);
         case Stand::kLingering: {
             std::string thrown_away;
             if (receive(c, kLongBody, thrown_away) == Received::kClosed) end(c);
@@ -201,7 +201,8 @@ void HttpServer::State::accept_all() {
         const int on = 1;
         setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
         const bool full = connections.size() >= options.max_connections && !make_room();
-        if (full && connections.size() >= options.max_connections + kTurnedAway) continue;
+        if (full && connections.size() >= options.max_connections + kTurnedAway && !end_lingering())
+            continue;
         Connection& c = connections.emplace_back();
         c.local_address = address_of(socket.get(), getsockname);
         c.client = address_of(socket.get(), getpeername);
@@ -214,10 +215,11 @@ void HttpServer::State::accept_all() {
 
 // Closes the connection that has waited longest for a head, one that has sent nothing before one
 // that has begun, and where there is none, the one whose body comes slowest: the newcomer is likelier to have
-// something to say. False when all are at work.
+// something to say. Whoever has just come has time to say it while there are others. False when all are at work.
 bool HttpServer::State::make_room() {
     const auto now = Clock::now();
     Connection* longest = nullptr;
+    Connection* newcomer = nullptr;
     Connection* slowest = nullptr;
     const auto rank = [](const Connection& x) { return std::pair(!x.in.empty(), x.since); };
     const auto rate = [&](const Connection& x) {
@@ -226,11 +228,13 @@ bool HttpServer::State::make_room() {
     };
     for (Connection& c : connections) {
         if (c.socket.get() < 0 || c.in_reserve) continue;
-        if (c.stand == Stand::kHead && (!longest || rank(c) < rank(*longest))) longest = &c;
-        if (c.stand == Stand::kBody && now - c.body_since > kBodyGrace &&
+        Connection*& head = now - c.since > kGrace ? longest : newcomer;
+        if (c.stand == Stand::kHead && (!head || rank(c) < rank(*head))) head = &c;
+        if (c.stand == Stand::kBody && now - c.body_since > kGrace &&
             (!slowest || rate(c) < rate(*slowest)))
             slowest = &c;
     }
+    if (!longest && !slowest) longest = newcomer;
     if (longest) {
         metrics.connection_refused("connections");
         end(*longest);
@@ -240,6 +244,18 @@ bool HttpServer::State::make_room() {
     refuse(*slowest, 503, "there are too many connections, and this body came slowest",
            "connections");
     end(*slowest);
+    return true;
+}
+
+// Closes the connection that has lingered longest, which has had its answer. False when none does.
+bool HttpServer::State::end_lingering() {
+    Connection* longest = nullptr;
+    for (Connection& c : connections)
+        if (c.socket.get() >= 0 && c.stand == Stand::kLingering &&
+            (!longest || c.until < longest->until))
+            longest = &c;
+    if (!longest) return false;
+    end(*longest);
     return true;
 }
 
@@ -290,6 +306,7 @@ Status HttpServer::bind() {
                          s.options.allowed_hosts.end());
     s.rules.origins = s.options.allowed_origins;
     s.rules.token = s.options.token;
+    s.rules.open_paths = s.service.page_paths();
     return std::nullopt;
 }
 

@@ -58,6 +58,7 @@ struct HttpServer::State {
 
     void accept_all();
     bool make_room();
+    bool end_lingering();
     void poll_once();
     void on_event(Connection& c, short events);
     void on_timeout(Connection& c);

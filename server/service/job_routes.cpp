@@ -25,7 +25,9 @@ const std::vector<JobKind>& job_kinds() {
         {"accuracy",
          "/v1/accuracy",
          {{"json", "application/json"}, {"csv", "text/csv"}, {"png", "image/png"}}},
-        {"sequence", "", {{"webp", "image/webp"}, {"apng", "image/apng"}}}};
+        {"sequence",
+         "",
+         {{"webp", "image/webp"}, {"apng", "image/apng"}, {"zip", "application/zip"}}}};
     return kinds;
 }
 

@@ -52,6 +52,24 @@ void append_histogram(std::string& out, const std::string& name, const std::stri
     out += "\n" + name + "_count{" + label + "} " + count + "\n";
 }
 
+void append_disk_cache(const DiskCache::Counts& disk, std::string& out) {
+    const auto one = [&](const char* name, const char* type, const char* help,
+                         std::uint64_t value) {
+        const std::string whole = std::string("awan_cache_disk_") + name;
+        append_head(out, whole, type, help);
+        out += whole + " " + std::to_string(value) + "\n";
+    };
+    one("hits_total", "counter", "Renders answered from those kept on disk.", disk.hits);
+    one("damaged_total", "counter", "Kept files that were not whole, or another's, and removed.",
+        disk.damaged);
+    one("evicted_total", "counter", "Kept files that gave way to others.", disk.evicted);
+    one("failed_total", "counter", "Answers that could not be written.", disk.failed);
+    one("skipped_total", "counter", "Answers that were not, since too many waited to be written.",
+        disk.skipped);
+    one("bytes", "gauge", "Of the files, as last counted.", disk.bytes);
+    one("entries", "gauge", "Files, as last counted.", disk.entries);
+}
+
 void append_lanes(const Gauges& now, std::string& out) {
     append_head(out, "awan_lanes", "gauge",
                 "Lanes, and how many are taken, by what computes in them.");
@@ -138,12 +156,13 @@ std::string Metrics::text(const Gauges& now) const {
     one("awan_work_bytes", "gauge", "Memory that scenes at work have of their budget, estimated.",
         now.work_bytes);
     one("awan_work_bytes_limit", "gauge", "That budget.", now.work_bytes_most);
-    one("awan_cache_hits_total", "counter", "Renders answered from those that are kept.",
+    one("awan_cache_hits_total", "counter", "Renders answered from those kept in memory.",
         state_->cache_hits);
     one("awan_cache_misses_total", "counter", "Renders that were not among those kept.",
         state_->cache_misses);
     one("awan_cache_bytes", "gauge", "Memory of the answers that are kept.", now.cache_bytes);
     one("awan_cache_entries", "gauge", "Answers that are kept.", now.cache_entries);
+    append_disk_cache(now.disk, out);
     one("awan_jobs_waiting", "gauge", "Jobs that have not begun.", now.jobs_waiting);
     one("awan_jobs_running", "gauge", "Jobs that run.", now.jobs_running);
     one("awan_job_result_bytes", "gauge", "Results of jobs that are kept.", now.job_bytes);

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "server/service/disk_cache.h"
 #include "server/service/lanes.h"
 
 namespace awan {
@@ -21,6 +22,7 @@ struct Gauges {
     Lanes::Load device_lane{};
     std::size_t work_bytes = 0, work_bytes_most = 0;
     std::size_t cache_bytes = 0, cache_entries = 0;
+    DiskCache::Counts disk{};
     std::size_t jobs_waiting = 0, jobs_running = 0, job_bytes = 0;
 };
 
@@ -41,7 +43,8 @@ class Metrics {
     // "connections", "requests", "memory".
     void connection_refused(std::string_view reason);
 
-    // An answer was looked for among those that are kept.
+    // An answer was looked for among those that are kept: it was there, or it was rendered. Hits on disk are the disk
+    // cache's own to count.
     void cache_asked(bool hit);
 
     std::string text(const Gauges& now) const;

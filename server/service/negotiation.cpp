@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "server/document/media_types.h"
 #include "server/header_text.h"
 
 namespace awan {
@@ -48,16 +49,6 @@ int quality_of(std::string_view text) {
     return std::min(value, 1000);
 }
 
-// Other names for what is offered, as they are in use.
-bool is_named(std::string_view range, std::string_view offer) {
-    if (range == offer) return true;
-    if (offer == "application/x-ply")
-        return range == "application/ply" || range == "model/ply" || range == "model/x-ply";
-    if (offer == "image/x-exr")
-        return range == "image/exr" || range == "image/openexr" || range == "image/aces";
-    return offer == "text/csv" && range == "application/csv";
-}
-
 // Quality of `offer`: that of the most specific range that covers it.
 int quality(std::string_view accept, std::string_view offer) {
     const std::string_view type = offer.substr(0, offer.find('/'));
@@ -67,7 +58,7 @@ int quality(std::string_view accept, std::string_view offer) {
         std::string_view parameters = next_part(accept, ',');
         const std::string range = lower(next_part(parameters, ';'));
         int specificity = -1;
-        if (is_named(range, offer)) {
+        if (usual_media_type(range) == offer) {
             specificity = 2;
         } else if (range == std::string(type) + "/*") {
             specificity = 1;

@@ -52,19 +52,14 @@ std::string effects_on(const Plan& plan) {
     return names;
 }
 
-Result<std::string> encode(const Rendered& rendered, const Scene& scene, std::string_view type,
-                           const Deadline& deadline) {
-    if (type == kExr)
-        return encode_exr(rendered.image, scene->image.precision, notes_of(rendered), deadline);
-    return encode_png(rendered.image, scene->image.exposure.value_or(auto_exposure(scene)), 8,
-                      deadline);
-}
-
 // What encoding a pixel takes, ns, on the machine of the calibration: 17 to 27 of PNG (800 x 600), 65 to 70 of half
-// floats and 275 of floats (2048 x 1024) were measured; that, and half as much again.
-double encode_ms(const Scene& scene, std::string_view type, const MachineSpeed& speed) {
+// floats and 275 of floats (2048 x 1024) were measured; that, and half as much again. Of an EXR, threads share all but
+// a tenth, which hands the lines over.
+double encode_ms(const Scene& scene, std::string_view type, const MachineSpeed& speed,
+                 int threads) {
     const double ns = type == kPng ? 40 : scene->image.precision == Precision::kHalf ? 105 : 415;
-    return 1e-6 * ns * speed.slowness * scene->image.width * scene->image.height;
+    const double share = type == kPng ? 1 : 0.1 + 0.9 / threads;
+    return 1e-6 * ns * share * speed.slowness * scene->image.width * scene->image.height;
 }
 
 // A number as text for a header.
@@ -159,14 +154,50 @@ void add_errors(const Rendered& rendered, Response& response) {
         response.headers.emplace_back("Awan-Time", number_text("%.1f", predicted.time_ms));
 }
 
+bool keeps_answers(const Service::State& state) {
+    return state.results.keeps() || state.options.disk;
+}
+
+// An answer that is good without being kept is not lost for want of the memory to keep it. What is too large for either
+// place is not even copied.
+void keep_answer(Service::State& state, const std::string& etag, const Response& response) {
+    const std::size_t room =
+        std::max(state.options.cache_bytes, state.options.disk ? limits::kDiskCacheBytes : 0);
+    if (response.body.size() > room / 8) return;
+    try {
+        const auto kept = std::make_shared<const KeptResult>(
+            KeptResult{response.headers, std::make_shared<const std::string>(response.body)});
+        state.results.keep(etag, kept);
+        if (state.options.disk) state.options.disk->keep(etag, kept);
+    } catch (const std::bad_alloc&) {
+    }
+}
+
 // What a kept answer has of its own: not the time it took, not what is said of keeping it.
-Response kept_answer(const KeptResult& kept) {
+Response kept_answer(const KeptResult& kept, const char* where, std::string_view reason) {
     Response response;
     response.headers = kept.headers;
     response.body = *kept.body;
-    response.headers.emplace_back("Awan-Cache", "hit");
-    response.reason = "cache hit";
+    response.headers.emplace_back("Awan-Cache", where);
+    response.reason = reason;
     return response;
+}
+
+std::optional<Response> answer_from_disk(Service::State& state, const std::string& etag) {
+    if (!state.options.disk) return std::nullopt;
+    const auto kept = state.options.disk->find(etag);
+    if (!kept) return std::nullopt;
+    state.results.keep(etag, kept);
+    return kept_answer(*kept, "disk", "disk hit");
+}
+
+// What an answer depends on beside scene and renderer: a rung that is chosen by predicted times is this machine's, with
+// these threads. Named rungs are chosen by nothing, and down to the default error only threads shift what is cheaper.
+std::string chosen_by(const Service::State& state, const Accuracy& accuracy) {
+    if (accuracy.rung) return {};
+    const std::string threads = std::to_string(state.options.threads);
+    const bool by_time = accuracy.time_ms || accuracy.error.value_or(kDefaultError) < kDefaultError;
+    return by_time ? threads + " " + speed_text(state) : threads;
 }
 
 }  // namespace
@@ -178,6 +209,14 @@ std::string server_timing(std::span<const std::pair<const char*, double>> millis
         header += name + number_text(";dur=%.3f", ms);
     }
     return header;
+}
+
+Result<std::string> encode_picture(const Rendered& rendered, const Scene& scene,
+                                   std::string_view type, const Deadline& deadline) {
+    if (type == kExr)
+        return encode_exr(rendered.image, scene->image.precision, notes_of(rendered), deadline);
+    return encode_png(rendered.image, scene->image.exposure.value_or(auto_exposure(scene)), 8,
+                      deadline);
 }
 
 Drawn draw_in_lanes(Service::State& state, const Request& request, const Scene& scene,
@@ -220,18 +259,19 @@ Response answer_render(Service::State& state, const Request& request, const Scen
     const RenderThread::Info info = state.renderer.info();
     const std::string etag =
         make_etag({"render", fingerprint(scene), engine_version(), info.device.renderer,
-                   info.device.version, type, scene->accuracy.rung ? "" : speed_text(state)});
+                   info.device.version, type, chosen_by(state, scene->accuracy)});
     if (none_match_names(joined_header(request, "If-None-Match"), etag))
         return not_modified(etag, true);
     if (const auto kept = state.results.find(etag)) {
         state.metrics.cache_asked(true);
-        return kept_answer(*kept);
+        return kept_answer(*kept, "hit", "cache hit");
     }
 
     Way way{state, request, scene, type};
-    way.encode_ms = encode_ms(scene, type, state.options.speed);
+    way.encode_ms = encode_ms(scene, type, state.options.speed, threads_of_one(state));
     WorkBudget::Lease lease = state.budget.take(work_bytes(*scene, true));
     if (!lease) return no_memory(state, request);
+    if (auto kept = answer_from_disk(state, etag)) return *std::move(kept);
     auto planned = plan_scene(scene, state.options.threads, request.deadline, state.options.speed,
                               &state.tiles, &state.settling_lights);
     if (!planned) return fail(planned.error(), request);
@@ -252,7 +292,7 @@ Response answer_render(Service::State& state, const Request& request, const Scen
     timing.queue_ms = drawn.queue_ms;
     if (!rendered) return way.failed(rendered.error(), plan);
     const auto start = Clock::now();
-    auto bytes = encode(*rendered, scene, type, request.deadline);
+    auto bytes = encode_picture(*rendered, scene, type, request.deadline);
     timing.encode_ms = ms_since(start);
     if (!bytes) return way.failed(bytes.error(), plan);
     if (const Status over = request.deadline.over()) return way.failed(*over, plan);
@@ -265,9 +305,9 @@ Response answer_render(Service::State& state, const Request& request, const Scen
     add_errors(*rendered, response);
     response.headers.emplace_back("Awan-Particles", std::to_string(rendered->survey.particles));
     response.body = std::move(bytes).value();
-    if (state.results.keeps()) {
+    if (keeps_answers(state)) {
         state.metrics.cache_asked(false);
-        state.results.keep(etag, response.headers, response.body);
+        keep_answer(state, etag, response);
         response.headers.emplace_back("Awan-Cache", "miss");
     }
     response.stages = stages_of(timing, state.metrics);

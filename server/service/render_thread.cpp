@@ -151,8 +151,10 @@ void RenderThread::State::run(const OpenRenderer& open) {
             // Not even for the words of an error.
             result.emplace(Error{ErrorCode::kOutOfMemory, {}, {}});
         }
+        // A bug, no memory, a context that was lost: what is opened anew knows nothing of it.
         const bool at_fault = !result->ok() && (result->error().code == ErrorCode::kInternal ||
-                                                result->error().code == ErrorCode::kOutOfMemory);
+                                                result->error().code == ErrorCode::kOutOfMemory ||
+                                                result->error().code == ErrorCode::kNoRenderer);
         if (at_fault) renderer.reset();
 
         lock.lock();

@@ -1,11 +1,15 @@
-// The frames of a sequence as one animation. What is settled for all frames is settled once; then each frame has a
-// lane for itself, so that others compute between two of them.
+// The frames of a sequence as one animation, or as pictures in one archive. What is settled for all frames is settled
+// once; then each frame has a lane for itself, so that others compute between two of them.
+#include <array>
 #include <chrono>
+#include <cstdio>
+#include <optional>
 #include <thread>
 #include <utility>
 
 #include "core/formats/animation.h"
 #include "core/formats/image_file.h"
+#include "core/formats/zip_archive.h"
 #include "core/sequence.h"
 #include "server/service/problem.h"
 #include "server/service/state.h"
@@ -15,6 +19,69 @@ namespace {
 
 // That an animation shows.
 constexpr double kFramesPerSecond = 12;
+
+// Before a lane, or memory, is asked for again.
+constexpr std::chrono::milliseconds kLinesAreFull{100};
+
+// Where the frames go, in their order.
+class Reel {
+  public:
+    // format: "webp", "apng" or "zip".
+    static Result<Reel> begin(const std::string& format, std::uint64_t frames) {
+        Reel reel;
+        if (format == "zip") {
+            auto archive = ZipArchive::begin();
+            if (!archive) return archive.error();
+            reel.archive_ = *std::move(archive);
+            return reel;
+        }
+        auto animation =
+            Animation::begin(format == "apng" ? AnimationFormat::kApng : AnimationFormat::kWebp,
+                             kFramesPerSecond, frames);
+        if (!animation) return animation.error();
+        reel.animation_ = *std::move(animation);
+        return reel;
+    }
+    Status add(const Rendered& rendered, const Scene& scene, std::uint64_t frame,
+               const Deadline& deadline) {
+        if (animation_)
+            return animation_->add(rendered.image,
+                                   scene->image.exposure.value_or(auto_exposure(scene)));
+        const bool exr = scene->image.format == ImageFormat::kExr;
+        auto bytes = encode_picture(rendered, scene, exr ? "image/x-exr" : "image/png", deadline);
+        if (!bytes) return bytes.error();
+        return archive_->add(frame_name(frame, exr ? "exr" : "png"), *bytes);
+    }
+    // Of an archive so far. An animation is small beside its frames.
+    std::size_t bytes() const { return archive_ ? archive_->bytes() : 0; }
+    Result<std::string> end() { return animation_ ? animation_->end() : archive_->end(); }
+
+  private:
+    // As of `awan render SCENE --frames all -o frame.%04d.png`.
+    static std::string frame_name(std::uint64_t frame, const char* ending) {
+        std::array<char, 40> name{};
+        std::snprintf(name.data(), name.size(), "frame.%04llu.%s",
+                      static_cast<unsigned long long>(frame), ending);
+        return name.data();
+    }
+
+    std::optional<Animation> animation_;
+    std::optional<ZipArchive> archive_;
+};
+
+const char* type_of_reel(const std::string& format) {
+    if (format == "zip") return "application/zip";
+    return format == "apng" ? "image/apng" : "image/webp";
+}
+
+// Memory for what the reel has become. Whoever has much of it gives it back in time.
+Status grow_lease(WorkBudget::Lease& lease, std::size_t bytes, const Deadline& deadline) {
+    while (!lease.grow(bytes)) {
+        if (auto over = deadline.over()) return over;
+        std::this_thread::sleep_for(kLinesAreFull);
+    }
+    return std::nullopt;
+}
 
 // One frame, drawn; or what is to be said instead.
 Drawn frame_of(Service::State& state, const Request& request, const Settled& settled, double time,
@@ -43,7 +110,7 @@ Response answer_sequence(Service::State& state, const Request& request, const st
     auto scene = read_request_scene(request);
     if (!scene) return fail(scene.error(), request);
     const Sequence& sequence = *(*scene)->sequence;
-    const WorkBudget::Lease lease = state.budget.take(work_bytes(**scene, true));
+    WorkBudget::Lease lease = state.budget.take(work_bytes(**scene, true));
     if (!lease) return no_memory(state, request);
     const auto settled = [&]() -> Result<Settled> {
         Lanes::Pass pass(state.lanes);
@@ -54,32 +121,38 @@ Response answer_sequence(Service::State& state, const Request& request, const st
                       request.deadline);
     }();
     if (!settled) return fail(settled.error(), request);
-    auto animation =
-        Animation::begin(format == "apng" ? AnimationFormat::kApng : AnimationFormat::kWebp,
-                         kFramesPerSecond, sequence.frames);
-    if (!animation) return fail(animation.error(), request);
+    auto reel = Reel::begin(format, sequence.frames);
+    if (!reel) return fail(reel.error(), request);
     for (std::uint64_t i = 0; i < sequence.frames;) {
         Scene still = *scene;
         Drawn drawn = frame_of(state, request, *settled, frame_time(sequence, i), still);
         // The lines are full at the moment. What has been drawn is not lost for that.
         if (drawn.refused && drawn.refused->status == 429 && !request.deadline.over()) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            std::this_thread::sleep_for(kLinesAreFull);
             continue;
         }
         if (drawn.refused) return std::move(*drawn.refused);
         if (!drawn.rendered) return fail(drawn.rendered.error(), request);
-        const double exposure = still->image.exposure.value_or(auto_exposure(still));
-        if (const Status failed = animation->add(drawn.rendered->image, exposure))
+        const std::size_t before = reel->bytes();
+        if (const Status failed = reel->add(*drawn.rendered, still, i, request.deadline))
             return fail(*failed, request);
+        if (reel->bytes() > limits::kJobBytes)
+            return fail(
+                {ErrorCode::kTooLarge, "/scene/sequence/frames",
+                 "the first " + std::to_string(i + 1) + " of " + std::to_string(sequence.frames) +
+                     " frames take over " + std::to_string(limits::kJobBytes >> 20) +
+                     " MiB, which is what a result may have; ask for fewer or smaller ones"},
+                request);
+        if (const Status over = grow_lease(lease, reel->bytes() - before, request.deadline))
+            return fail(*over, request);
         ++i;
         if (request.progress)
             request.progress(static_cast<double>(i) / static_cast<double>(sequence.frames));
     }
-    auto bytes = animation->end();
+    auto bytes = reel->end();
     if (!bytes) return fail(bytes.error(), request);
     Response response;
-    response.headers = {{"Content-Type", format == "apng" ? "image/apng" : "image/webp"},
-                        {"Cache-Control", "no-store"}};
+    response.headers = {{"Content-Type", type_of_reel(format)}, {"Cache-Control", "no-store"}};
     response.body = *std::move(bytes);
     return response;
 }

@@ -163,6 +163,7 @@ Gauges gauges(const Service::State& state) {
     now.work_bytes_most = state.budget.bytes();
     now.cache_bytes = state.results.bytes_in_use();
     now.cache_entries = state.results.entries();
+    if (state.options.disk) now.disk = state.options.disk->counts();
     const Jobs::Load jobs = state.jobs->load();
     now.jobs_waiting = jobs.waiting;
     now.jobs_running = jobs.running;
@@ -294,6 +295,12 @@ bool Service::waits_for_events(std::string_view target) {
 
 void Service::drain() {
     state_->draining = true;
+}
+
+std::vector<std::string> Service::page_paths() const {
+    std::vector<std::string> paths;
+    for (const Page& page : state_->pages) paths.push_back(page.path);
+    return paths;
 }
 
 int Service::retry_after_seconds() const {

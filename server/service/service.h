@@ -12,6 +12,7 @@
 #include "core/base/deadline.h"
 #include "core/base/progress.h"
 #include "server/limits.h"
+#include "server/service/disk_cache.h"
 #include "server/service/lanes.h"
 #include "server/service/metrics.h"
 #include "server/service/render_thread.h"
@@ -75,6 +76,8 @@ struct ServiceOptions {
     std::size_t work_bytes = limits::kWorkBytes;
     // Of answers that are kept; see server/service/result_cache.h.
     std::size_t cache_bytes = 0;
+    // Where answers are kept beyond that; null: nowhere.
+    std::shared_ptr<DiskCache> disk;
     // Renders what needs no device; empty: processor_renderer().
     RenderOnProcessor on_processor;
     // Jobs that run at once, each in lanes as any request.
@@ -102,6 +105,10 @@ class Service {
     // From now on /readyz says 503 and new work is refused with 503 + Retry-After; health and what
     // has begun go on.
     void drain();
+
+    // What the page is made of, and the contract: the same for everyone. A browser fetches it before it can show a
+    // token.
+    std::vector<std::string> page_paths() const;
 
     // When a client that was refused for load may come again, seconds.
     int retry_after_seconds() const;

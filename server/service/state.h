@@ -22,7 +22,7 @@ struct Service::State {
           metrics(m),
           options(std::move(o)),
           budget(options.work_bytes),
-          results(options.cache_bytes),
+          results(options.cache_bytes, options.cache_bytes / 8),
           lanes(options.lanes),
           device_lane({1, 0, options.lanes.line, options.lanes.patience}) {}
 
@@ -81,7 +81,7 @@ Response submit_job(Service::State& state, const Request& request);
 Response tell_job(Service::State& state, const Request& request);
 Response answer_job_work(Service::State& state, const JobWork& work, const Request& request);
 
-// The frames of a sequence as an animation, "webp" or "apng" (sequence_job.cpp).
+// The frames of a sequence as an animation, "webp" or "apng", or as pictures in an archive, "zip" (sequence_job.cpp).
 Response answer_sequence(Service::State& state, const Request& request, const std::string& format);
 
 // Draws what is planned: with the device, in whose line it waits while another computes in its lane, or in its lane.
@@ -97,6 +97,10 @@ Drawn draw_in_lanes(Service::State& state, const Request& request, const Scene& 
 // POST /v1/render (render.cpp). pass: in a lane, after so many ms.
 Response answer_render(Service::State& state, const Request& request, const Scene& scene,
                        std::string_view type, Lanes::Pass& pass);
+
+// A picture as `type`: "image/png" or "image/x-exr", the same bytes wherever it is asked for.
+Result<std::string> encode_picture(const Rendered& rendered, const Scene& scene,
+                                   std::string_view type, const Deadline& deadline);
 
 // An error as an answer; nobody waits for that of a cancelled request.
 Response fail(const Error& error, const Request& request);
