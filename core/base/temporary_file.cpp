@@ -30,7 +30,7 @@ int create_temporary(const std::string& directory, mode_t mode, std::string& nam
         const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
         if (fd < 0 && errno == EEXIST) continue;
         if (fd < 0) return fd;
-        // Before it was locked, another may have taken it for one that was left; who has locked it will remove it.
+        // Before it was locked, another may have taken it for one that was left, and is about to remove it.
         struct stat created {};
         flock(fd, LOCK_EX);
         if (fstat(fd, &created) != 0 || created.st_nlink > 0) return fd;
@@ -49,7 +49,13 @@ void remove_abandoned(const std::string& directory) {
         const int fd = openat(dirfd(entries.get()), entry->d_name,
                               O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
         if (fd < 0) continue;
-        if (flock(fd, LOCK_EX | LOCK_NB) == 0) unlinkat(dirfd(entries.get()), entry->d_name, 0);
+        // Since it was opened it may have taken its place, and another file its name.
+        struct stat locked {
+        }, named{};
+        if (flock(fd, LOCK_EX | LOCK_NB) == 0 && fstat(fd, &locked) == 0 &&
+            fstatat(dirfd(entries.get()), entry->d_name, &named, AT_SYMLINK_NOFOLLOW) == 0 &&
+            locked.st_dev == named.st_dev && locked.st_ino == named.st_ino)
+            unlinkat(dirfd(entries.get()), entry->d_name, 0);
         ::close(fd);
     }
 }
