@@ -18,7 +18,8 @@ server=
 mounted=
 b() { local command=$1; shift; buildah --root "$work/storage" --runroot "$work/run" --storage-driver vfs "$command" "$@"; }
 cleanup() {
-    [ -n "$server" ] && disown "$server" && kill -KILL "$server" 2>/dev/null
+    # What this shell started is a shell that waits for unshare, which takes the server with it.
+    [ -n "$server" ] && pkill -KILL -P "$server"
     wait 2>/dev/null
     [ -n "$mounted" ] && b rm "$mounted" >/dev/null
     [ -n "${WORK:-}" ] || rm -rf "$work"

@@ -109,8 +109,8 @@ while [ ${#doomed[@]} = 0 ]; do
     done 2>/dev/null
     [ $((SECONDS - begin)) -lt 300 ] || { fail "nothing runs on node2"; exit 1; }
 done
-disown "${node[2]}"
 kill -KILL "${node[2]}" "${doomed[@]}" 2>/dev/null
+{ wait "${node[2]}"; } 2>/dev/null
 echo "slurm.sh: node2 killed after $(made) frames"
 while [ -n "$(squeue -h -j "$job" 2>&1)" ]; do
     sleep 0.5
