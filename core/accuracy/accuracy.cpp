@@ -12,6 +12,7 @@
 #include "core/accuracy/reference.h"
 #include "core/accuracy/rung_cost.h"
 #include "core/accuracy/steps.h"
+#include "core/formats/image_file.h"
 #include "core/scene/rungs.h"
 #include "core/scene/validate.h"
 

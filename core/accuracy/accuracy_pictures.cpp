@@ -26,10 +26,6 @@ std::vector<std::uint8_t> display_bytes(const Image& image, double exposure) {
     return bytes;
 }
 
-double exposure_of(const Scene& scene) {
-    return scene->image.exposure.value_or(auto_exposure(scene));
-}
-
 PictureSize fitted_size(int width, int height, int side) {
     const int longer = std::max(width, height);
     if (longer <= side) return {width, height};

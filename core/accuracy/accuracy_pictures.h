@@ -19,9 +19,6 @@ Image over_sky(const Image& transparent, const Scene& scene, const View& view,
 // transparent is black.
 std::vector<std::uint8_t> display_bytes(const Image& image, double exposure);
 
-// Of a scene whose document leaves it open, too (core/formats/image_file.h).
-double exposure_of(const Scene& scene);
-
 // The size of a picture with the shape of `width` x `height` and a longer side of at most `side`.
 struct PictureSize {
     int width = 1, height = 1;

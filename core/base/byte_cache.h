@@ -21,6 +21,7 @@ class ByteCache {
         : bytes_(bytes), most_of_one_(std::min(most_of_one, bytes)) {}
 
     bool keeps() const { return bytes_ > 0; }
+    std::size_t most_of_one() const { return most_of_one_; }
 
     // Null: it is not here. What is found counts as the most recently used.
     std::shared_ptr<const Value> find(const std::string& key) {

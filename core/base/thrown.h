@@ -3,17 +3,26 @@
 
 #include <exception>
 #include <new>
+#include <string>
+#include <string_view>
 #include <system_error>
 
 #include "core/base/result.h"
 
 namespace awan {
 
-// kOutOfMemory of what memory, or threads, that could not be had throw; kInternal with the exception's text of others.
+// What is said where there is no memory; of those who have none even for an Error.
+inline constexpr std::string_view kOutOfMemoryText = "there is not enough memory for this now";
+
+inline Error out_of_memory() {
+    return {ErrorCode::kOutOfMemory, "", std::string(kOutOfMemoryText)};
+}
+
+// out_of_memory() of what memory, or threads, that could not be had throw; kInternal with the exception's text of others.
 inline Error error_of_thrown(const std::exception& thrown) {
     if (dynamic_cast<const std::bad_alloc*>(&thrown) != nullptr ||
         dynamic_cast<const std::system_error*>(&thrown) != nullptr)
-        return {ErrorCode::kOutOfMemory, "", "there is not enough memory for this now"};
+        return out_of_memory();
     return {ErrorCode::kInternal, "", thrown.what()};
 }
 

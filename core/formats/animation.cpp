@@ -105,13 +105,13 @@ Status Animation::add(const Image& image, double exposure_stops) {
         state.webp.reset(WebPAnimEncoderNew(image.width, image.height, &options));
         if (!state.webp && std::max(image.width, image.height) > kLongestSide)
             return failed("a side is over " + std::to_string(kLongestSide) + " pixels");
-        if (!state.webp) return error_of_thrown(std::bad_alloc());
+        if (!state.webp) return out_of_memory();
     }
     Picture picture;
-    if (!picture.import(image, exposure_stops)) return error_of_thrown(std::bad_alloc());
+    if (!picture.import(image, exposure_stops)) return out_of_memory();
     if (WebPAnimEncoderAdd(state.webp.get(), picture.get(), state.at_ms(), &config) == 0)
         return is_no_memory(picture.get()->error_code)
-                   ? error_of_thrown(std::bad_alloc())
+                   ? out_of_memory()
                    : failed(WebPAnimEncoderGetError(state.webp.get()));
     ++state.count;
     return std::nullopt;

@@ -80,4 +80,8 @@ double auto_exposure(const Scene& scene) {
                       -limits::kMaxExposure, limits::kMaxExposure);
 }
 
+double exposure_of(const Scene& scene) {
+    return scene->image.exposure.value_or(auto_exposure(scene));
+}
+
 }  // namespace awan

@@ -51,4 +51,7 @@ void set_exr_threads(int threads);
 // up for, however little of its light is left.
 double auto_exposure(const Scene& scene);
 
+// The scene's own exposure, or that one, in stops.
+double exposure_of(const Scene& scene);
+
 }  // namespace awan

@@ -142,7 +142,7 @@ Result<std::string> encode_png(const Image& image, double exposure_stops, int bi
     }
     png_destroy_write_struct(&png, &info);
     if (const auto over = deadline.over(); over && !written) return *over;
-    if (sink.no_memory) return error_of_thrown(std::bad_alloc());
+    if (sink.no_memory) return out_of_memory();
     if (!written) return encoder_error(sink.error.empty() ? "libpng could not begin" : sink.error);
     return std::move(sink.bytes);
 }

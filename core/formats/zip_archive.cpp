@@ -7,6 +7,8 @@
 #include <new>
 #include <utility>
 
+#include "core/base/thrown.h"
+
 namespace awan {
 namespace {
 
@@ -77,11 +79,7 @@ struct ZipArchive::State {
     ~State() {
         if (zip != nullptr) zipClose(zip, nullptr);
     }
-    Error failed() const {
-        if (out.no_memory)
-            return {ErrorCode::kOutOfMemory, "", "there is not enough memory for this now"};
-        return zip_failure();
-    }
+    Error failed() const { return out.no_memory ? out_of_memory() : zip_failure(); }
 };
 
 ZipArchive::ZipArchive(std::unique_ptr<State> state) : state_(std::move(state)) {}

@@ -11,6 +11,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/descriptor.h"
 #include "core/base/temporary_file.h"
 
 namespace awan {
@@ -129,12 +130,7 @@ OutputFile::~OutputFile() {
 }
 
 Status OutputFile::write(std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t n = ::write(fd_, bytes.data(), bytes.size());
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) return io_error("write", name_of(path_));
-        bytes.remove_prefix(static_cast<std::size_t>(n));
-    }
+    if (!write_all(fd_, bytes)) return io_error("write", name_of(path_));
     return std::nullopt;
 }
 

@@ -43,10 +43,6 @@ Result<Rendered> render_frame(const Scene& scene, Result<Planned> planned, Work&
     return render_planned(scene, *std::move(planned), tools, Deadline{});
 }
 
-double exposure_of(const Scene& scene) {
-    return scene->image.exposure.value_or(auto_exposure(scene));
-}
-
 // Pixels of an EXR that take one thread longer than others take to begin.
 constexpr std::size_t kLargePicture = 1u << 18;
 

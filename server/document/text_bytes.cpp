@@ -89,7 +89,7 @@ Result<std::string> gunzip(std::string_view bytes, std::size_t most) {
     z_stream stream{};
     // 15: the largest window; 16: gzip.
     if (const int result = inflateInit2(&stream, 15 + 16); result != Z_OK)
-        return result == Z_MEM_ERROR ? error_of_thrown(std::bad_alloc())
+        return result == Z_MEM_ERROR ? out_of_memory()
                                      : Error{ErrorCode::kInternal, "", "zlib could not begin"};
     struct End {
         z_stream& stream;
@@ -118,7 +118,7 @@ Result<std::string> gunzip(std::string_view bytes, std::size_t most) {
         stream.avail_out = static_cast<uInt>(piece.size());
         const int result = inflate(&stream, Z_NO_FLUSH);
         const std::size_t made = piece.size() - stream.avail_out;
-        if (result == Z_MEM_ERROR) return error_of_thrown(std::bad_alloc());
+        if (result == Z_MEM_ERROR) return out_of_memory();
         // Z_BUF_ERROR: there was nothing left to take.
         if (result != Z_OK && result != Z_STREAM_END && !(result == Z_BUF_ERROR && made == 0))
             return cannot_read("the gzip data are damaged");

@@ -28,15 +28,6 @@ constexpr int kLookMs = 100;
 
 }  // namespace
 
-Descriptor::~Descriptor() {
-    close();
-}
-
-void Descriptor::close() {
-    if (fd_ >= 0) ::close(fd_);
-    fd_ = -1;
-}
-
 void begin_answer(Connection& c) {
     auto nobody = Connection::Voice::kNone;
     // A probe is one call that does not wait.

@@ -7,28 +7,12 @@
 #include <string>
 #include <utility>
 
+#include "core/base/descriptor.h"
 #include "core/base/result.h"
 #include "server/http/codec.h"
 #include "server/http/framing.h"
 
 namespace awan {
-
-// A file descriptor that closes itself.
-class Descriptor {
-  public:
-    explicit Descriptor(int fd = -1) : fd_(fd) {}
-    Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-    Descriptor& operator=(Descriptor&& other) noexcept {
-        std::swap(fd_, other.fd_);
-        return *this;
-    }
-    ~Descriptor();
-    int get() const { return fd_; }
-    void close();
-
-  private:
-    int fd_;
-};
 
 // Reading -> Working -> Writing -> Reading again, or Lingering and the end.
 enum class Stand {

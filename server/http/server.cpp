@@ -15,6 +15,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/base/thrown.h"
 #include "server/http/state.h"
 
 namespace awan {
@@ -76,7 +77,7 @@ void HttpServer::State::guarded(Connection& c, const What& what) {
         } catch (const std::exception&) {
             if (c.socket.get() < 0 || c.with_worker) return;
             const auto body = std::exchange(c.body, {});
-            refuse(c, 503, "there is not enough memory for this now", "memory");
+            refuse(c, 503, kOutOfMemoryText, "memory");
         }
     } catch (const std::exception&) {
         end(c);

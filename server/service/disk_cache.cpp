@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/descriptor.h"
 #include "core/base/temporary_file.h"
 #include "core/base/thrown.h"
 #include "server/service/kept_file.h"
@@ -73,32 +74,6 @@ std::size_t sum_of(const std::vector<KeptFile>& files) {
     return sum;
 }
 
-class OpenFile {
-  public:
-    explicit OpenFile(int fd) : fd_(fd) {}
-    ~OpenFile() {
-        if (fd_ >= 0) close(fd_);
-    }
-    OpenFile(const OpenFile&) = delete;
-    OpenFile& operator=(const OpenFile&) = delete;
-    int get() const { return fd_; }
-    // What a disk or its server was too late to say at write() may come now.
-    bool close_whole() { return close(std::exchange(fd_, -1)) == 0; }
-
-  private:
-    int fd_;
-};
-
-bool write_all(int fd, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) return false;
-        bytes.remove_prefix(static_cast<std::size_t>(n));
-    }
-    return true;
-}
-
 // What a file holds, at most so much; nothing when it is longer, no file, or cannot be read.
 std::optional<std::string> read_file(int fd, std::size_t most) {
     struct stat about {};
@@ -146,15 +121,19 @@ DiskCache::~DiskCache() {
     writer_.join();
 }
 
+std::size_t DiskCache::most_of_one() const {
+    return std::min(options_.bytes, limits::kDiskCacheBytes) / 8;
+}
+
 std::shared_ptr<const KeptResult> DiskCache::find(const std::string& tag) {
     const std::string name = kept_name(tag);
     if (name.empty()) return nullptr;
     const std::string path = options_.folder + "/" + name;
     try {
         // A pipe by this name would wait for its writer.
-        const OpenFile file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+        const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
         if (file.get() < 0 && errno != ELOOP) return nullptr;
-        if (auto bytes = read_file(file.get(), options_.bytes / 8))
+        if (auto bytes = read_file(file.get(), most_of_one()))
             if (auto result = read_kept(*std::move(bytes), tag)) {
                 // When it was used last. A folder that may only be read stays as it is.
                 futimens(file.get(), nullptr);
@@ -174,7 +153,7 @@ std::shared_ptr<const KeptResult> DiskCache::find(const std::string& tag) {
 
 void DiskCache::keep(const std::string& tag, std::shared_ptr<const KeptResult> result) {
     const std::size_t size = result->bytes();
-    if (on_disk(size) > options_.bytes / 8) return;
+    if (on_disk(size) > most_of_one()) return;
     const std::lock_guard lock(mutex_);
     if (waiting_bytes_ + size > options_.most_waiting && waiting_bytes_ > 0) {
         ++counts_.skipped;
@@ -238,7 +217,7 @@ void DiskCache::write(const Waiting& next) {
 Status DiskCache::write_file(const std::string& head, const std::string& body,
                              const std::string& path) {
     std::string temporary;
-    OpenFile file(create_temporary(options_.folder, 0600, temporary));
+    Descriptor file(create_temporary(options_.folder, 0600, temporary));
     if (file.get() < 0) return disk_error(options_.folder);
     if (!write_all(file.get(), head) || !write_all(file.get(), body) ||
         rename(temporary.c_str(), path.c_str()) != 0) {
@@ -246,7 +225,7 @@ Status DiskCache::write_file(const std::string& head, const std::string& body,
         unlink(temporary.c_str());
         return error;
     }
-    if (!file.close_whole()) {
+    if (!file.close()) {
         const Error error = disk_error(options_.folder);
         unlink(path.c_str());
         return error;

@@ -21,7 +21,7 @@ namespace awan {
 struct DiskCacheOptions {
     // Made if it is not there (its parent is).
     std::string folder;
-    // Of all files, in blocks of 4 KiB. An answer of over an eighth of it is not kept.
+    // Of all files, in blocks of 4 KiB.
     std::size_t bytes = limits::kDiskCacheBytes;
     // Of answers that wait to be written. What comes beside these is not kept.
     std::size_t most_waiting = limits::kDiskWaitingBytes;
@@ -41,6 +41,8 @@ class DiskCache {
     DiskCache(const DiskCache&) = delete;
     DiskCache& operator=(const DiskCache&) = delete;
 
+    // Bytes of an answer over which it is not kept: an eighth of the folder's, at most of the usual folder's.
+    std::size_t most_of_one() const;
     // The answer to an entity tag. Null: it is not here. A file that is not whole, or another's, is removed. What is
     // found counts as the most recently used, for the servers after this one too.
     std::shared_ptr<const KeptResult> find(const std::string& tag);

@@ -161,9 +161,10 @@ bool keeps_answers(const Service::State& state) {
 // An answer that is good without being kept is not lost for want of the memory to keep it. What is too large for either
 // place is not even copied.
 void keep_answer(Service::State& state, const std::string& etag, const Response& response) {
-    const std::size_t room =
-        std::max(state.options.cache_bytes, state.options.disk ? limits::kDiskCacheBytes : 0);
-    if (response.body.size() > room / 8) return;
+    const DiskCache* const disk = state.options.disk.get();
+    if (response.body.size() >
+        std::max(state.results.most_of_one(), disk ? disk->most_of_one() : 0))
+        return;
     try {
         const auto kept = std::make_shared<const KeptResult>(
             KeptResult{response.headers, std::make_shared<const std::string>(response.body)});
@@ -215,8 +216,7 @@ Result<std::string> encode_picture(const Rendered& rendered, const Scene& scene,
                                    std::string_view type, const Deadline& deadline) {
     if (type == kExr)
         return encode_exr(rendered.image, scene->image.precision, notes_of(rendered), deadline);
-    return encode_png(rendered.image, scene->image.exposure.value_or(auto_exposure(scene)), 8,
-                      deadline);
+    return encode_png(rendered.image, exposure_of(scene), 8, deadline);
 }
 
 Drawn draw_in_lanes(Service::State& state, const Request& request, const Scene& scene,

@@ -44,9 +44,7 @@ class Reel {
     }
     Status add(const Rendered& rendered, const Scene& scene, std::uint64_t frame,
                const Deadline& deadline) {
-        if (animation_)
-            return animation_->add(rendered.image,
-                                   scene->image.exposure.value_or(auto_exposure(scene)));
+        if (animation_) return animation_->add(rendered.image, exposure_of(scene));
         const bool exr = scene->image.format == ImageFormat::kExr;
         auto bytes = encode_picture(rendered, scene, exr ? "image/x-exr" : "image/png", deadline);
         if (!bytes) return bytes.error();
