@@ -18,7 +18,7 @@ inline Error out_of_memory() {
     return {ErrorCode::kOutOfMemory, "", std::string(kOutOfMemoryText)};
 }
 
-// out_of_memory() of what memory, or threads, that could not be had throw; kInternal with the exception's text of others.
+// out_of_memory() of what memory, or threads, that could not be had throw; of others kInternal with their text.
 inline Error error_of_thrown(const std::exception& thrown) {
     if (dynamic_cast<const std::bad_alloc*>(&thrown) != nullptr ||
         dynamic_cast<const std::system_error*>(&thrown) != nullptr)
