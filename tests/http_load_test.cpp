@@ -115,6 +115,21 @@ TEST(Connections, SlowBodiesMakeRoomToo) {
     EXPECT_FALSE(stuck[0].closes_within(100ms));
 }
 
+TEST(Connections, HealthIsAnsweredBesideSilentOnesThatHaveNoPlace) {
+    HttpOptions options;
+    options.max_connections = 4;
+    const Running server(options);
+    std::vector<RawClient> clients;
+    for (int i = 0; i < 4; ++i) {
+        clients.push_back(server.client());
+        clients.back().send(with("Content-Length: 1000\r\n", "{"));
+    }
+    // Until their heads have been read; they have just come, so that none of them makes room.
+    std::this_thread::sleep_for(50ms);
+    for (int i = 0; i < 60; ++i) clients.push_back(server.client());
+    EXPECT_EQ(server.ask(get("/healthz")).status, 200);
+}
+
 // As many as there is room for and more, each opened anew when it is closed; tests/bench/stuck.sh has a thousand.
 TEST(Connections, HealthIsAnsweredBesideBodiesThatAreStuck) {
     constexpr std::size_t kPlaces = 100;

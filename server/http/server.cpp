@@ -29,6 +29,10 @@ constexpr std::chrono::milliseconds kAcceptPause{100};
 // Connections beyond the table, kept just long enough to tell them so.
 constexpr std::size_t kTurnedAway = 32;
 
+// Connections accepted in one turn. What they have sent is read before more come: whoever makes room has then been
+// heard. At most half of kTurnedAway, so that those turned away in one turn find room beside those of the turn before.
+constexpr int kAcceptsATurn = 16;
+
 // How long a head or a body may come before its connection may have to make room for another, if it is the slowest.
 constexpr std::chrono::milliseconds kGrace{500};
 
@@ -190,7 +194,7 @@ void HttpServer::State::take_back_done() {
 // --- Connections come and go
 
 void HttpServer::State::accept_all() {
-    for (;;) {
+    for (int i = 0; i < kAcceptsATurn; ++i) {
         Descriptor socket(accept4(listener.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
         if (socket.get() < 0) {
             // Out of descriptors or memory: the connection stays in the backlog, and poll would
@@ -202,8 +206,9 @@ void HttpServer::State::accept_all() {
         const int on = 1;
         setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
         const bool full = connections.size() >= options.max_connections && !make_room();
-        if (full && connections.size() >= options.max_connections + kTurnedAway && !end_lingering())
-            continue;
+        if (full && connections.size() >= options.max_connections + kTurnedAway) end_turned_away();
+        // Those that made room count no more.
+        connections.remove_if([](const Connection& c) { return c.socket.get() < 0; });
         Connection& c = connections.emplace_back();
         c.local_address = address_of(socket.get(), getsockname);
         c.client = address_of(socket.get(), getpeername);
@@ -248,16 +253,19 @@ bool HttpServer::State::make_room() {
     return true;
 }
 
-// Closes the connection that has lingered longest, which has had its answer. False when none does.
-bool HttpServer::State::end_lingering() {
-    Connection* longest = nullptr;
-    for (Connection& c : connections)
-        if (c.socket.get() >= 0 && c.stand == Stand::kLingering &&
-            (!longest || c.until < longest->until))
-            longest = &c;
-    if (!longest) return false;
-    end(*longest);
-    return true;
+// Closes one that has had its answer, the one that has lingered longest; where there is none, the one beyond the table
+// that has been silent longest.
+void HttpServer::State::end_turned_away() {
+    Connection* lingering = nullptr;
+    Connection* silent = nullptr;
+    for (Connection& c : connections) {
+        if (c.socket.get() < 0) continue;
+        if (c.stand == Stand::kLingering && (!lingering || c.until < lingering->until))
+            lingering = &c;
+        if (c.in_reserve && c.stand == Stand::kHead && (!silent || c.since < silent->since))
+            silent = &c;
+    }
+    if (Connection* one = lingering ? lingering : silent) end(*one);
 }
 
 void HttpServer::State::end(Connection& c) {

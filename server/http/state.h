@@ -58,7 +58,7 @@ struct HttpServer::State {
 
     void accept_all();
     bool make_room();
-    bool end_lingering();
+    void end_turned_away();
     void poll_once();
     void on_event(Connection& c, short events);
     void on_timeout(Connection& c);
