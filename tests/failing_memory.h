@@ -112,11 +112,20 @@ void* operator new(std::size_t n) {
     if (p == nullptr) throw std::bad_alloc();
     return p;
 }
+// libstdc++'s own would call the one above; a sanitizer's has memory of its own.
+void* operator new(std::size_t n, const std::nothrow_t&) noexcept {
+    void* const p = awan::test::FailingMemory::fails() ? nullptr : std::malloc(n);
+    awan::test::FailingMemory::made(p);
+    return p;
+}
 void operator delete(void* p) noexcept {
     awan::test::FailingMemory::gone(p);
     std::free(p);
 }
 void operator delete(void* p, std::size_t) noexcept {
+    operator delete(p);
+}
+void operator delete(void* p, const std::nothrow_t&) noexcept {
     operator delete(p);
 }
 // NOLINTEND(misc-definitions-in-headers)
