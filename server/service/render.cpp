@@ -80,8 +80,9 @@ constexpr double kHopeless = 2.2;
 // What was predicted may take this share of the time there is, to be asked for with good hope.
 constexpr double kFits = 0.7;
 
-// What could be had within so many ms.
-std::string what_fits(const Plan& plan, double ms) {
+// What could be had within so many ms; never more time than was asked for and did not do.
+std::string what_fits(const Scene& scene, const Plan& plan, double ms) {
+    ms = std::min(ms, scene->accuracy.time_ms.value_or(ms));
     const RungForecast* best = nullptr;
     for (const RungForecast& forecast : plan.forecasts)
         if (forecast.time_ms < kFits * ms && (best == nullptr || forecast.error < best->error))
@@ -125,11 +126,12 @@ struct Way {
         const double left = std::max(left_ms() - wait, 0.0);
         if (planned.plan.predicted.rung == nullptr || !(needed > kHopeless * left))
             return std::nullopt;
-        Response response = problem(504,
-                                    "rung " + planned.plan.rung + " would take about " +
-                                        seconds_text(needed) + " and " + seconds_text(left) +
-                                        " are left; " + what_fits(planned.plan, left - encode_ms),
-                                    "", request.id);
+        Response response =
+            problem(504,
+                    "rung " + planned.plan.rung + " would take about " + seconds_text(needed) +
+                        " and " + seconds_text(left) + " are left; " +
+                        what_fits(scene, planned.plan, left - encode_ms),
+                    "", request.id);
         response.reason = "hopeless";
         return response;
     }
@@ -137,9 +139,9 @@ struct Way {
     Response failed(const Error& error, const Plan& plan) const {
         if (error.code != ErrorCode::kOverDeadline) return fail(error, request);
         const std::chrono::duration<double, std::milli> all = request.deadline.until - began;
-        return fail(
-            {error.code, "", error.message + "; " + what_fits(plan, all.count() - encode_ms)},
-            request);
+        return fail({error.code, "",
+                     error.message + "; " + what_fits(scene, plan, all.count() - encode_ms)},
+                    request);
     }
 };
 
