@@ -125,6 +125,10 @@ export function createAccuracyPanel(store, { failed, open }) {
         field.refresh();
       }
     },
+    // The document is another one: what was said of the last is not of it.
+    forget() {
+      predicted.textContent = simulates.textContent = "";
+    },
     // The answer of /v1/plan.
     plan({ rung, rung_reason: reason, predicted: expected, rungs: all }) {
       known = (all ?? []).map((one) => one.rung);
