@@ -88,7 +88,7 @@ const panels = createPanels(store, camera);
 const accuracy = createAccuracyPanel(store, { failed: fail, open: window.matchMedia("(min-width: 60rem)").matches });
 const choice = createChoice(store);
 const models = createModels(store, choice, { bounds, note: say, changed: refreshControls });
-const layout = createLayoutTable(store, choice);
+const layout = createLayoutTable(store, choice, { redrawn: () => problem && showProblem() });
 const figures = createFigures(store);
 const time = createTime(store, { failed: fail, copy, note: say, show: () => loop.changed({ moving: true, playing: true }) });
 const stage = createStage({
