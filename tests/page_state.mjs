@@ -88,7 +88,7 @@ const tests = {
     assert.equal((await look(other)).hash, hash);
     await other.goto("about:blank");
     await other.goto(link.slice(0, -30));
-    await other.waitForFunction(() => /cut off/.test(document.querySelector("#alert").textContent));
+    await noteSays(other, "cut off");
     assert.ok((await other.inputValue("#preset")) !== "", "something is there all the same");
     await other.close();
     await page.bringToFront();
@@ -134,8 +134,8 @@ const tests = {
     await noteSays(page, "needs a sequence");
     const small = path.join(scratch, "moving.json");
     fs.writeFileSync(small, JSON.stringify({
-      cubes: [{ particles: 20, size: [2, 1, 2], center: [0, 0, 0], radius: 1 }],
-      image: { width: 32, height: 20 }, accuracy: { rung: "transport-16" }, sequence: { from: 0, to: 1, frames: 3 },
+      clouds: [{ cubes: [{ particles: 20, size: [2, 1, 2], center: [0, 0, 0], radius: 1 }], velocity: [3, 0, 0] }],
+      camera: { eye: [0, 0, 12], target: [0, 0, 0] }, image: { width: 32, height: 20 }, accuracy: { rung: "transport-16" }, sequence: { from: 0, to: 1, frames: 3 },
     }));
     await page.setInputFiles("#file", small);
     await noteSays(page, "moving.json is open");

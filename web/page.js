@@ -286,7 +286,7 @@ let begun = false; // the presets are there, and a document
 // What this tab had before it was loaded again; else what the address names; else the last draft; else the first preset.
 async function firstDocument(list) {
   const session = await keeping.session();
-  if (session) {
+  if (session && (!session.state.preset || session.past.length + session.future.length > 0)) {
     store.bringBack(session);
     return;
   }
@@ -315,7 +315,7 @@ async function begin() {
     } catch (error) { // an address that cannot be read
       await choosePreset(list[0].name);
       store.forgetHistory();
-      fail(error);
+      say(error.message);
     }
     refreshControls();
     byId("groups").classList.remove("waiting");

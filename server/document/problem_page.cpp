@@ -49,6 +49,7 @@ std::string problem_page(std::string_view problem_json) {
            " - Awan</title>\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
            "<meta name=\"color-scheme\" content=\"light dark\">\n"
+           "<link rel=\"icon\" href=\"/icon.svg\" type=\"image/svg+xml\">\n"
            "<link rel=\"stylesheet\" href=\"/plain.css\">\n</head>\n<body>\n<main>\n<h1>" +
            title + "</h1>\n<p>" + as_text(word("detail")) + "</p>\n<dl>\n" +
            row("Place in the document", word("pointer")) + row("Status", status) +

@@ -19,7 +19,7 @@ constexpr std::string_view kProblemType = "application/problem+json";
 
 // A page that says what is wrong: no scripts, nothing to send.
 constexpr std::string_view kProblemPolicy =
-    "default-src 'none'; style-src 'self'; base-uri 'none'; form-action 'none'; "
+    "default-src 'none'; style-src 'self'; img-src 'self'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'";
 
 }  // namespace
