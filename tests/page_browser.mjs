@@ -8,9 +8,12 @@ import { fileURLToPath } from "node:url";
 
 export const [origin, scratch] = process.argv.slice(2);
 const root = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
-const { chromium } = createRequire(path.join(root, "build/node/package.json"))("playwright-core");
+const needs = createRequire(path.join(root, "build/node/package.json"));
+const { chromium } = needs("playwright-core");
+export const axe = fs.readFileSync(needs.resolve("axe-core/axe.min.js"), "utf8");
 
-export const context = await chromium.launchPersistentContext(path.join(scratch, "profile"), {
+// A browser with a profile of its own.
+export const launch = (profile, options = {}) => chromium.launchPersistentContext(path.join(scratch, profile), {
   executablePath: "/usr/bin/chromium",
   headless: true,
   acceptDownloads: true,
@@ -18,7 +21,9 @@ export const context = await chromium.launchPersistentContext(path.join(scratch,
   viewport: { width: 1440, height: 900 },
   args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+  ...options,
 });
+export const context = await launch("profile");
 const patience = process.env.AWAN_SANITIZED ? 10 : 1; // a program with sanitizers is slow
 context.setDefaultTimeout(patience * 15_000);
 await context.grantPermissions(["clipboard-read", "clipboard-write"], { origin });

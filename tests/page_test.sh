@@ -8,7 +8,9 @@ root=$(cd "$here/.." && pwd)
 fail() { echo "page_test: $*" >&2; exit 1; }
 command -v node >/dev/null || fail "node is missing"
 [ -x /usr/bin/chromium ] || fail "/usr/bin/chromium is missing"
-[ -d "$root/build/node/node_modules/playwright-core" ] || fail "playwright-core is missing: run tests/run.sh, which installs it"
+for module in playwright-core axe-core; do
+    [ -d "$root/build/node/node_modules/$module" ] || fail "$module is missing: run tests/run.sh, which installs it"
+done
 
 scratch=$(mktemp -d)
 server=
@@ -49,6 +51,11 @@ use() {
 
 arguments=
 use page.mjs
+rm -rf "$scratch/profile"
+use page_state.mjs
+use page_form.mjs
+rm -rf "$scratch/profile"
+use page_looks.mjs
 echo 0123456789abcdef >"$scratch/token"
 arguments=0123456789abcdef
 use page_token.mjs --token-file "$scratch/token"

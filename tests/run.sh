@@ -21,7 +21,7 @@ bash "$root/server/install_packages.sh" build run test
 cd "$root"
 cmake --preset "$preset" -DAWAN_TESTS=ON -DAWAN_WERROR=ON >/dev/null
 bash server/build.sh "build/$preset" --target "${targets[@]}"
-if [ ! -d build/node/node_modules/playwright-core ]; then
+if ! cmp -s tests/package-lock.json build/node/package-lock.json || [ ! -d build/node/node_modules/playwright-core ]; then
     mkdir -p build/node
     cp tests/package.json tests/package-lock.json build/node/
     (cd build/node && npm ci --loglevel=error --no-audit --no-fund --ignore-scripts)

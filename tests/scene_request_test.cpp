@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "server/document/problem_page.h"
 #include "server/document/text_bytes.h"
 #include "server/service/forms.h"
 #include "server/service/negotiation.h"
@@ -174,6 +175,75 @@ TEST_F(SceneRequestTest, FormsCarryASceneAndTheQuerysNames) {
     EXPECT_EQ(layout.status, 200) << layout.body;
 }
 
+// As a page without scripts sends it: a text area and a file of which one is left empty, places in the document, of
+// which those left empty say nothing.
+TEST_F(SceneRequestTest, FieldsOfAFormStandForPlacesInTheDocument) {
+    const Headers urlencoded = {{"Content-Type", "application/x-www-form-urlencoded"}};
+    const std::string layout = "scene=20%0A1%0A20+2+1+2+0+0+0+.5&layout=";
+    const Response form = ask(service, "/v1/render", {},
+                              layout +
+                                  "&width=16&height=8&rung=harris&%2Fsun%2Felevation=12&"
+                                  "%2Fsun%2Fazimuth=&%2Fcamera%2Feye=12%2C+3%2C+20&"
+                                  "%2Fcamera%2Ftarget=0%2C0%2C0&%2Fsky=none",
+                              urlencoded);
+    ASSERT_EQ(form.status, 200) << form.body;
+    const Response document =
+        ask(service, "/v1/render", {},
+            R"({"cubes":[{"particles":20,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],)"
+            R"("sun":{"elevation":12},"camera":{"eye":[12,3,20],"target":[0,0,0]},"sky":"none",)"
+            R"("image":{"width":16,"height":8},"accuracy":{"rung":"harris"}})");
+    EXPECT_EQ(form.header("ETag"), document.header("ETag"));
+    const auto wrong = [&](const std::string& field, const std::string& word) {
+        const Response response = ask(service, "/v1/render", {}, layout + field, urlencoded);
+        expect_problem(response, 422);
+        EXPECT_NE(response.body.find(word), std::string::npos) << response.body;
+    };
+    wrong("&%2Fsun%2Felevation=200", "/sun/elevation");
+    wrong("&%2Fsun%2Felevation=high", "/sun/elevation");
+    wrong("&%2Fsun%2Fheight=2", "/sun/height");
+    wrong("&%2Fcamera%2Feye=1%2C2%2C3", "target");
+    wrong("&%2Fcamera%2Feye=1%2C2", "/camera/eye");
+    // A file takes the place of the text.
+    const Response file =
+        ask(service, "/v1/particles", {},
+            "--x\r\nContent-Disposition: form-data; name=\"scene\"\r\n\r\n5\n1\n5 1 1 1 0 0 0 1"
+            "\r\n--x\r\nContent-Disposition: form-data; name=\"scene\"; filename=\"s.json\""
+            "\r\n\r\n" +
+                std::string(kScene) + "\r\n--x--\r\n",
+            {{"Content-Type", "multipart/form-data; boundary=x"}});
+    EXPECT_EQ(whole_body(file), whole_body(post("/v1/particles")));
+}
+
+TEST_F(SceneRequestTest, BrowsersAreShownProblemsAsPages) {
+    const std::string browsers = "text/html,application/xhtml+xml,image/webp,*/*;q=0.8";
+    const Headers form = {{"Content-Type", "application/x-www-form-urlencoded"},
+                          {"Accept", browsers}};
+    const Response picture = ask(service, "/v1/render", {}, "scene=1%0A1%0A1+1+1+1+0+0+0+1", form);
+    EXPECT_EQ(picture.header("Content-Type"), "image/png");
+    const Response wrong = ask(
+        service, "/v1/render", {},
+        "scene=1%0A1%0A1+1+1+1+0+0+0+1&%2Fsun%2Fcolor=%3Cscript%3Ealert%281%29%3C/script%3E", form);
+    EXPECT_EQ(wrong.status, 422);
+    EXPECT_EQ(wrong.header("Content-Type"), "text/html; charset=utf-8");
+    EXPECT_EQ(wrong.header("Vary"), "Accept");
+    EXPECT_EQ(wrong.header("Cache-Control"), "no-store");
+    EXPECT_NE(wrong.header("Content-Security-Policy").find("default-src 'none'"),
+              std::string_view::npos);
+    EXPECT_NE(wrong.body.find("/sun/color"), std::string::npos) << wrong.body;
+    EXPECT_EQ(wrong.body.find("<script"), std::string::npos) << wrong.body;
+    const Response lost = get("/<b>nowhere", {{"Accept", browsers}});
+    EXPECT_EQ(lost.status, 404);
+    EXPECT_NE(lost.body.find("<h1>Not Found</h1>"), std::string::npos);
+    EXPECT_EQ(lost.body.find("<b>"), std::string::npos);
+    // Programs get what they always got.
+    for (const std::string accept :
+         {"", "*/*", "application/json", "image/png", "application/problem+json, text/html"})
+        expect_problem(get("/nowhere", {{"Accept", accept}}), 404);
+    const std::string text = problem_page(R"({"detail":"<a href='x'>\"&","status":"<i>"})");
+    EXPECT_NE(text.find("&lt;a href=&#39;x&#39;&gt;&quot;&amp;"), std::string::npos) << text;
+    EXPECT_NE(text.find("&quot;&lt;i&gt;&quot;"), std::string::npos) << text;
+}
+
 TEST_F(SceneRequestTest, FormsThatCannotBeAreRefused) {
     const Headers urlencoded = {{"Content-Type", "application/x-www-form-urlencoded"}};
     const auto refused = [&](const std::string& body, const std::string& word,
@@ -187,7 +257,7 @@ TEST_F(SceneRequestTest, FormsThatCannotBeAreRefused) {
     EXPECT_NE(json.body.find("application/json"), std::string::npos);
     refused("seed=8", "`scene`", urlencoded);
     refused("scene={}&colour=red", "colour", urlencoded);
-    refused("scene={}&layout=", "more than one", urlencoded);
+    refused("scene={}&layout={}", "more than one", urlencoded);
     refused(std::string(1000, '&') + "a=1", "there is no field", urlencoded);
     std::string many;
     for (int i = 0; i < 100; ++i) many += "width=&";

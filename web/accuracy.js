@@ -5,6 +5,7 @@ import * as api from "./api.js";
 import { group, select, slider } from "./controls.js";
 import { at } from "./document.js";
 import { byId, el, plain } from "./dom.js";
+import { createLadder } from "./ladder.js";
 import { fieldAt, scaled, standardAt } from "./schema.js";
 
 const WAYS = [
@@ -100,6 +101,7 @@ export function createAccuracyPanel(store, { failed, open }) {
     label: "Chosen by", pointer: () => "/accuracy", choices: WAYS,
     get: way, set: (name) => choose(name, FIRST[name]),
   });
+  const ladder = createLadder((name, options) => choose("rung", name, options));
   const rungs = fields.rung.element.querySelector("select");
   const predicted = el("p", { class: "why", id: "predicted" });
   const simulates = el("p", { class: "why" });
@@ -115,19 +117,26 @@ export function createAccuracyPanel(store, { failed, open }) {
   let known = fieldAt("/accuracy/rung").words;
 
   return {
-    element: group("Accuracy", "/accuracy", open, by.element, fields.error.element, fields.time_ms.element,
+    element: group("Accuracy", "/accuracy", open, ladder.element, by.element, fields.error.element, fields.time_ms.element,
       fields.rung.element, predicted, simulates, ask),
     refresh() {
       offer(known);
       by.refresh();
+      if (way() === "rung") ladder.show(value("rung"));
       for (const [name, field] of Object.entries(fields)) {
         field.element.hidden = name !== way();
         field.refresh();
       }
     },
+    // The document is another one: what was said of the last is not of it.
+    forget() {
+      predicted.textContent = simulates.textContent = "";
+      ladder.offer([], "");
+    },
     // The answer of /v1/plan.
     plan({ rung, rung_reason: reason, predicted: expected, rungs: all }) {
       known = (all ?? []).map((one) => one.rung);
+      ladder.offer(all ?? [], rung);
       const said = [];
       if (typeof expected?.error === "number") said.push(`error ${percent(expected.error)}`);
       if (typeof expected?.time_ms === "number") said.push(`time ${duration(expected.time_ms)}`);

@@ -57,9 +57,22 @@ export async function plan(text, options = {}) {
   return (await post("/v1/plan", text, { accept: "application/json", ...options })).json();
 }
 
-export async function particles(text, accept) {
-  return (await post("/v1/particles", text, { accept })).blob();
+// text: a scene, or, of another `type`, a file of a layout or of particles.
+export async function particles(text, accept, options = {}) {
+  return (await post("/v1/particles", text, { accept, ...options })).blob();
 }
+
+// A job's place, from the text of what it is.
+export async function beginJob(text, options = {}) {
+  return (await post("/v1/jobs", text, { accept: "application/json", ...options })).headers.get("Location");
+}
+export async function job(place, options = {}) {
+  return (await call(place, options)).json();
+}
+export async function jobResult(place, options = {}) {
+  return (await call(`${place}/result`, options)).blob();
+}
+export const dropJob = (place) => call(place, { method: "DELETE" });
 
 // A PNG of every rung's error over its time; takes up to half a minute.
 export async function accuracyPlot(text, { dark, signal }) {

@@ -4,7 +4,7 @@
 // and hints are the service's (schema.js); `field` stands for the schema's where a control shows
 // something else than the document holds: its ends in that measure, or null.
 
-import { el, freshId, plain } from "./dom.js";
+import { el, fitting, freshId, plain } from "./dom.js";
 import { atOrDefault, complaint, fieldAt } from "./schema.js";
 
 const placeOf = (pointer) => (typeof pointer === "function" ? pointer : () => pointer);
@@ -31,8 +31,8 @@ export function unitOf(spec) {
 // Reads a number field. An empty or half-typed number never reaches the document: the field says
 // so, and takes the document's value back when it is left. A number beyond its ends is marked, told
 // to the page ("wrongnumber"), and written: the document is the writer's.
-// `digits`: how many are shown while the field is not being edited.
-export function numberInput({ pointer, field, get, set, optional = false, digits = 12, ...attributes }) {
+// `digits`: how many are shown while the field is not being edited, or fewer, that it has no more than `characters`.
+export function numberInput({ pointer, field, get, set, optional = false, digits = 12, characters = Infinity, ...attributes }) {
   const place = placeOf(pointer);
   const ends = fieldOf({ pointer, field }) ?? {};
   const lowest = ends.orZero ? Math.min(0, ends.least) : ends.least;
@@ -57,7 +57,7 @@ export function numberInput({ pointer, field, get, set, optional = false, digits
     if (!wrong()) return;
     input.dispatchEvent(new CustomEvent("wrongnumber", { bubbles: true, detail: { pointer: place(), message: wrong() } }));
   });
-  const shownDigits = () => (document.activeElement === input ? 12 : digits);
+  const resting = () => fitting(get(), digits, characters);
   const show = (text) => {
     input.value = text;
     mark(wrong());
@@ -68,12 +68,12 @@ export function numberInput({ pointer, field, get, set, optional = false, digits
     show(whole);
     input.select(); // setting the value has undone what the Tab key selects
   });
-  input.addEventListener("blur", () => show(plain(get(), digits)));
+  input.addEventListener("blur", () => show(resting()));
   function refresh() {
     const value = get();
     // While someone types "1e" or "0.50", the field is theirs.
     if (document.activeElement === input && (input.value === "" || input.valueAsNumber === value)) return;
-    const text = plain(value, shownDigits());
+    const text = document.activeElement === input ? plain(value, 12) : resting();
     if (input.value !== text) show(text);
   }
   return { input, refresh };

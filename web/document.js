@@ -72,11 +72,24 @@ export function sceneFromAwn(text) {
 const HISTORY = 200; // steps of undo
 const ONE_STEP_MS = 1000; // edits of one field this close together are undone together
 
-// Holds the document. Listeners get { moving, replaced }: whether a slider or a drag is under way, and
-// whether the document is another one.
+// A state of the page's document:
+//   scene     the document
+//   written   the text as someone wrote it, while it still says the same as `scene`; else null
+//   work      { id, title }: which piece of work it is a state of; edits keep it, opening something begins another
+//   preset    the preset that it is, unchanged; else ""
+const kNothing = { scene: { cubes: [] }, written: null, work: { id: "", title: "" }, preset: "" };
+
+let works = 0;
+// Unlike those of other tabs and other days.
+function freshWork(title) {
+  works += 1;
+  return { id: `${Date.now().toString(36)}-${works}-${Math.random().toString(36).slice(2, 8)}`, title };
+}
+
+// Holds the document. Listeners get { moving, replaced, same }: whether a slider or a drag is under way, whether the
+// document is another one, whether nothing has changed.
 export function createStore() {
-  let scene = { cubes: [] };
-  let written = null; // the text as someone wrote it, while it still says the same as `scene`
+  let state = kNothing;
   let past = [];
   let future = [];
   let lastKey = null;
@@ -84,48 +97,59 @@ export function createStore() {
   const listeners = [];
   const tell = (change) => listeners.forEach((listener) => listener(change));
 
-  function become(next, { key = null, moving = false, text = null, preset = null, replaced = false } = {}) {
+  function become(next, { key = null, moving = false, text = null, preset = "", replaced = false, title, work } = {}) {
     const now = performance.now();
     const together = key !== null && key === lastKey && now - lastTime < ONE_STEP_MS;
-    if (!together) past = [...past.slice(1 - HISTORY), { scene, written }];
+    if (!together) past = [...past.slice(1 - HISTORY), state];
     future = [];
     [lastKey, lastTime] = [key, now];
-    [scene, written] = [next, text];
-    tell({ moving, preset, replaced });
+    state = { scene: next, written: text, work: work ?? (replaced ? freshWork(title ?? "") : state.work), preset };
+    tell({ moving, replaced });
   }
   function travel(from, to) {
     if (!from.length) return;
-    to.push({ scene, written });
-    ({ scene, written } = from.pop());
+    to.push(state);
+    const before = state.work.id;
+    state = from.pop();
     lastKey = null;
-    tell({ moving: false, preset: null });
+    tell({ moving: false, replaced: state.work.id !== before });
   }
 
   return {
-    get scene() { return scene; },
+    get scene() { return state.scene; },
     // What is sent, saved and shown: the writer's own text if there is one, so that the service
     // judges exactly what was written (duplicate keys, numbers of any size).
-    get text() { return written ?? prettyJson(scene) + "\n"; },
+    get text() { return state.written ?? prettyJson(state.scene) + "\n"; },
+    get work() { return state.work; },
+    get preset() { return state.preset; },
     set(pointer, value, { moving = false } = {}) {
-      const before = at(scene, pointer);
+      const before = at(state.scene, pointer);
       const same = value === undefined ? before === undefined : before !== undefined && compactJson(before) === compactJson(value);
-      if (same) tell({ moving, preset: null, same }); // a slider let go where it was: no step of undo
-      else become(withAt(scene, pointer, value), { key: pointer, moving });
+      if (same) tell({ moving, same }); // a slider let go where it was: no step of undo
+      else become(withAt(state.scene, pointer, value), { key: pointer, moving });
     },
-    update(change, options = {}) { become(change(scene), options); },
-    // Throws SyntaxError when the text is not JSON, TypeError when it is not an object.
-    replaceText(text, { preset = null, key = null } = {}) {
+    update(change, options = {}) { become(change(state.scene), options); },
+    // Throws SyntaxError when the text is not JSON, TypeError when it is not an object. `key`: it is edited; else it is
+    // another document, of this title, or a state of the piece of work.
+    replaceText(text, { preset = "", key = null, title, work } = {}) {
       const value = parseJson(text);
       if (value === null || typeof value !== "object" || Array.isArray(value)) {
         throw new TypeError("A scene document is a JSON object: { … }.");
       }
-      become(value, { text, preset, key, replaced: key === null });
+      become(value, { text, preset, key, replaced: key === null, title, work });
     },
     undo() { travel(past, future); },
     redo() { travel(future, past); },
     get canUndo() { return past.length > 0; },
     get canRedo() { return future.length > 0; },
     forgetHistory() { past = []; future = []; },
+    // All of it, to be kept and brought back. `steps`: of undo and of redo, at most.
+    history(steps) { return { state, past: past.slice(-steps), future: future.slice(-steps) }; },
+    bringBack(history) {
+      ({ state, past, future } = history);
+      lastKey = null;
+      tell({ moving: false, replaced: true });
+    },
     subscribe(listener) { listeners.push(listener); },
   };
 }

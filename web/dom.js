@@ -27,3 +27,10 @@ export function plain(value, digits = 7) {
   if (typeof value === "bigint") return String(value);
   return typeof value === "number" ? String(Number(value.toPrecision(digits))) : "";
 }
+
+// The same with as many digits, `digits` at most, as fit in so many characters: a figure that is cut off is another one.
+export function fitting(value, digits, characters) {
+  let text = plain(value, digits);
+  for (let fewer = digits - 1; text.length > characters && fewer > 0; fewer -= 1) text = plain(value, fewer);
+  return text;
+}

@@ -70,7 +70,7 @@ export function createFigures(store) {
       el("div", { class: "table-scroll" }, el("table", { class: "effects" },
         el("thead", {}, el("tr", {}, ...["effect", "runs", "choice", "because"].map((h) => el("th", { scope: "col" }, h)))),
         el("tbody", {}, ...rows))),
-      el("h3", {}, "Measured"),
+      el("h2", {}, "Measured"),
       el("dl", { class: "facts" }, ...facts.map(([name, value]) =>
         el("div", {}, el("dt", {}, name), el("dd", {}, typeof value === "number" ? plain(value, 4) : value ? "yes" : "no")))));
     refresh();
@@ -83,5 +83,11 @@ export function createFigures(store) {
       input.value = wanted === true ? "on" : wanted === false ? "off" : "auto";
     }
   }
-  return { picture, plan, refresh };
+  // The document is another one: its figures come with its picture.
+  function forget() {
+    choices = [];
+    body.replaceChildren();
+    for (const id of ["particles", "rung", "error", "time", "pixels", "total", "effects"]) byId(id).textContent = "–";
+  }
+  return { picture, plan, refresh, forget };
 }

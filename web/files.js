@@ -1,10 +1,12 @@
 // Saving, sharing and opening.
 
 import * as api from "./api.js";
-import { sceneFromAwn, whyNoLayout } from "./document.js";
+import { createAnimation } from "./animation.js";
+import { whyNoLayout } from "./document.js";
 import { byId, el } from "./dom.js";
-import { prettyJson } from "./json_text.js";
+import { documentOf } from "./opening.js";
 import { placeName } from "./problems.js";
+import { linkTo } from "./share.js";
 import { hasToken } from "./token.js";
 
 function save(blob, name) {
@@ -44,8 +46,9 @@ export function curlCommand(text, origin) {
   ].join("\n");
 }
 
-// name() -> stem of file names; failed(problem), note(text) -> the status line.
-export function createFiles(store, { name, failed, note }) {
+// name() -> stem of file names; picture() -> the whole picture of the document as it stands, or null while there is
+// none; failed(problem), note(text) -> the status line.
+export function createFiles(store, { name, picture, failed, note }) {
   const why = byId("awn-why");
 
   const button = (title, action, attributes = {}) => el("button", {
@@ -66,8 +69,14 @@ export function createFiles(store, { name, failed, note }) {
     else note(whyNoLayout(store.scene));
   }, { "aria-describedby": "awn-why", title: "The layout as Rekawan wrote it" });
 
+  const animation = createAnimation(store, { save: (blob, suffix) => save(blob, name() + suffix), failed, note });
+  why.after(animation.why);
   byId("save-buttons").append(
-    button("PNG", rendered("image/png", ".png")),
+    button("PNG", async () => {
+      const shown = picture();
+      if (shown) save(shown, `${name()}.png`);
+      else await rendered("image/png", ".png")();
+    }, { title: "The picture" }),
     button("EXR", rendered("image/x-exr", ".exr"), { title: "Linear light, premultiplied" }),
     button("JSON", () => save(new Blob([store.text], { type: "application/json" }), name() + ".json"), { title: "This scene document" }),
     awn,
@@ -76,6 +85,12 @@ export function createFiles(store, { name, failed, note }) {
       button("JSON", listed("application/json", ".particles.json"), { "aria-label": "Particles as JSON" }),
       button("CSV", listed("text/csv", ".csv"), { "aria-label": "Particles as CSV" }),
       button("PLY", listed("application/x-ply", ".ply"), { "aria-label": "Particles as PLY" })),
+    ...animation.elements,
+    button("Share", async () => {
+      const link = await linkTo(store.text, location.origin + location.pathname);
+      await copy(link);
+      note(`An address that holds this scene is on the clipboard: ${link.length.toLocaleString("en")} characters.`);
+    }, { title: "Copy an address that holds the whole scene" }),
     button("Copy curl", async () => {
       await copy(curlCommand(store.text, location.origin));
       note(hasToken() ? "The command is on the clipboard. It takes the token from the variable AWAN_TOKEN."
@@ -89,19 +104,13 @@ export function createFiles(store, { name, failed, note }) {
     awn.setAttribute("aria-disabled", String(reason !== ""));
     why.hidden = reason === "";
     why.textContent = reason;
+    animation.refresh();
   }
 
-  // The service judges an .awn before it is read here. A JSON document is opened as it is; what is
-  // wrong in it is then shown at its fields.
   async function open(file) {
     try {
-      const text = await file.text();
-      if (/\.awn$/i.test(file.name) || file.type === "text/x-awn") {
-        await api.plan(text, { type: "text/x-awn" });
-        store.replaceText(prettyJson(sceneFromAwn(text)) + "\n");
-      } else {
-        store.replaceText(text);
-      }
+      const { text, title } = await documentOf(file);
+      store.replaceText(text, { title });
       note(`${file.name} is open.`);
     } catch (error) {
       // A pointer would name a place in the file, not in the document that stays open.
@@ -131,7 +140,7 @@ export function createFiles(store, { name, failed, note }) {
     if (!carriesFile(event)) return;
     event.preventDefault();
     curtain.hidden = true;
-    open(event.dataTransfer.files[0]);
+    if (event.dataTransfer.files.length) open(event.dataTransfer.files[0]);
   });
   return { refresh };
 }

@@ -1,11 +1,20 @@
-// The layout as a table, a row a cube, of a cloud that has cubes.
+// The layout as a table, a row a cube, of a cloud that has cubes. Layouts may have 10,000 of them: only rows near what can
+// be seen are there, between empty ones of the others' height, and a row is refreshed when its cube is another.
+//
+// The table is one stop of the Tab key, at the cell that had the focus last. Within it, arrows go along the row until
+// something is typed or F2 pressed, and along the figures from then on; up and down step the number; Enter and
+// Shift+Enter go down and up the column, PageUp and PageDown ten rows, Home and End to the ends of the row, with Ctrl of
+// the table.
 
 import { group, numberInput, stepByArrows } from "./controls.js";
 import { at, withAt } from "./document.js";
 import { el, plain } from "./dom.js";
 import { fieldAt } from "./schema.js";
 
-const kRowsShown = 100; // of a page of the table; layouts may have 10,000 cubes
+const kAllRows = 60; // so many are all there
+const kSpareRows = 15; // above and below what can be seen
+const kPageRows = 10; // of PageUp and PageDown
+const kCharacters = 8; // a cell has room for
 const FRESH = { particles: 50, size: [2, 1, 2], center: [0, 0, 0], radius: 1 };
 
 // [name, place in the cube, smallest step of the arrow keys]
@@ -30,12 +39,12 @@ function head() {
     el("tr", {}, ...["x", "y", "z", "x", "y", "z"].map((axis) => th({ scope: "col" }, axis))));
 }
 
-// `choice`: the cloud that is being edited (models.js).
-export function createLayoutTable(store, choice) {
-  let page = 0;
-  let shown = 0; // index of the cloud that `page` is of
-  let shape = ""; // what the rows on screen were built for
-  let rows = []; // of refresh functions
+// `choice`: the cloud that is being edited (models.js). redrawn(): other rows are there than before.
+export function createLayoutTable(store, choice, { redrawn = () => {} } = {}) {
+  let shown = { pointer: null, list: null }; // what the rows were last refreshed for
+  let rows = new Map(); // those that are there, by index
+  let height = 30; // of a row, pixels; measured once there is one
+  let active = { row: 0, column: 0 }; // the cell that Tab comes to
   const cubesPointer = () => `${choice.pointer}/cubes`;
   const cubes = () => {
     const list = at(store.scene, cubesPointer());
@@ -44,54 +53,29 @@ export function createLayoutTable(store, choice) {
 
   const body = el("tbody");
   const summary = el("span", { class: "table-summary" });
-  const previous = el("button", { type: "button", onclick: () => turn(-1) }, "Previous");
-  const next = el("button", { type: "button", onclick: () => turn(1) }, "Next");
-  const pager = el("span", { class: "buttons" }, previous, next);
   const add = el("button", { type: "button", onclick: () => insert(cubes().length, null) }, "Add a cube");
-  const table = el("table", {},
-    el("caption", { class: "unseen" }, "Cubes of the cloud"),
+  const table = el("table", { class: "layout" },
+    el("caption", { class: "unseen" }, "Cubes of the cloud. Enter and Shift+Enter: down and up the column; left and right: along the row."),
     head(),
     body);
-  const scroll = el("div", { class: "table-scroll", tabindex: "0", role: "region", "aria-label": "Table of cubes" }, table);
-
+  const scroll = el("div", { class: "table-scroll", role: "region", "aria-label": "Table of cubes" }, table);
   const element = group("Layout", "/cubes", true,
-    // Before the table: the keyboard need not pass every cell to get here.
-    el("div", { class: "table-tools" }, add, pager, summary), scroll);
+    // Before the table: the keyboard need not pass it to get here.
+    el("div", { class: "table-tools" }, add, summary), scroll);
 
-  function turn(by) {
-    page += by;
-    refresh();
-    scroll.scrollTop = 0;
-  }
-  const focusRow = (index, what) => {
-    page = Math.floor(index / kRowsShown);
-    refresh();
-    const row = body.querySelector(`tr[data-index="${index}"]`);
-    (row?.querySelector(what) ?? add).focus();
-    row?.scrollIntoView({ block: "nearest" });
-  };
   const change = (list) => store.update((scene) => withAt(scene, cubesPointer(), list));
   function insert(index, cube) {
     const list = cubes();
     const last = list[list.length - 1];
     const fresh = cube ?? (last ? { ...FRESH, center: last.center ?? FRESH.center, radius: last.radius ?? FRESH.radius } : FRESH);
     change([...list.slice(0, index), structuredClone(fresh), ...list.slice(index)]);
-    focusRow(index, "input");
+    focusCell(index, 0);
   }
   function remove(index) {
     change(cubes().filter((_cube, i) => i !== index));
-    focusRow(Math.min(index, cubes().length - 1), "button.delete");
+    if (cubes().length) focusCell(Math.min(index, cubes().length - 1), COLUMNS.length + 1);
+    else add.focus();
   }
-
-  // Enter goes down the column, as in a spreadsheet.
-  body.addEventListener("keydown", (event) => {
-    if (event.key !== "Enter" || event.target.tagName !== "INPUT") return;
-    event.preventDefault();
-    const column = event.target.closest("td").cellIndex;
-    const rowsNow = [...body.querySelectorAll("tr[data-index]")];
-    const to = rowsNow[rowsNow.indexOf(event.target.closest("tr")) + (event.shiftKey ? -1 : 1)];
-    to?.cells[column].querySelector("input").focus();
-  });
 
   function buildRow(index) {
     const base = `${cubesPointer()}/${index}`;
@@ -100,54 +84,179 @@ export function createLayoutTable(store, choice) {
       const optional = member === "density";
       const field = numberInput({
         pointer, get: () => at(store.scene, pointer), set: (value, options) => store.set(pointer, value, options), optional,
-        "aria-label": `cube ${index + 1}, ${name}`, "data-pointer": pointer, "data-step": step,
-        placeholder: optional ? plain(fieldAt(pointer).standard) : undefined, digits: 5,
+        "aria-label": `cube ${index + 1}, ${name}`, "data-pointer": pointer, "data-step": step, tabindex: "-1",
+        placeholder: optional ? plain(fieldAt(pointer).standard) : undefined, digits: 5, characters: kCharacters,
       });
       stepByArrows(field.input, step);
       return field;
     });
-    const button = (name, sign, action, kind) =>
-      el("button", { type: "button", class: kind, title: name, "aria-label": `${name} cube ${index + 1}`, onclick: action }, sign);
-    const row = el("tr", { "data-index": index, "data-pointer": base },
+    const button = (name, sign, action, kind) => el("button", {
+      type: "button", class: kind, title: name, "aria-label": `${name} cube ${index + 1}`, tabindex: "-1", onclick: action,
+    }, sign);
+    const buttons = [
+      button("Duplicate", "", () => insert(index + 1, cubes()[index]), "duplicate"),
+      button("Delete", "×", () => remove(index), "delete"),
+    ];
+    const row = el("tr", { "data-index": index, "data-pointer": base, "aria-rowindex": index + 3 },
       el("th", { scope: "row" }, String(index + 1)),
       ...cells.map(({ input }) => el("td", {}, input)),
-      el("td", { class: "row-buttons" },
-        button("Duplicate", "", () => insert(index + 1, cubes()[index]), "duplicate"),
-        button("Delete", "×", () => remove(index), "delete")));
-    return { row, refresh: () => cells.forEach((cell) => cell.refresh()) };
+      el("td", { class: "row-buttons" }, ...buttons));
+    const one = {
+      row, controls: [...cells.map(({ input }) => input), ...buttons], cube: null,
+      refresh(cube) {
+        if (cube === one.cube) return;
+        one.cube = cube;
+        cells.forEach((cell) => cell.refresh());
+      },
+    };
+    return one;
   }
+
+  // --- which rows are there ---
+
+  const focused = () => (body.contains(document.activeElement) ? Number(document.activeElement.closest("tr").dataset.index ?? -1) : -1);
+  function seen(count) {
+    if (count <= kAllRows) return [0, count];
+    const first = Math.floor(scroll.scrollTop / height);
+    return [Math.min(first, count), Math.min(count, first + Math.ceil((scroll.clientHeight || 500) / height) + 1)];
+  }
+  // The indices of the rows that should be there, in order; a row with the focus stays wherever it is.
+  function wanted(count, more) {
+    const [first, last] = seen(count);
+    const from = Math.max(0, first - kSpareRows), to = Math.min(count, last + kSpareRows);
+    const all = new Set(more.filter((index) => index >= 0 && index < count));
+    for (let index = from; index < to; index += 1) all.add(index);
+    return [...all].sort((a, b) => a - b);
+  }
+  const space = (count) => {
+    const cell = el("td", { colspan: COLUMNS.length + 2 });
+    cell.style.height = `${count * height}px`;
+    return el("tr", { class: "space", "aria-hidden": "true" }, cell);
+  };
+  function draw(list, more = []) {
+    const indices = wanted(list.length, [focused(), ...more]);
+    rows = new Map(indices.map((index) => [index, rows.get(index) ?? buildRow(index)]));
+    const nodes = [];
+    let next = 0;
+    for (const index of [...indices, list.length]) {
+      if (index > next) nodes.push(space(index - next));
+      if (rows.has(index)) nodes.push(rows.get(index).row);
+      next = index + 1;
+    }
+    // Rows that stay are not touched, so that the focus stays in them.
+    const staying = new Set(nodes);
+    for (const node of [...body.children]) if (!staying.has(node)) node.remove();
+    let before = body.firstChild;
+    for (const node of nodes) {
+      if (node === before) before = before.nextSibling;
+      else body.insertBefore(node, before);
+    }
+    for (const [index, row] of rows) row.refresh(list[index]);
+    const [first] = rows.values();
+    if (first?.row.offsetHeight) height = first.row.offsetHeight;
+    rove();
+    redrawn();
+  }
+  let frame = 0;
+  scroll.addEventListener("scroll", () => {
+    cancelAnimationFrame(frame);
+    frame = requestAnimationFrame(() => {
+      const list = cubes();
+      const [first, last] = seen(list.length);
+      for (const index of [first, last - 1]) {
+        if (index >= 0 && index < list.length && !rows.has(index)) {
+          draw(list);
+          return;
+        }
+      }
+    });
+  });
+
+  // --- one stop of the Tab key ---
+
+  let stop = null;
+  function rove() {
+    const [some] = rows.values();
+    const to = (rows.get(active.row) ?? some)?.controls[active.column];
+    if (stop && stop !== to) stop.tabIndex = -1;
+    stop = to ?? null;
+    if (stop) stop.tabIndex = 0;
+  }
+  function placeOf(control) {
+    const index = Number(control.closest("tr").dataset.index);
+    return { row: index, column: rows.get(index)?.controls.indexOf(control) ?? 0 };
+  }
+  function focusCell(row, column) {
+    const list = cubes();
+    const to = Math.max(0, Math.min(list.length - 1, row));
+    if (!rows.has(to)) {
+      scroll.scrollTop = Math.max(0, to * height - scroll.clientHeight / 2);
+      draw(list, [to]);
+    }
+    const control = rows.get(to)?.controls[Math.max(0, Math.min(COLUMNS.length + 1, column))];
+    control?.focus();
+    control?.closest("tr").scrollIntoView({ block: "nearest" });
+  }
+  let typing = false; // in the cell that has the focus
+  body.addEventListener("focusin", ({ target }) => {
+    if (!target.closest("tr[data-index]")) return;
+    active = placeOf(target);
+    typing = false;
+    rove();
+  });
+  body.addEventListener("pointerdown", ({ target }) => {
+    if (target === document.activeElement) typing = true; // a second click is for a place between the figures
+  });
+  body.addEventListener("beforeinput", () => { typing = true; });
+  body.addEventListener("keydown", (event) => {
+    if (event.altKey || event.metaKey || !event.target.closest("tr[data-index]")) return;
+    const isField = event.target.tagName === "INPUT";
+    if (event.key === "F2" && isField) {
+      typing = !typing;
+      return;
+    }
+    const { row, column } = placeOf(event.target);
+    const last = cubes().length - 1;
+    const ends = COLUMNS.length + 1;
+    const along = !typing && !event.shiftKey && !event.ctrlKey;
+    const to = {
+      Enter: isField && !event.ctrlKey && [row + (event.shiftKey ? -1 : 1), column],
+      PageDown: [row + kPageRows, column], PageUp: [row - kPageRows, column],
+      ArrowLeft: along && [row, column - 1], ArrowRight: along && [row, column + 1],
+      ArrowDown: !isField && [row + 1, column], ArrowUp: !isField && [row - 1, column],
+      Home: event.ctrlKey ? [0, column] : along && [row, 0],
+      End: event.ctrlKey ? [last, column] : along && [row, ends],
+    }[event.key];
+    if (!to) return;
+    event.preventDefault();
+    focusCell(...to);
+  });
 
   function refresh() {
     element.hidden = choice.model !== "cubes";
     if (element.hidden) return;
-    if (shown !== choice.index) page = 0;
-    shown = choice.index;
-    const list = cubes();
-    page = Math.max(0, Math.min(page, Math.ceil(list.length / kRowsShown) - 1));
-    const first = page * kRowsShown;
-    const count = Math.min(kRowsShown, list.length - first);
-
-    element.dataset.pointer = cubesPointer();
-    const wanted = `${cubesPointer()} ${first} ${count}`;
-    if (wanted !== shape) {
-      shape = wanted;
-      rows = Array.from({ length: count }, (_unused, i) => buildRow(first + i));
-      body.replaceChildren(...rows.map(({ row }) => row));
+    const [pointer, list] = [cubesPointer(), cubes()];
+    if (pointer === shown.pointer && list === shown.list) return;
+    if (pointer !== shown.pointer) {
+      rows = new Map();
+      scroll.scrollTop = 0;
     }
-    rows.forEach((row) => row.refresh());
-    pager.hidden = list.length <= kRowsShown;
-    previous.disabled = page === 0;
-    next.disabled = first + count >= list.length;
+    shown = { pointer, list };
+    element.dataset.pointer = pointer;
+    table.setAttribute("aria-rowcount", String(list.length + 2));
+    scroll.hidden = list.length === 0;
+    draw(list);
     const total = list.reduce((sum, cube) => sum + (Number(cube?.particles) || 0), 0);
-    summary.textContent = `${list.length} cubes, ${total.toLocaleString("en")} particles` +
-      (pager.hidden ? "" : `; rows ${first + 1}–${first + count}`);
+    summary.textContent = `${list.length.toLocaleString("en")} cubes, ${total.toLocaleString("en")} particles`;
   }
 
-  // Shows the page that holds the place of a pointer.
+  // Brings the row of a pointer there.
   function reveal(pointer) {
-    const [, i] = /\/cubes\/(\d+)/.exec(pointer) ?? [];
-    if (i !== undefined) page = Math.floor(Number(i) / kRowsShown);
     refresh();
+    const [, i] = /\/cubes\/(\d+)/.exec(pointer) ?? [];
+    if (i === undefined || element.hidden) return;
+    scroll.scrollTop = Math.max(0, Number(i) * height - scroll.clientHeight / 2);
+    draw(cubes(), [Number(i)]);
   }
   return { element, refresh, reveal };
 }

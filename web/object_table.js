@@ -77,7 +77,7 @@ export function createObjectTable(store, spec) {
         ...choices.map(([word, shown]) => el("option", { value: word }, shown)));
       return { input, refresh: () => { input.dataset.pointer = place(); input.value = value() ?? ""; } };
     }
-    const field = numberInput({ pointer: place, get: value, set, "aria-label": name, digits: 5 });
+    const field = numberInput({ pointer: place, get: value, set, "aria-label": name, digits: 5, characters: 8 });
     stepByArrows(field.input, step);
     return { input: field.input, refresh: () => { field.input.dataset.pointer = place(); field.refresh(); } };
   }

@@ -7,25 +7,26 @@ import { boundsOfCubes } from "./camera.js";
 import { group } from "./controls.js";
 import { cloudsOf, createStore, modelOf, withAt } from "./document.js";
 import { byId, el } from "./dom.js";
+import { createDrafts } from "./drafts.js";
 import { createFigures } from "./figures.js";
 import { copy, createFiles } from "./files.js";
 import { compactJson } from "./json_text.js";
+import { createKeeping } from "./keeping.js";
 import { createLayoutTable } from "./layout_table.js";
 import { coarser, createChoice, createModels } from "./models.js";
 import { cameraPanel, createPanels } from "./panels.js";
 import { createRenderLoop } from "./picture.js";
 import { clearMarks, focusProblem, markProblem, placeName } from "./problems.js";
 import { atOrDefault } from "./schema.js";
+import { isShared, sharedText } from "./share.js";
 import { createStage } from "./stage.js";
 import { createTime } from "./time.js";
 import { createTokenField } from "./token.js";
 
-const DRAFT = "awan.draft";
-
 const store = createStore();
 let measured = null; // { scene, bounds } of the last plan
 let problem = null; // what is wrong with the document as it stands
-let presetName = "";
+let wholePicture = null; // of the document as it stands
 
 // The service's bounds while they are of the layout at hand, else an estimate; for models that only the
 // service can make, its last ones. Edits share what they do not touch, so the same list is the same layout.
@@ -87,7 +88,7 @@ const panels = createPanels(store, camera);
 const accuracy = createAccuracyPanel(store, { failed: fail, open: window.matchMedia("(min-width: 60rem)").matches });
 const choice = createChoice(store);
 const models = createModels(store, choice, { bounds, note: say, changed: refreshControls });
-const layout = createLayoutTable(store, choice);
+const layout = createLayoutTable(store, choice, { redrawn: () => problem && showProblem() });
 const figures = createFigures(store);
 const time = createTime(store, { failed: fail, copy, note: say, show: () => loop.changed({ moving: true, playing: true }) });
 const stage = createStage({
@@ -98,7 +99,13 @@ const stage = createStage({
     return time.canMove;
   },
 });
-const files = createFiles(store, { name: () => presetName || "cloud", failed: fail, note: say });
+const files = createFiles(store, {
+  name: () => store.preset || store.work.title.replace(/[^\w-]+/g, "-").toLowerCase() || "cloud",
+  picture: () => wholePicture,
+  failed: fail, note: say,
+});
+const keeping = createKeeping(store, { failed: () => say("The browser keeps no drafts for this page.") });
+const drafts = createDrafts(store, keeping, { open: (text, options) => store.replaceText(text, options), note: say, failed: fail });
 
 const text = el("textarea", { id: "json", rows: 24, spellcheck: "false", autocomplete: "off", "aria-label": "Scene document as JSON" });
 const jsonGroup = group("JSON", "", false, el("p", { class: "why" }, "The whole document. What is written here is what is sent."), text);
@@ -143,9 +150,11 @@ async function askPlan() {
 }
 
 let rung = ""; // of the last picture
-const kQuick = { time_ms: 120 };
-// Rungs that are quicker than what a short time would choose keep their look.
-const isQuick = ({ rung: named, time_ms: ms }) => (named !== undefined && !/^(transport-|truth$)/.test(named)) || ms < kQuick.time_ms;
+// The quickest that is lit as the whole picture is. At a quarter of the size it takes no longer than the splats, whose
+// look is another: a short time asked for would choose those.
+const kQuick = { rung: "transport-16" };
+const kShortMs = 120;
+const isQuick = ({ rung: named, time_ms: ms }) => (named !== undefined && !/^(transport-|truth$)/.test(named)) || ms < kShortMs;
 
 function quickened(scene) {
   if (time.playing) return time.playedScene(/^transport-/.test(rung) ? "transport-16" : null);
@@ -179,6 +188,7 @@ const loop = createRenderLoop({
     showProblem();
     tokenField.done();
     rung = said.rung ?? "";
+    wholePicture = whole && blob.type === "image/png" ? blob : null;
     if (whole) askPlan();
     time.shown();
   },
@@ -208,14 +218,20 @@ function refreshControls() {
   byId("undo").disabled = !store.canUndo;
   byId("redo").disabled = !store.canRedo;
 }
-store.subscribe(({ moving, preset, replaced, same = false }) => {
+store.subscribe(({ moving, replaced, same = false }) => {
   planFlight?.abort();
+  if (!same) wholePicture = null;
   if (replaced) {
     time.forget();
     models.forget();
+    accuracy.forget();
+    figures.forget();
     choice.index = 0;
   }
-  if (!same && !moving) follow(preset ?? "");
+  if (!same) followed = false;
+  clearTimeout(followTimer);
+  if (!moving) follow();
+  else followTimer = setTimeout(follow, 500); // a drag over the picture has no last word
   refreshControls();
   if (problem) showProblem(); // rows may have been rebuilt
   loop.changed({ moving, playing: time.playing, same, another: replaced });
@@ -224,59 +240,85 @@ store.subscribe(({ moving, preset, replaced, same = false }) => {
 byId("undo").addEventListener("click", () => store.undo());
 byId("redo").addEventListener("click", () => store.redo());
 
-// --- presets, the address and the draft ---
+// --- presets, the address and the drafts ---
 
 const presetSelect = byId("preset");
-// The address names the preset while the document is one; else the document is kept as a draft.
-function follow(preset) {
-  presetName = preset;
+// The address names the preset while the document is one. Everything is kept at every step (keeping.js).
+let followed = true;
+let followTimer = 0;
+function follow() {
+  if (followed) return;
+  followed = true;
+  const { preset } = store;
   presetSelect.value = preset;
-  history.replaceState(null, "", preset ? `#${preset}` : location.pathname);
-  try {
-    if (preset) localStorage.removeItem(DRAFT);
-    else localStorage.setItem(DRAFT, store.text);
-  } catch {
-    // No room or no permission: then there is no draft.
-  }
+  history.replaceState(null, "", preset ? `#${preset}` : location.pathname + location.search);
+  keeping.save();
 }
 async function choosePreset(name) {
+  const { preset, work } = store;
   try {
-    store.replaceText(await api.presetText(name), { preset: name });
+    const [option] = [...presetSelect.options].filter(({ value }) => value === name);
+    store.replaceText(await api.presetText(name), { preset: name, title: option?.textContent ?? name });
+    if (!preset && work.id) drafts.kept(work.title);
   } catch (error) {
     fail(error);
-    presetSelect.value = presetName;
+    presetSelect.value = store.preset;
   }
+}
+async function openShared(hash) {
+  const text = await sharedText(hash);
+  store.replaceText(text, { title: "A shared scene" }); // and the address lets go of it: it is a draft now
 }
 presetSelect.addEventListener("change", () => {
   if (presetSelect.value) choosePreset(presetSelect.value);
+  else presetSelect.value = store.preset;
 });
 addEventListener("hashchange", () => {
+  if (isShared(location.hash)) {
+    openShared(location.hash).catch(fail);
+    return;
+  }
   const name = decodeURIComponent(location.hash.slice(1));
-  if (name && name !== presetName && name !== "groups") choosePreset(name);
+  if (name && name !== store.preset && name !== "groups") choosePreset(name);
 });
 
 let begun = false; // the presets are there, and a document
-async function begin() {
-  let draft = null;
-  try {
-    draft = localStorage.getItem(DRAFT);
-  } catch {
-    // As above.
+// What this tab had before it was loaded again; else what the address names; else the last draft; else the first preset.
+async function firstDocument(list) {
+  const session = await keeping.session();
+  if (session && (!session.state.preset || session.past.length + session.future.length > 0)) {
+    store.bringBack(session);
+    return;
   }
+  if (isShared(location.hash)) {
+    await openShared(location.hash);
+    return;
+  }
+  const asked = decodeURIComponent(location.hash.slice(1));
+  const [draft] = list.some(({ name }) => name === asked) ? [] : await keeping.drafts();
+  if (draft) {
+    const { id, title, scene, written } = draft;
+    store.bringBack({ state: { scene, written, work: { id, title }, preset: "" }, past: [], future: [] });
+    say("Your last document is open again.");
+  } else {
+    await choosePreset(list.some(({ name }) => name === asked) ? asked : list[0].name);
+    store.forgetHistory();
+  }
+}
+async function begin() {
   try {
     const list = await api.presets();
     presetSelect.replaceChildren(el("option", { value: "" }, "Your own"),
       ...list.map(({ name, title }) => el("option", { value: name }, title)));
-    const asked = decodeURIComponent(location.hash.slice(1));
-    const known = list.some(({ name }) => name === asked);
-    if (draft !== null && !known) {
-      store.replaceText(draft);
-      say("Your last document is open again.");
-    } else {
-      await choosePreset(known ? asked : list[0].name);
+    try {
+      await firstDocument(list);
+    } catch (error) { // an address that cannot be read
+      await choosePreset(list[0].name);
+      store.forgetHistory();
+      say(error.message);
     }
-    store.forgetHistory();
     refreshControls();
+    byId("groups").classList.remove("waiting");
     begun = true;
   } catch (error) {
     fail(error);

@@ -4,6 +4,7 @@
 import { byId } from "./dom.js";
 
 const DEGREES_PER_PIXEL = 0.35;
+const kSlopPixels = 8; // a finger that has moved less has not said where it goes
 const KEY_DEGREES = 5;
 const KEY_RATIO = 0.9;
 
@@ -36,22 +37,39 @@ export function createStage({ nudge, letGo, toggle }) {
     stage.classList.toggle("transparent", transparent);
   }
 
-  let from = null;
+  // A finger may be on its way down the page: it orbits once it has gone sideways first, and the browser scrolls where it
+  // has not (touch-action in page.css). Two fingers go nearer and farther, and tilt.
+  const fingers = new Map(); // of pointers that are down: { x, y }
+  let decided = false; // that what moves is for the picture
   stage.addEventListener("pointerdown", (event) => {
     if (event.button !== 0 || event.target.closest("#status")) return;
-    from = { x: event.clientX, y: event.clientY };
+    fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+    decided = event.pointerType !== "touch" || fingers.size > 1;
     stage.setPointerCapture(event.pointerId);
     stage.classList.add("dragging");
   });
+  const middle = ([a, b = a]) => ({ x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, apart: Math.hypot(a.x - b.x, a.y - b.y) });
   stage.addEventListener("pointermove", (event) => {
-    if (!from) return;
-    const [dx, dy] = [event.clientX - from.x, event.clientY - from.y];
+    const finger = fingers.get(event.pointerId);
+    if (!finger || fingers.size > 2) return;
+    const [dx, dy] = [event.clientX - finger.x, event.clientY - finger.y];
     if (!dx && !dy) return;
-    from = { x: event.clientX, y: event.clientY };
-    nudge({ azimuth: -dx * DEGREES_PER_PIXEL, elevation: dy * DEGREES_PER_PIXEL }, { moving: true });
+    if (!decided) {
+      if (Math.hypot(dx, dy) < kSlopPixels) return;
+      if (Math.abs(dy) > Math.abs(dx)) return;
+      decided = true;
+    }
+    const before = middle([...fingers.values()]);
+    fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+    const now = middle([...fingers.values()]);
+    nudge({
+      azimuth: (before.x - now.x) * DEGREES_PER_PIXEL, elevation: (now.y - before.y) * DEGREES_PER_PIXEL,
+      nearer: before.apart > kSlopPixels && now.apart > kSlopPixels ? before.apart / now.apart : 1,
+    }, { moving: true });
   });
-  const release = () => {
-    from = null;
+  const release = (event) => {
+    if (!fingers.delete(event.pointerId)) return;
+    if (fingers.size) return;
     letGo();
     stage.classList.remove("dragging");
   };

@@ -39,9 +39,15 @@ Result<Overrides> read_overrides(std::span<const std::pair<std::string, std::str
 // Puts them into a scene that has been read. Ranges are validate()'s business.
 void override_scene(const Overrides& overrides, SceneDraft& draft);
 
-// Puts a value into a scene at a place of its document: `pointer` as /sun/elevation (RFC 6901), `value` JSON, or a word
-// without quotes. Objects on the way are made; in lists the element must be there, or "-" is one more. Errors: what
-// parse_scene() says of the document as it is then.
+// A value and its place in a document: `pointer` as /sun/elevation (RFC 6901), `value` JSON, the numbers of a list
+// without its brackets ("1, 2, 3"), or a word without quotes.
+struct PlacedValue {
+    std::string pointer, value;
+};
+
+// Puts values into a scene, and reads it again when all are there. Objects on the way are made; in lists the element
+// must be there, or "-" is one more. Errors: what parse_scene() says of the document as it is then.
+Status set_in_scene(std::span<const PlacedValue> values, SceneDraft& draft);
 Status set_in_scene(std::string_view pointer, std::string_view value, SceneDraft& draft);
 
 }  // namespace awan

@@ -40,10 +40,15 @@ Result<Json*> element_of(Json& list, const std::string& name, std::string_view p
                                    std::to_string(list.size()) + "; - is one more");
 }
 
-// A value of the command line: JSON, or else a word.
+// A value as people write it: JSON, a list without its brackets, or else a word.
 Json value_of(std::string_view text) {
     Json value = Json::parse(text, nullptr, false);
-    return value.is_discarded() ? Json(std::string(text)) : value;
+    if (!value.is_discarded()) return value;
+    if (text.find(',') != std::string_view::npos) {
+        Json list = Json::parse("[" + std::string(text) + "]", nullptr, false);
+        if (!list.is_discarded()) return list;
+    }
+    return Json(std::string(text));
 }
 
 Status put(Json& document, std::string_view pointer, std::string_view value) {
@@ -88,24 +93,32 @@ void put_back(std::vector<ReadyParticles> taken, SceneDraft& draft) {
 
 }  // namespace
 
-Status set_in_scene(std::string_view pointer, std::string_view value, SceneDraft& draft) {
-    if (pointer.empty() || pointer.front() != '/')
-        return at_pointer(
-            "", "a place in a scene is written as /sun/elevation, not " + short_quote(pointer));
+Status set_in_scene(std::span<const PlacedValue> values, SceneDraft& draft) {
+    if (values.empty()) return std::nullopt;
+    for (const PlacedValue& placed : values)
+        if (!placed.pointer.starts_with('/'))
+            return at_pointer("", "a place in a scene is written as /sun/elevation, not " +
+                                      short_quote(placed.pointer));
     try {
         std::vector<ReadyParticles> taken = take_particles(draft);
         const std::string text = scene_to_json(draft);
         Json document = Json::parse(text);
-        if (Status wrong = put(document, pointer, value)) return wrong;
+        for (const PlacedValue& placed : values)
+            if (Status wrong = put(document, placed.pointer, placed.value)) return wrong;
         auto changed = parse_scene(document.dump());
         if (!changed) return changed.error();
         draft = *std::move(changed);
         put_back(std::move(taken), draft);
     } catch (const Json::exception& e) {
-        return Error{ErrorCode::kInvalidScene, std::string(pointer),
+        return Error{ErrorCode::kInvalidScene, values.front().pointer,
                      "cannot be set: the value is not UTF-8"};
     }
     return std::nullopt;
+}
+
+Status set_in_scene(std::string_view pointer, std::string_view value, SceneDraft& draft) {
+    const PlacedValue one{std::string(pointer), std::string(value)};
+    return set_in_scene(std::span(&one, 1), draft);
 }
 
 }  // namespace awan

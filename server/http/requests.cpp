@@ -215,6 +215,7 @@ void HttpServer::State::refuse(Connection& c, int status, std::string_view detai
     const std::string id = request_id_from(c.head.header("X-Request-Id"));
     Response response = problem(status, detail, "", id);
     response.reason = reason;
+    show_problem(c.head.header("Accept"), response);
     log(c, response, id, 0);
     if (status == 401) response.headers.emplace_back("WWW-Authenticate", "Bearer");
     if (status == 429 || status == 503)

@@ -31,9 +31,10 @@ struct Preset {
 // The presets in the order of web/presets/index.json, which gives their titles.
 std::vector<Preset> make_presets();
 
-// Scripts, styles and pictures of this server only: a scene's text can never become a script.
+// Scripts, styles and pictures of this server only: a scene's text can never become a script. The form that works
+// without scripts is sent to this server.
 inline constexpr std::string_view kContentSecurityPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
-    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+    "connect-src 'self'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'";
 
 }  // namespace awan

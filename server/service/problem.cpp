@@ -3,13 +3,26 @@
 #include <sys/random.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
 #include "server/document/json.h"
+#include "server/document/problem_page.h"
 #include "server/limits.h"
+#include "server/service/negotiation.h"
 
 namespace awan {
+namespace {
+
+constexpr std::string_view kProblemType = "application/problem+json";
+
+// A page that says what is wrong: no scripts, nothing to send.
+constexpr std::string_view kProblemPolicy =
+    "default-src 'none'; style-src 'self'; img-src 'self'; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'none'";
+
+}  // namespace
 
 int status_of(ErrorCode code) {
     switch (code) {
@@ -109,7 +122,7 @@ Response problem(int status, std::string_view detail, std::string_view pointer,
                  std::string_view request_id) {
     Response response;
     response.status = status;
-    response.headers = {{"Content-Type", "application/problem+json"},
+    response.headers = {{"Content-Type", std::string(kProblemType)},
                         {"Cache-Control", "no-store"},
                         {"X-Content-Type-Options", "nosniff"},
                         {"X-Request-Id", std::string(request_id)}};
@@ -129,6 +142,19 @@ Response problem_retry(int status, std::string_view detail, int retry_after_seco
     Response response = problem(status, detail, "", request_id);
     response.headers.emplace_back("Retry-After", std::to_string(std::max(1, retry_after_seconds)));
     return response;
+}
+
+void show_problem(std::string_view accept, Response& response) {
+    constexpr std::array<std::string_view, 3> kOffers = {kProblemType, "application/json",
+                                                         "text/html"};
+    if (response.header("Content-Type") != kProblemType) return;
+    if (best_offer(accept, kOffers) != "text/html") return;
+    response.body = problem_page(response.body);
+    for (auto& [name, value] : response.headers)
+        if (name == "Content-Type") value = "text/html; charset=utf-8";
+    response.headers.emplace_back("Content-Security-Policy", kProblemPolicy);
+    response.headers.emplace_back("Referrer-Policy", "no-referrer");
+    response.headers.emplace_back("Vary", "Accept");
 }
 
 int seconds_from_ms(double ms) {

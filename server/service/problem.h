@@ -28,6 +28,10 @@ Response problem(const Error& error, std::string_view request_id);
 Response problem_retry(int status, std::string_view detail, int retry_after_seconds,
                        std::string_view request_id);
 
+// Makes a problem document a page of HTML, for a client whose Accept says that it would rather see one: a browser that
+// sent a form, or was led to a path that is not there. `accept`: the header, its fields joined.
+void show_problem(std::string_view accept, Response& response);
+
 // Milliseconds as Retry-After has them: whole seconds, 1 to 600.
 int seconds_from_ms(double ms);
 

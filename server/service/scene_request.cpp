@@ -69,6 +69,8 @@ struct SceneBytes {
     std::optional<std::string> bytes;
     // The query, and then what a form adds.
     std::vector<std::pair<std::string, std::string>> fields;
+    // Fields of a form that are named by a place in the document.
+    std::vector<PlacedValue> placed;
 };
 
 // The format of a part by what says it best: its type, its file's name, its bytes.
@@ -78,27 +80,49 @@ SceneFormat format_of(const FormPart& part) {
     return sniff_scene_format(part.value);
 }
 
-Result<SceneBytes> of_form(std::vector<FormPart> parts, SceneBytes scene) {
-    bool found = false;
+bool is_scene(const FormPart& part) {
+    return part.name == "scene" || part.name == "layout";
+}
+
+// Which part is the scene: a page sends its text area and its chosen file, either of which may be left empty, and a
+// file takes the place of the text.
+Result<FormPart*> scene_part(std::vector<FormPart>& parts) {
+    FormPart* text = nullptr;
+    FormPart* file = nullptr;
+    FormPart* empty = nullptr;
     for (FormPart& part : parts) {
-        if (part.name == "scene" || part.name == "layout") {
-            if (found) return Error{ErrorCode::kMalformed, "", "the form has more than one scene"};
-            found = true;
-            scene.format = format_of(part);
-            scene.bytes = std::move(part.value);
-        } else if (is_override(part.name)) {
-            // Fields that are left empty on a page say nothing.
-            if (!part.value.empty())
-                scene.fields.emplace_back(std::move(part.name), std::move(part.value));
-        } else {
+        if (!is_scene(part)) continue;
+        FormPart*& kind = part.value.empty() ? empty : part.file_name.empty() ? text : file;
+        if (kind != nullptr && kind != empty)
+            return Error{ErrorCode::kMalformed, "", "the form has more than one scene"};
+        kind = &part;
+    }
+    for (FormPart* part : {file, text, empty})
+        if (part != nullptr) return part;
+    return Error{ErrorCode::kMalformed, "", "the form has no field `scene` (or `layout`)"};
+}
+
+Result<SceneBytes> of_form(std::vector<FormPart> parts, SceneBytes scene) {
+    for (FormPart& part : parts) {
+        if (is_scene(part)) continue;
+        const bool placed = part.name.starts_with('/');
+        if (!placed && !is_override(part.name))
             return Error{ErrorCode::kMalformed, "",
                          "there is no field " + short_quote(part.name) +
-                             " in a form; there are scene (or layout), " +
+                             " in a form; there are scene (or layout), places in the document "
+                             "such as /sun/elevation, " +
                              std::string(kOverrideNames)};
-        }
+        // Fields that are left empty on a page say nothing.
+        if (part.value.empty()) continue;
+        if (placed)
+            scene.placed.push_back({std::move(part.name), std::move(part.value)});
+        else
+            scene.fields.emplace_back(std::move(part.name), std::move(part.value));
     }
-    if (!found)
-        return Error{ErrorCode::kMalformed, "", "the form has no field `scene` (or `layout`)"};
+    const auto found = scene_part(parts);
+    if (!found) return found.error();
+    scene.format = format_of(**found);
+    scene.bytes = std::move((*found)->value);
     return scene;
 }
 
@@ -165,6 +189,7 @@ Result<SceneRequest> read_scene_request(const Request& request) {
     if (!draft) return draft.error();
     // Its text is not needed any more, and may be long.
     body->bytes.reset();
+    if (const Status wrong = set_in_scene(body->placed, *draft)) return *wrong;
     override_scene(*overrides, *draft);
     auto scene = validate(*std::move(draft));
     if (!scene) return scene.error();

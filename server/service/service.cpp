@@ -324,6 +324,7 @@ std::optional<Response> Service::refuse(const Request& request) {
     const Route route = find_route(*state_, request.path);
     std::optional<Response> response = check(*state_, route, request);
     if (!response) return std::nullopt;
+    show_problem(joined_header(request, "Accept"), *response);
     return finished(*state_, route, request, std::move(*response), 0);
 }
 
@@ -338,8 +339,9 @@ Response Service::answer(const Request& request) {
             response = std::move(*refused);
         } else {
             response = route_answer(*state_, route, request);
-            compress(request, response);
         }
+        show_problem(joined_header(request, "Accept"), response);
+        compress(request, response);
     } catch (const std::exception& e) {
         response = fail(error_of_thrown(e), request);
     }
