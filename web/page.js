@@ -19,6 +19,7 @@ import { atOrDefault } from "./schema.js";
 import { createStage } from "./stage.js";
 import { createTime } from "./time.js";
 import { createTokenField } from "./token.js";
+import { createWorkspace } from "./workspace.js";
 
 const DRAFT = "awan.draft";
 
@@ -92,18 +93,22 @@ const figures = createFigures(store);
 const time = createTime(store, { failed: fail, copy, note: say, show: () => loop.changed({ moving: true, playing: true }) });
 const stage = createStage({
   nudge: camera.nudge,
-  letGo: () => loop.letGo(),
+  letGo() {
+    workspace.letGo();
+    loop.letGo();
+  },
   toggle() {
     if (time.canMove) time.toggle();
     return time.canMove;
   },
 });
+const workspace = createWorkspace(store, choice, { bounds, letGo: () => loop.letGo(), chosen: refreshControls, failed: fail, note: say });
 const files = createFiles(store, { name: () => presetName || "cloud", failed: fail, note: say });
 
 const text = el("textarea", { id: "json", rows: 24, spellcheck: "false", autocomplete: "off", "aria-label": "Scene document as JSON" });
 const jsonGroup = group("JSON", "", false, el("p", { class: "why" }, "The whole document. What is written here is what is sent."), text);
 jsonGroup.addEventListener("toggle", () => refreshText());
-byId("groups").append(...models.elements, time.element, ...panels.map((panel) => panel.element), accuracy.element, layout.element, jsonGroup);
+byId("groups").append(...workspace.elements, ...models.elements, time.element, ...panels.map((panel) => panel.element), accuracy.element, layout.element, jsonGroup);
 
 text.addEventListener("input", () => {
   try {
@@ -137,6 +142,7 @@ async function askPlan() {
     figures.plan(answer);
     accuracy.plan(answer);
     panels.forEach((panel) => panel.refresh());
+    workspace.refresh();
   } catch (error) {
     if (error.name !== "AbortError") say(`No plan: ${error.message}`);
   }
@@ -190,6 +196,7 @@ const loop = createRenderLoop({
   marked(how) {
     byId("left").dataset.picture = how;
     byId("mark").textContent = time.playing ? "" : MARKS[how];
+    workspace.marked(how);
   },
 });
 
@@ -203,6 +210,7 @@ function refreshControls() {
   accuracy.element.hidden = atOrDefault(store.scene, "/look") !== "physical"; // a look has no error
   layout.refresh();
   figures.refresh();
+  workspace.refresh();
   files.refresh();
   refreshText();
   byId("undo").disabled = !store.canUndo;
