@@ -10,13 +10,16 @@ export const [origin, scratch] = process.argv.slice(2);
 const root = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
 const { chromium } = createRequire(path.join(root, "build/node/package.json"))("playwright-core");
 
+// Without WebGL, as on many machines; AWAN_PAGE_GL=1: with that of a program.
+const drawing = process.env.AWAN_PAGE_GL ? ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]
+  : ["--disable-gpu", "--disable-3d-apis"];
 export const context = await chromium.launchPersistentContext(path.join(scratch, "profile"), {
   executablePath: "/usr/bin/chromium",
   headless: true,
   acceptDownloads: true,
   downloadsPath: scratch,
   viewport: { width: 1440, height: 900 },
-  args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+  args: ["--no-sandbox", ...drawing, "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync"],
 });
 const patience = process.env.AWAN_SANITIZED ? 10 : 1; // a program with sanitizers is slow

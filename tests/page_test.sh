@@ -49,6 +49,7 @@ use() {
 
 arguments=
 use page.mjs
+AWAN_PAGE_GL=1 use page_workspace.mjs
 echo 0123456789abcdef >"$scratch/token"
 arguments=0123456789abcdef
 use page_token.mjs --token-file "$scratch/token"

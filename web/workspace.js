@@ -39,7 +39,6 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, failed, 
   let mode = "translate";
   let step = 0; // of snapping; 0: none
   let boxTool = false;
-  let cell = 1; // of the grid
 
   // --- what there is, and what is selected ---
 
@@ -205,6 +204,9 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, failed, 
     take(event);
   }, { capture: true });
   stage.addEventListener("pointermove", (event) => {
+    if (state === "on" && !event.buttons && event.target === canvas) {
+      stage.classList.toggle("takes", view.holdsGizmo || view.holdsSun(...place(event)));
+    }
     if (!press || press.kind === "click" || !event.buttons) return;
     take(event);
     const [x, y] = place(event);
@@ -282,8 +284,8 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, failed, 
     step = next;
     refresh();
   }
-  const toolbar = createToolbar({ actions, setMode, toggleBox, setStep, toggle, undo: store.undo, redo: store.redo });
-  const panel = createPanel(store, { actions, select, ids, items: () => items, selection: () => selection, active, choice, failed, note });
+  const toolbar = createToolbar({ actions, setMode, toggleBox, setStep, toggle });
+  const panel = createPanel(store, { actions, select, ids, items: () => items, selection: () => selection, active, failed, note });
   stage.after(toolbar.element);
 
   const sprites = createSpriteLoop({ view: () => (state === "on" ? view : null), scene: () => store.scene, sun: towardsSun });
@@ -359,7 +361,7 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, failed, 
   let litBy = "";
   function refresh() {
     readItems();
-    toolbar.refresh({ state, mode, boxTool, step, count: selection.length, canUndo: store.canUndo, canRedo: store.canRedo });
+    toolbar.refresh({ state, mode, boxTool, step, count: selection.length });
     panel.refresh();
     if (state !== "on") return;
     const chosenOnes = new Set(selection);
@@ -368,7 +370,7 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, failed, 
       .map((item) => ({ ...item, selected: chosenOnes.has(item.id), active: item.id === activeId }));
     const [center, half] = items.length ? around(items) : [[0, 0, 0], [5, 5, 5]];
     const measured = bounds() ?? { min: center.map((c, i) => c - half[i]), max: center.map((c, i) => c + half[i]) };
-    if (!gesture) cell = view.bounds(measured);
+    if (!gesture) view.bounds(measured);
     view.camera(eyeOf());
     view.items(drawn);
     view.sun(sunAngles());
@@ -392,9 +394,5 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, failed, 
       begin();
       if (how !== "earlier") sprites.settled();
     },
-    // For those who look at it from outside.
-    get view() { return view; },
-    get sprites() { return sprites; },
-    get cell() { return cell; },
   };
 }

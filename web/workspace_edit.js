@@ -134,7 +134,7 @@ export function cleared(scene) {
   return { cubes: [], ...rest };
 }
 
-// A part like the last of the cloud's, at a place of the scene. [scene, its id]; null where the model has no parts.
+// A part like the last of the cloud's, at a place of the scene. [scene, [its id]]; null where the model has no parts.
 export function added(scene, index, center, size) {
   const { cloud, pointer } = cloudsOf(scene)[index] ?? {};
   if (!cloud) return null;
@@ -149,5 +149,5 @@ export function added(scene, index, center, size) {
   if (!member) return null;
   const list = partsAt(scene, pointer, member);
   const next = member === "implicit/primitives" && !Array.isArray(at(scene, `${pointer}/${member}`)) ? withOwnShapes(scene, pointer) : scene;
-  return [withAt(next, `${pointer}/${member}`, [...list, { ...fresh, center: inside }]), `${pointer}/${member}/${list.length}`];
+  return [withAt(next, `${pointer}/${member}`, [...list, { ...fresh, center: inside }]), [`${pointer}/${member}/${list.length}`]];
 }

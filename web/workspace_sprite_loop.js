@@ -10,6 +10,7 @@ const kFadeMs = 220;
 const kRestMs = 350;
 const kSlowFrameMs = 60; // where frames take longer, the pictures of the service are as quick
 const kFramesWatched = 12;
+const kTriedAgainMs = 30_000;
 const ELSEWHERE = new Set(["camera", "image", "sun", "sky", "ground", "haze", "accuracy", "effects", "sequence", "look", "display"]);
 
 // view(): of workspace_view.js, or null. scene() -> the document; sun() -> unit vector to it.
@@ -21,7 +22,7 @@ export function createSpriteLoop({ view, scene, sun }) {
   let lastMove = 0;
   let opacity = 0;
   let fading = 0;
-  let slow = false;
+  let slowUntil = 0; // no sprites before
   let frames = [];
   const stage = document.getElementById("stage");
 
@@ -41,7 +42,7 @@ export function createSpriteLoop({ view, scene, sun }) {
     };
     step(begun);
   }
-  const isReady = () => known !== null && known.set !== null && !slow && view() !== null;
+  const isReady = () => known !== null && known.set !== null && performance.now() >= slowUntil && view() !== null;
 
   async function ask() {
     const document = scene();
@@ -78,17 +79,17 @@ export function createSpriteLoop({ view, scene, sun }) {
     }
     frames.push(now);
     if (frames.length > kFramesWatched) {
-      slow = (now - frames[0]) / (frames.length - 1) > kSlowFrameMs;
+      const isSlow = (now - frames[0]) / (frames.length - 1) > kSlowFrameMs;
       frames = [];
-      if (slow) fade(0);
+      if (isSlow) {
+        slowUntil = now + kTriedAgainMs;
+        fade(0);
+      }
     }
     requestAnimationFrame(watch);
   }
 
   return {
-    get count() { return known?.set?.count ?? 0; },
-    get shown() { return opacity; },
-    get slow() { return slow; },
     // The document has changed; `moves`: something is being dragged.
     changed(moves) {
       if (!view()) return;

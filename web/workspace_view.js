@@ -131,10 +131,8 @@ export function createView(canvas, told) {
   scene.add(sprites.object, wires.object, axes, dome.group, handle, gizmo.getHelper());
 
   let asked = 0;
-  let frames = 0;
   function render() {
     asked = 0;
-    frames += 1;
     renderer.render(scene, camera);
   }
   const draw = () => { asked ||= requestAnimationFrame(render); };
@@ -218,7 +216,7 @@ export function createView(canvas, told) {
     axes.scale.setScalar(home.radius * 0.6);
     axes.position.set(0, 0, 0);
   }
-  const domeRadius = () => 0.92 * home.radius;
+  const domeRadius = () => 0.55 * home.radius; // within the picture that shows the whole cloud
   // Where the ray meets the dome: on the side of it where the sun is, or at its rim.
   function sunAt(x, y) {
     const { from, along } = rayAt(x, y);
@@ -238,7 +236,6 @@ export function createView(canvas, told) {
   }
 
   return {
-    get frames() { return frames; },
     resize() {
       renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
       renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
@@ -269,14 +266,13 @@ export function createView(canvas, told) {
           grid.dispose();
         }
         grid = new GridHelper(cells * cell, cells, 0x66788a, 0x8fa0b0);
-        Object.assign(grid.material, { transparent: true, opacity: 0.4 });
+        Object.assign(grid.material, { transparent: true, opacity: 0.6 });
         Object.assign(grid.userData, { cell, cells });
         scene.add(grid);
       }
       grid.position.set(Math.round(center[0] / cell) * cell, min[1], Math.round(center[2] / cell) * cell);
       layOut();
       draw();
-      return cell;
     },
     items(list) {
       items = list;
@@ -313,7 +309,7 @@ export function createView(canvas, told) {
       const pixel = pixelOf(dome.sun.getWorldPosition(new Vector3()).toArray());
       return pixel !== null && Math.hypot(pixel[0] - x, pixel[1] - y) < kSunReach;
     },
-    sunAt, pixelOf,
+    sunAt,
     // The ids of what lies under a point, the nearest first.
     pick(x, y) {
       const ray = rayAt(x, y);
@@ -334,13 +330,6 @@ export function createView(canvas, told) {
       sprites.object.visible = opacity > 0;
       sprites.opacity(opacity);
       draw();
-    },
-    // Where the pointer of the gizmo's middle is, for tests and for people who cannot see it.
-    gizmoAt: () => (gizmo.object ? pixelOf(handle.position.toArray()) : null),
-    dispose() {
-      cancelAnimationFrame(asked);
-      gizmo.dispose();
-      renderer.dispose();
     },
   };
 }
