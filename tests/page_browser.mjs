@@ -101,7 +101,7 @@ export async function open(where = "/") {
 
 // A page for its controls alone: the pictures are a stand-in, or never come; `contract`: whether the service says what
 // a document may hold.
-const STAND_IN = Buffer.from(
+export const STAND_IN = Buffer.from(
   "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8BQDwAEhQGAhKmMIQAAAABJRU5ErkJggg==", "base64");
 export async function openQuiet({ pictures = true, contract = true } = {}) {
   const page = await context.newPage();

@@ -5,7 +5,7 @@ import { cloudsOf, sceneFromAwn, withCloudList } from "./document.js";
 import { duplicated, transformed } from "./workspace_edit.js";
 import { around, itemsOf } from "./workspace_items.js";
 
-const cube = (particles, size, center, radius, more = {}) => ({ particles, size, center, radius, ...more });
+const cube = (particles, size, center, radius) => ({ particles, size, center, radius });
 
 // A stream of 0..1 that is the same for the same seed.
 export function randomFrom(seed) {
@@ -24,12 +24,12 @@ const short = (x) => Number(x.toPrecision(4));
 function field() {
   const random = randomFrom(7);
   return Array.from({ length: 12 }, (_unused, i) => {
-    const size = 0.7 + 0.9 * random();
+    const size = 0.9 + 0.9 * random();
     return {
-      model: "cubes", seed: i + 1, translate: [short(9 * ((i % 4) - 1.5) + 4 * (random() - 0.5)), 0, short(9 * (Math.floor(i / 4) - 1) + 4 * (random() - 0.5))],
+      model: "cubes", seed: i + 1, translate: [short(7 * ((i % 4) - 1.5) + 3 * (random() - 0.5)), 0, short(7 * (Math.floor(i / 4) - 1) + 3 * (random() - 0.5))],
       cubes: [
-        cube(60, [short(4 * size), 0.8, short(3.2 * size)], [0, 0, 0], short(0.9 * size)),
-        cube(40, [short(2.2 * size), short(1.4 * size), short(2 * size)], [short(0.6 * (random() - 0.5)), short(0.9 * size), 0], short(0.8 * size)),
+        cube(80, [short(4 * size), 0.8, short(3.2 * size)], [0, 0, 0], short(0.9 * size)),
+        cube(60, [short(2.2 * size), short(1.4 * size), short(2 * size)], [short(0.6 * (random() - 0.5)), short(0.9 * size), 0], short(0.8 * size)),
       ],
     };
   });
@@ -44,8 +44,8 @@ export const STARTERS = [
   ["field", "Field of small clouds", field],
   ["sheet", "Sheet", () => [{ model: "cubes", cubes: [cube(700, [26, 0.8, 20], [0, 0, 0], 1.4), cube(200, [20, 0.5, 14], [2, 0.6, -1], 1)] }]],
   ["wisp", "Wisp", () => [{ model: "cubes", cubes: [
-    cube(120, [9, 0.4, 1.4], [0, 0, 0], 0.6, { density: 0.2 }), cube(90, [7, 0.3, 1], [3, 0.5, 1.6], 0.5, { density: 0.15 }),
-    cube(90, [8, 0.3, 0.9], [-3, 0.3, -1.5], 0.5, { density: 0.15 }),
+    cube(120, [9, 0.4, 1.4], [0, 0, 0], 0.6), cube(90, [7, 0.3, 1], [3, 0.5, 1.6], 0.5),
+    cube(90, [8, 0.3, 0.9], [-3, 0.3, -1.5], 0.5),
   ] }]],
 ];
 const one = (clouds) => (clouds.length === 1 ? { cubes: clouds[0].cubes } : { clouds });
