@@ -12,6 +12,9 @@ const needs = createRequire(path.join(root, "build/node/package.json"));
 const { chromium } = needs("playwright-core");
 export const axe = fs.readFileSync(needs.resolve("axe-core/axe.min.js"), "utf8");
 
+// Without WebGL, as on many machines; AWAN_PAGE_GL=1: with that of a program.
+const drawing = process.env.AWAN_PAGE_GL ? ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]
+  : ["--disable-gpu", "--disable-3d-apis"];
 // A browser with a profile of its own.
 export const launch = (profile, options = {}) => chromium.launchPersistentContext(path.join(scratch, profile), {
   executablePath: "/usr/bin/chromium",
@@ -19,7 +22,7 @@ export const launch = (profile, options = {}) => chromium.launchPersistentContex
   acceptDownloads: true,
   downloadsPath: scratch,
   viewport: { width: 1440, height: 900 },
-  args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+  args: ["--no-sandbox", ...drawing, "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync"],
   ...options,
 });
@@ -103,7 +106,7 @@ export async function open(where = "/") {
 
 // A page for its controls alone: the pictures are a stand-in, or never come; `contract`: whether the service says what
 // a document may hold.
-const STAND_IN = Buffer.from(
+export const STAND_IN = Buffer.from(
   "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8BQDwAEhQGAhKmMIQAAAABJRU5ErkJggg==", "base64");
 export async function openQuiet({ pictures = true, contract = true } = {}) {
   const page = await context.newPage();

@@ -56,6 +56,7 @@ use page_state.mjs
 use page_form.mjs
 rm -rf "$scratch/profile"
 use page_looks.mjs
+AWAN_PAGE_GL=1 use page_workspace.mjs
 echo 0123456789abcdef >"$scratch/token"
 arguments=0123456789abcdef
 use page_token.mjs --token-file "$scratch/token"

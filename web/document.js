@@ -70,7 +70,7 @@ export function sceneFromAwn(text) {
 }
 
 const HISTORY = 200; // steps of undo
-const ONE_STEP_MS = 1000; // edits of one field this close together are undone together
+const ONE_STEP_MS = 1000; // edits of one field this close together are undone together; of one gesture (a Symbol), all of them
 
 // A state of the page's document:
 //   scene     the document
@@ -99,7 +99,7 @@ export function createStore() {
 
   function become(next, { key = null, moving = false, text = null, preset = "", replaced = false, title, work } = {}) {
     const now = performance.now();
-    const together = key !== null && key === lastKey && now - lastTime < ONE_STEP_MS;
+    const together = key !== null && key === lastKey && (typeof key === "symbol" || now - lastTime < ONE_STEP_MS);
     if (!together) past = [...past.slice(1 - HISTORY), state];
     future = [];
     [lastKey, lastTime] = [key, now];

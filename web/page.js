@@ -22,6 +22,7 @@ import { isShared, sharedText } from "./share.js";
 import { createStage } from "./stage.js";
 import { createTime } from "./time.js";
 import { createTokenField } from "./token.js";
+import { createWorkspace } from "./workspace.js";
 
 const store = createStore();
 let measured = null; // { scene, bounds } of the last plan
@@ -93,12 +94,16 @@ const figures = createFigures(store);
 const time = createTime(store, { failed: fail, copy, note: say, show: () => loop.changed({ moving: true, playing: true }) });
 const stage = createStage({
   nudge: camera.nudge,
-  letGo: () => loop.letGo(),
+  letGo() {
+    workspace.letGo();
+    loop.letGo();
+  },
   toggle() {
     if (time.canMove) time.toggle();
     return time.canMove;
   },
 });
+const workspace = createWorkspace(store, choice, { bounds, letGo: () => loop.letGo(), chosen: refreshControls, failed: fail, note: say });
 const files = createFiles(store, {
   name: () => store.preset || store.work.title.replace(/[^\w-]+/g, "-").toLowerCase() || "cloud",
   picture: () => wholePicture,
@@ -110,7 +115,7 @@ const drafts = createDrafts(store, keeping, { open: (text, options) => store.rep
 const text = el("textarea", { id: "json", rows: 24, spellcheck: "false", autocomplete: "off", "aria-label": "Scene document as JSON" });
 const jsonGroup = group("JSON", "", false, el("p", { class: "why" }, "The whole document. What is written here is what is sent."), text);
 jsonGroup.addEventListener("toggle", () => refreshText());
-byId("groups").append(...models.elements, time.element, ...panels.map((panel) => panel.element), accuracy.element, layout.element, jsonGroup);
+byId("groups").append(...workspace.elements, ...models.elements, time.element, ...panels.map((panel) => panel.element), accuracy.element, layout.element, jsonGroup);
 
 text.addEventListener("input", () => {
   try {
@@ -144,6 +149,7 @@ async function askPlan() {
     figures.plan(answer);
     accuracy.plan(answer);
     panels.forEach((panel) => panel.refresh());
+    workspace.refresh();
   } catch (error) {
     if (error.name !== "AbortError") say(`No plan: ${error.message}`);
   }
@@ -200,6 +206,7 @@ const loop = createRenderLoop({
   marked(how) {
     byId("left").dataset.picture = how;
     byId("mark").textContent = time.playing ? "" : MARKS[how];
+    workspace.marked(how);
   },
 });
 
@@ -213,6 +220,7 @@ function refreshControls() {
   accuracy.element.hidden = atOrDefault(store.scene, "/look") !== "physical"; // a look has no error
   layout.refresh();
   figures.refresh();
+  workspace.refresh();
   files.refresh();
   refreshText();
   byId("undo").disabled = !store.canUndo;

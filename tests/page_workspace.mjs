@@ -1,0 +1,325 @@
+// page_workspace.mjs ORIGIN SCRATCH: the workspace over the picture, used with the pointer, with keys and by numbers, in a
+// browser that has WebGL. Started by page_test.sh.
+
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import path from "node:path";
+
+import { STAND_IN, context, faults, group, look, origin, renders, open, scratch, settled } from "./page_browser.mjs";
+
+const kMostKilobytes = 300; // of the whole page, compressed
+const kDistance = 20;
+const SCENE = {
+  cubes: [-4, 0, 4].map((x) => ({ particles: 40, size: [2, 2, 2], center: [x, 0, 0], radius: 1 })),
+  sun: { elevation: 40, azimuth: 20 },
+  camera: { eye: [0, 0, kDistance], target: [0, 0, 0], fov: 40 },
+  image: { width: 160, height: 100 },
+  accuracy: { rung: "transport-16" },
+};
+await context.route("**/v1/presets/cumulus", (route) => route.fulfill({ json: SCENE }));
+
+const json = async (page) => JSON.parse(await page.inputValue("#json"));
+const box = (page) => page.locator("#stage").boundingBox();
+// Where a point is in the picture: as the service's camera has it, by code of its own.
+async function pixel(page, [x, y, z]) {
+  const { x: left, y: top, width, height } = await box(page);
+  const scale = height / 2 / Math.tan((40 * Math.PI) / 360) / (kDistance - z);
+  return [left + width / 2 + x * scale, top + height / 2 - y * scale];
+}
+const status = (page) => page.locator("#shape [role=status]").textContent();
+const clickAt = async (page, point, modifiers = []) => {
+  for (const key of modifiers) await page.keyboard.down(key);
+  await page.mouse.click(...await pixel(page, point));
+  for (const key of modifiers) await page.keyboard.up(key);
+};
+const drag = async (page, [x0, y0], [x1, y1]) => {
+  await page.mouse.move(x0, y0);
+  await page.mouse.move(x0 + 1, y0);
+  await page.mouse.down();
+  for (let i = 1; i <= 6; i += 1) await page.mouse.move(x0 + ((x1 - x0) * i) / 6, y0 + ((y1 - y0) * i) / 6);
+  await page.mouse.up();
+};
+const bar = (page) => page.getByRole("toolbar", { name: "Workspace" });
+const press = (page, name) => bar(page).getByRole("button", { name, exact: true }).click();
+const nearly = (a, b, within, what) => assert.ok(Math.abs(a - b) <= within, `${what}: ${a}, not ${b}`);
+const selected = (page) => page.$$eval("#shape select[multiple] option", (all) => all.filter((one) => one.selected).map((one) => one.value));
+
+const tests = {
+  async "comes after the first picture, and the page is light"(page) {
+    await page.waitForFunction(() => document.querySelector('[data-mode="translate"]')?.offsetParent != null);
+    const { bytes, view, picture } = await page.evaluate(() => {
+      const all = [...performance.getEntriesByType("navigation"), ...performance.getEntriesByType("resource")];
+      const page = all.filter(({ name }) => !name.startsWith("blob:") && !/\/v1\//.test(name));
+      return {
+        bytes: page.reduce((sum, { encodedBodySize }) => sum + encodedBodySize, 0),
+        view: all.find(({ name }) => name.endsWith("/workspace_view.js")).startTime,
+        picture: all.find(({ name }) => name.endsWith("/v1/render")).responseEnd,
+      };
+    });
+    console.log(`  ${(bytes / 1000).toFixed(0)} kB on the wire`);
+    assert.ok(bytes < 1000 * kMostKilobytes, `${bytes} bytes`);
+    assert.ok(view >= picture, "three.js is asked for when the first picture is there");
+    await group(page, "JSON").locator("summary").click();
+  },
+
+  async "selects by click, shift-click, box and keys"(page) {
+    await clickAt(page, [0, 0, 1]);
+    assert.deepEqual(await selected(page), ["/cubes/1"]);
+    await clickAt(page, [4, 0, 1], ["Shift"]);
+    assert.deepEqual(await selected(page), ["/cubes/1", "/cubes/2"]);
+    assert.match(await status(page), /2 selected; cube 3/);
+    await clickAt(page, [0, 5, 0]);
+    assert.deepEqual(await selected(page), []);
+    await page.keyboard.down("Shift");
+    await drag(page, await pixel(page, [-6, 3, 0]), await pixel(page, [1.5, -3, 0]));
+    await page.keyboard.up("Shift");
+    assert.deepEqual(await selected(page), ["/cubes/0", "/cubes/1"]);
+    await press(page, "Box");
+    await drag(page, await pixel(page, [2, 3, 0]), await pixel(page, [6, -3, 0]));
+    assert.deepEqual(await selected(page), ["/cubes/2"]);
+    await press(page, "Box");
+    await page.locator("#stage").focus();
+    await page.keyboard.press("a");
+    assert.equal((await selected(page)).length, 3);
+    await page.keyboard.press("Escape");
+    assert.deepEqual(await selected(page), []);
+    assert.deepEqual(await json(page), SCENE, "selecting changes nothing");
+  },
+
+  async "moves a cube by the gizmo, the picture follows, and it is one step of undo"(page) {
+    await settled(page);
+    const before = await look(page);
+    await clickAt(page, [0, 0, 1]);
+    const arrow = await pixel(page, [0.045 * kDistance, 0, 0]);
+    const [far] = await pixel(page, [0.045 * kDistance + 1.5, 0, 0]);
+    const sent = renders.length;
+    await drag(page, arrow, [far, arrow[1]]);
+    await settled(page);
+    const moved = (await json(page)).cubes;
+    nearly(moved[1].center[0], 1.5, 0.2, "x");
+    assert.deepEqual(moved[1].center.slice(1), [0, 0], "along its axis only");
+    assert.deepEqual([moved[0], moved[2]], [SCENE.cubes[0], SCENE.cubes[2]]);
+    assert.ok(renders.length > sent);
+    assert.notEqual((await look(page)).hash, before.hash);
+    await page.keyboard.press("Control+z");
+    await settled(page);
+    assert.deepEqual(await json(page), SCENE);
+    assert.equal((await look(page)).hash, before.hash);
+    await page.keyboard.press("Control+Shift+z");
+    assert.deepEqual((await json(page)).cubes, moved);
+    await page.keyboard.press("Control+z");
+  },
+
+  async "scales and turns by the gizmo, and snaps"(page) {
+    await clickAt(page, [0, 0, 1]);
+    await page.keyboard.press("r");
+    const grip = await pixel(page, [0.045 * kDistance, 0, 0]);
+    await drag(page, grip, [grip[0] + 80, grip[1]]);
+    const [width, height] = (await json(page)).cubes[1].size;
+    assert.ok(width > 2.2, `${width} wide`);
+    assert.equal(height, 2);
+    await page.keyboard.press("Control+z");
+    await page.keyboard.press("w");
+    await page.getByLabel("Snap").selectOption("1");
+    const arrow = await pixel(page, [0.045 * kDistance, 0, 0]);
+    await drag(page, arrow, [(await pixel(page, [0.045 * kDistance + 1.9, 0, 0]))[0], arrow[1]]);
+    assert.equal((await json(page)).cubes[1].center[0] % 1, 0, "on the grid");
+    await page.getByLabel("Snap").selectOption("0");
+    await page.locator("#stage").focus();
+    await page.keyboard.press("Control+z");
+    assert.deepEqual(await json(page), SCENE);
+    await page.keyboard.press("e");
+    assert.equal(await bar(page).getByRole("button", { name: "Turn", exact: true }).getAttribute("aria-pressed"), "true");
+    await page.keyboard.press("w");
+  },
+
+  async "adds, duplicates, deletes, deletes all and begins anew, each with a way back"(page) {
+    const count = async () => (await json(page)).cubes.length;
+    await clickAt(page, [0, 0, 1]);
+    await page.keyboard.press("Shift+D");
+    assert.equal(await count(), 4);
+    assert.deepEqual(await selected(page), ["/cubes/3"]);
+    await page.keyboard.press("Delete");
+    assert.equal(await count(), 3);
+    for (const [name, left] of [["Add", 4], ["Duplicate", 5], ["Delete", 4]]) {
+      await press(page, name);
+      assert.equal(await count(), left, name);
+    }
+    await press(page, "Delete all shapes");
+    assert.equal(await count(), 0);
+    await press(page, "New scene");
+    assert.equal(await count(), 1);
+    for (const left of [0, 4, 5, 4, 3]) {
+      await page.click("#undo");
+      assert.equal(await count(), left);
+    }
+    while (JSON.stringify(await json(page)) !== JSON.stringify(SCENE)) await page.click("#undo");
+  },
+
+  async "takes numbers, for one axis and for all"(page) {
+    await clickAt(page, [0, 0, 1]);
+    const shape = page.locator("#shape");
+    await shape.getByLabel("Place, y").fill("2");
+    await shape.getByLabel("Lengths, z").fill("3");
+    assert.deepEqual((await json(page)).cubes[1], { particles: 40, size: [2, 2, 3], center: [0, 2, 0], radius: 1 });
+    await shape.getByLabel("Factor").fill("2");
+    await shape.getByRole("button", { name: "Scale all axes" }).click();
+    assert.deepEqual((await json(page)).cubes[1], { particles: 40, size: [4, 4, 6], center: [0, 2, 0], radius: 2 });
+    for (let i = 0; i < 3; i += 1) await page.click("#undo");
+    assert.deepEqual(await json(page), SCENE);
+  },
+
+  async "looks from the front, the right and the top, and at what is selected"(page) {
+    await clickAt(page, [4, 0, 1]);
+    const eyes = [];
+    for (const key of ["1", "3", "7", "f"]) {
+      await page.keyboard.press(key);
+      eyes.push((await json(page)).camera);
+    }
+    assert.deepEqual(eyes[0].eye, [0, 0, kDistance]);
+    assert.deepEqual(eyes[1].eye, [kDistance, 0, 0]);
+    assert.ok(eyes[2].eye[1] > 0.99 * kDistance);
+    assert.deepEqual(eyes[3].target, [4, 0, 0]);
+    while ((await json(page)).camera.eye[2] !== kDistance) await page.click("#undo");
+    assert.deepEqual(await json(page), SCENE);
+  },
+
+  async "moves the sun on its dome"(page) {
+    await settled(page);
+    const { x: left, y: top, width, height } = await box(page);
+    let sun = null;
+    for (let y = 20; y < height && !sun; y += 18) {
+      for (let x = width / 3; x < width && !sun; x += 18) {
+        await page.mouse.move(left + x, top + y);
+        if (await page.$eval("#stage", (stage) => stage.classList.contains("takes") && !document.querySelector("#stage.dragging"))) sun = [left + x, top + y];
+      }
+    }
+    assert.ok(sun, "the sun is in the picture");
+    await drag(page, sun, [sun[0] + 60, sun[1] + 20]);
+    const moved = (await json(page)).sun;
+    assert.notDeepEqual(moved, SCENE.sun);
+    assert.ok(moved.elevation >= 0 && moved.elevation <= 90);
+    assert.deepEqual((await json(page)).camera, SCENE.camera, "the camera stays");
+    await page.click("#undo");
+    assert.deepEqual(await json(page), SCENE);
+  },
+
+  // On a page of its own: where a computer draws too slowly, the next drags are without.
+  async "shows particles while something moves, and the picture when it rests"() {
+    const page = await open("/#cumulus");
+    await page.waitForFunction(() => document.querySelector('[data-mode="translate"]')?.offsetParent != null);
+    await page.waitForTimeout(300);
+    const { x, y } = await box(page);
+    await page.mouse.move(x + 30, y + 30);
+    await page.mouse.down();
+    for (let i = 0; i < 60 && !(await page.$("#stage.sprites")); i += 1) {
+      await page.mouse.move(x + 30 + 2 * i, y + 30);
+      await page.waitForTimeout(20);
+    }
+    assert.ok(await page.$("#stage.sprites"), "sprites during the drag");
+    await page.mouse.up();
+    await settled(page);
+    await page.waitForFunction(() => !document.querySelector("#stage.sprites"));
+    await page.close();
+  },
+
+  async "selects in the outline and in the table by keyboard"(page) {
+    await page.locator("#shape select[multiple]").focus();
+    await page.keyboard.press("Home");
+    assert.deepEqual(await selected(page), ["/clouds/0"]);
+    await page.keyboard.press("ArrowDown");
+    assert.deepEqual(await selected(page), ["/cubes/0"]);
+    await page.locator('tbody input[data-pointer="/cubes/2/size/0"]').focus();
+    assert.deepEqual(await selected(page), ["/cubes/2"]);
+  },
+
+  async "starts shapes, strews twins, makes them thin and thick, and takes in files"(page) {
+    await settled(page);
+    await page.route("**/v1/render", (route) => route.fulfill({ contentType: "image/png", body: STAND_IN })); // what they look like is not at issue
+    const shape = page.locator("#shape");
+    const depth = async () => {
+      const answer = await fetch(`${origin}/v1/plan`, { method: "POST", headers: { "Content-Type": "application/json" }, body: await page.inputValue("#json") });
+      return (await answer.json()).survey.optical_depth.zenith;
+    };
+    for (const starter of ["tower", "field", "sheet", "wisp"]) {
+      await shape.getByLabel("Start with").selectOption(starter);
+      await shape.getByRole("button", { name: "New", exact: true }).click();
+      assert.ok(await depth() > 0.1, starter); // the service takes it
+    }
+    await shape.getByLabel("Start with").selectOption("tower");
+    await shape.getByRole("button", { name: "Add", exact: true }).click();
+    assert.equal((await json(page)).clouds.length, 2);
+    for (const [name, wanted] of [["Thin", 1], ["Medium", 6], ["Thick", 30]]) {
+      await shape.getByRole("button", { name, exact: true }).click();
+      await page.waitForFunction((text) => document.querySelector("#note").textContent.includes(text), `optical depth of ${wanted} `);
+      nearly(await depth() / wanted, 1, 0.05, name);
+    }
+    await page.locator("#shape select[multiple]").selectOption("/clouds/1");
+    await shape.getByLabel("Scatter twins").fill("3");
+    await shape.getByRole("button", { name: "Scatter" }).click();
+    assert.equal((await json(page)).clouds.length, 5);
+    const awn = path.join(scratch, "one.awn"), document = path.join(scratch, "two.json");
+    fs.writeFileSync(awn, "10\n1\n10, 2, 2, 2, 0, 9, 0, 1\n");
+    fs.writeFileSync(document, JSON.stringify({ density: 0.5, clouds: [{ model: "spheres", spheres: { levels: 2 }, translate: [0, 20, 0] }, SCENE].map((one) => (one === SCENE ? { model: "cubes", cubes: SCENE.cubes } : one)) }));
+    for (const [file, many] of [[awn, 6], [document, 8]]) {
+      await shape.getByLabel("File to insert").setInputFiles(file);
+      await page.waitForFunction((count) => JSON.parse(document.querySelector("#json").value).clouds.length === count, many);
+    }
+    assert.equal((await json(page)).clouds[6].density, 0.5, "what the file says for all holds for each");
+    fs.writeFileSync(document, "{");
+    await shape.getByLabel("File to insert").setInputFiles(document);
+    await page.waitForSelector("#alert:not(:empty)");
+    while (JSON.stringify(await json(page)) !== JSON.stringify(SCENE)) await page.click("#undo");
+    await settled(page);
+  },
+
+  async "takes hold of primitives, ellipsoids and whole clouds"(page) {
+    const text = page.locator("#json");
+    const shape = page.locator("#shape");
+    await text.fill(JSON.stringify({ ...SCENE, cubes: undefined, clouds: [
+      { model: "implicit", implicit: { resolution: 32, primitives: [{ shape: "sphere", center: [-3, 0, 0], radius: 2 }] } },
+      { model: "ellipsoids", ellipsoids: { resolution: 32, ellipsoids: [{ center: [3, 0, 0], radii: [2, 1, 2] }] }, translate: [0, 0, 1] },
+      { model: "spheres", spheres: { levels: 2, size: [4, 4, 4] }, translate: [0, 3, 0] },
+    ] }));
+    await text.blur();
+    await clickAt(page, [-3, 0, 0]);
+    assert.deepEqual(await selected(page), ["/clouds/0/implicit/primitives/0"]);
+    await shape.getByLabel("Place, x").fill("-4");
+    await shape.getByLabel("Lengths, x").fill("8");
+    const [primitive] = (await json(page)).clouds[0].implicit.primitives;
+    nearly(primitive.center[0], -4, 1e-6, "x");
+    await clickAt(page, [3, 0, 1]);
+    await shape.getByLabel("Lengths, y").fill("3");
+    assert.deepEqual((await json(page)).clouds[1].ellipsoids.ellipsoids[0], { center: [3, 0, 0], radii: [2, 1.5, 2] });
+    await clickAt(page, [0, 3, 0]);
+    assert.deepEqual(await selected(page), ["/clouds/2"]);
+    await shape.getByLabel("Place, y").fill("4");
+    assert.deepEqual((await json(page)).clouds[2].translate, [0, 4, 0]);
+    await page.locator("#stage").focus();
+    await page.keyboard.press("Delete");
+    assert.equal((await json(page)).clouds.length, 2);
+    assert.equal(await page.textContent("#alert"), "");
+  },
+
+  async "can be put away and comes back"(page) {
+    await press(page, "Workspace");
+    assert.equal(await page.locator("#workspace").isVisible(), false);
+    await press(page, "Workspace");
+    assert.equal(await page.locator("#workspace").isVisible(), true);
+  },
+};
+
+const page = await open("/#cumulus");
+for (const [name, test] of Object.entries(tests)) {
+  const begun = Date.now();
+  try {
+    await test(page);
+    assert.deepEqual(faults, [], "console errors");
+  } catch (error) {
+    await page.screenshot({ path: path.join(scratch, "fault.png") }).catch(() => {});
+    console.error(`page_workspace: ${name}: ${error.stack}`);
+    process.exit(1);
+  }
+  console.log(`  ${name} (${Date.now() - begun} ms)`);
+}
+await context.close();

@@ -1,0 +1,121 @@
+// What of a scene can be taken hold of: cubes, parts of the other models that have a place and a size, and clouds as a
+// whole. Each is an item
+//
+//   { id, kind, cloud, label, center, half, turn, round, whole }
+//
+// id: the pointer of what it stands for. cloud: index of its cloud. center: in the scene's units; half: half its lengths
+// along its own axes, which are turned by `turn` degrees about y. round: an ellipsoid, else a box. whole: it is a cloud,
+// and is taken hold of only from the list, or where the cloud has no parts.
+
+import { at, cloudsOf, modelOf } from "./document.js";
+import { atOrDefault, presetAt } from "./schema.js";
+
+const radians = (degrees) => (degrees * Math.PI) / 180;
+const isNumber = (value) => typeof value === "number" && Number.isFinite(value);
+export const isTriple = (v) => Array.isArray(v) && v.length === 3 && v.every(isNumber);
+const triple = (value, otherwise) => (isTriple(value) ? value : otherwise);
+
+// A vector of a frame that is turned about y, in the scene's; the other way with -turn.
+export function turned([x, y, z], turn) {
+  const [c, s] = [Math.cos(radians(turn)), Math.sin(radians(turn))];
+  return [x * c + z * s, y, z * c - x * s];
+}
+
+// Where a cloud stands at the scene's time.
+export function placeOf(scene, cloud) {
+  const time = atOrDefault(scene, "/time");
+  const velocity = triple(cloud.velocity, [0, 0, 0]);
+  const moved = triple(cloud.translate, [0, 0, 0]).map((t, axis) => t + velocity[axis] * (isNumber(time) ? time : 0));
+  return {
+    translate: moved, scale: isNumber(cloud.scale) && cloud.scale > 0 ? cloud.scale : 1, turn: isNumber(cloud.rotate_y) ? cloud.rotate_y : 0,
+  };
+}
+
+export const outward = (place, point) => turned(point, place.turn).map((x, axis) => place.translate[axis] + place.scale * x);
+export const inward = (place, point) => turned(point.map((x, axis) => (x - place.translate[axis]) / place.scale), -place.turn);
+
+// The lists that a model's parts stand in: [member of the cloud, kind, [center, half, turn, round] of a part].
+const PARTS = {
+  cubes: [["cubes", "cube", ({ center, size }) => [center, isTriple(size) ? size.map((side) => side / 2) : null, 0, false]]],
+  implicit: [["implicit/primitives", "primitive", ({ center, radius = 30, radii, points, shape }) => {
+    let half = [radius, radius, radius];
+    if (shape === "ellipsoid" && isTriple(radii)) half = radii.map((ratio) => ratio * radius);
+    if (Array.isArray(points) && points.every(isTriple)) half = half.map((r, axis) => r + Math.max(0, ...points.map((p) => Math.abs(p[axis]))));
+    return [center ?? [0, 0, 0], half, 0, true];
+  }]],
+  ellipsoids: [
+    ["ellipsoids/ellipsoids", "ellipsoid", ({ center, radii, rotate_y: turn }) => [center, radii, isNumber(turn) ? turn : 0, true]],
+    ["ellipsoids/formations", "formation", ({ center, radii, heading }) =>
+      [center ?? [0, 0, 0], triple(radii, [3, 2, 3]), isNumber(heading) ? heading : 0, true]],
+  ],
+};
+
+// A list as it holds in the document, or as the model's preset has it.
+export function partsAt(scene, base, member) {
+  const own = at(scene, `${base}/${member}`);
+  if (Array.isArray(own)) return own;
+  const cut = member.lastIndexOf("/");
+  const preset = cut < 0 ? undefined : presetAt(scene, `${base}/${member.slice(0, cut)}`)[member.slice(cut + 1)];
+  return Array.isArray(preset) ? preset : [];
+}
+
+const kMostPlaces = 20_000; // of ready particles that are looked at for the box around them
+
+// A box around a cloud that has no parts, in its own coordinates: [center, half].
+function boxOf(scene, cloud, pointer) {
+  if (modelOf(cloud) === "spheres") {
+    const size = atOrDefault(scene, `${pointer}/spheres/size`);
+    return [[0, 0, 0], triple(size, [10, 10, 10]).map((side) => side / 2)];
+  }
+  if (modelOf(cloud) === "automaton") {
+    const cells = triple(atOrDefault(scene, `${pointer}/automaton/cells`), [96, 32, 96]);
+    const cell = atOrDefault(scene, `${pointer}/automaton/cell`);
+    const half = cells.map((count) => (count * (isNumber(cell) ? cell : 1)) / 2);
+    return [[0, half[1], 0], half];
+  }
+  const places = Array.isArray(cloud.positions) ? cloud.positions.slice(0, kMostPlaces).filter(isTriple) : [];
+  if (!places.length) return [[0, 0, 0], [1, 1, 1]];
+  const ends = [0, 1, 2].map((axis) => places.reduce(([low, high], p) => [Math.min(low, p[axis]), Math.max(high, p[axis])], [Infinity, -Infinity]));
+  return [ends.map(([low, high]) => (low + high) / 2), ends.map(([low, high]) => Math.max((high - low) / 2, 0.5))];
+}
+
+const MODEL_WORDS = {
+  cubes: "cubes", implicit: "implicit functions", ellipsoids: "ellipsoids", spheres: "spheres", automaton: "automaton", particles: "particles",
+};
+
+// All items of a scene: of every cloud itself and then its parts, in their order.
+export function itemsOf(scene) {
+  return cloudsOf(scene).flatMap(({ cloud, pointer }, index) => {
+    const place = placeOf(scene, cloud);
+    const parts = (PARTS[modelOf(cloud)] ?? []).flatMap(([member, kind, shape]) =>
+      partsAt(scene, pointer, member).map((part, i) => {
+        const [center, half, turn, round] = shape(part ?? {});
+        if (!isTriple(center) || !isTriple(half)) return null;
+        return {
+          id: `${pointer}/${member}/${i}`, kind, cloud: index, label: `${kind} ${i + 1}`, whole: false, round,
+          center: outward(place, center), half: half.map((h) => place.scale * h), turn: place.turn + turn,
+        };
+      }).filter(Boolean));
+    let [center, half] = parts.length ? around(parts) : boxOf(scene, cloud, pointer);
+    if (!parts.length) [center, half] = [outward(place, center), half.map((h) => place.scale * h)];
+    const whole = {
+      id: pointer === "" ? "/clouds/0" : pointer, kind: "cloud", cloud: index, label: `cloud ${index + 1}: ${MODEL_WORDS[modelOf(cloud)] ?? modelOf(cloud)}`,
+      whole: true, bare: parts.length === 0, round: modelOf(cloud) === "spheres", center, half, turn: parts.length ? 0 : place.turn,
+    };
+    return [whole, ...parts];
+  });
+}
+
+// The box around items, along the scene's axes: [center, half].
+export function around(items) {
+  const [min, max] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  for (const { center, half, turn } of items) {
+    const [c, s] = [Math.abs(Math.cos(radians(turn))), Math.abs(Math.sin(radians(turn)))];
+    const reach = [half[0] * c + half[2] * s, half[1], half[2] * c + half[0] * s];
+    for (let axis = 0; axis < 3; axis += 1) {
+      min[axis] = Math.min(min[axis], center[axis] - reach[axis]);
+      max[axis] = Math.max(max[axis], center[axis] + reach[axis]);
+    }
+  }
+  return [min.map((low, axis) => (low + max[axis]) / 2), min.map((low, axis) => (max[axis] - low) / 2)];
+}

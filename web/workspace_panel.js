@@ -1,0 +1,160 @@
+// The group "Shape": the outline, the numbers of what is selected, and the shape tools.
+
+import * as api from "./api.js";
+import { group, numberInput, stepByArrows } from "./controls.js";
+import { el, freshId } from "./dom.js";
+import { atOrDefault, fieldAt } from "./schema.js";
+import { around } from "./workspace_items.js";
+import { STARTERS, THICKNESS, cloudsFrom, scattered, started, thickened, withClouds, withStarter } from "./workspace_shapes.js";
+
+const kListed = 500; // lines of the outline; the picture and the table have the rest
+const kMostTwins = 200;
+
+// ids() -> those to change, a cloud instead of its parts; the rest: what there is and what is selected.
+export function createPanel(store, { actions, select, ids, items, selection, active, failed, note }) {
+  // --- the outline ---
+
+  const outlineId = freshId("outline");
+  const outline = el("select", { id: outlineId, multiple: true, size: 7, onchange: () => {
+    const picked = [...outline.selectedOptions].map((option) => option.value);
+    const kept = selection().filter((id) => picked.includes(id));
+    select([...kept, ...picked.filter((id) => !kept.includes(id))]);
+  } });
+  outline.addEventListener("keydown", (event) => {
+    if (event.key === "Delete") actions.remove();
+    else if (event.key === "D" && event.shiftKey) actions.duplicate();
+    else return;
+    event.preventDefault();
+  });
+  const more = el("p", { class: "why", hidden: true });
+  let listed = "";
+  function refreshOutline() {
+    const shown = items().slice(0, kListed);
+    const now = shown.map(({ id, label }) => `${id} ${label}`).join();
+    if (now !== listed) {
+      listed = now;
+      outline.replaceChildren(...shown.map(({ id, label, whole }) => el("option", { value: id }, whole ? label : `\u2003${label}`)));
+    }
+    const chosen = new Set(selection());
+    for (const option of outline.options) if (option.selected !== chosen.has(option.value)) option.selected = chosen.has(option.value);
+    more.hidden = items().length <= kListed;
+    more.textContent = `${items().length - kListed} more: in the picture and the table.`;
+  }
+
+  // --- numbers ---
+
+  const length = { above: true, least: 0 };
+  function axes(label, field, get, set) {
+    const inputs = ["x", "y", "z"].map((axis, i) => {
+      const one = numberInput({
+        pointer: "", field, "aria-label": `${label}, ${axis}`, title: axis, digits: 5, get: () => get()?.[i],
+        set: (value) => { if (active() && (!field || value > 0)) set(i, value); },
+      });
+      stepByArrows(one.input, 0.1);
+      return one;
+    });
+    return {
+      element: el("div", { class: "field vector", role: "group", "aria-label": label }, el("span", { class: "name" }, label),
+        el("span", { class: "axes" }, ...inputs.map(({ input }, i) => el("span", { "data-axis": "xyz"[i] }, input)))),
+      refresh: () => inputs.forEach((one) => {
+        one.input.disabled = active() === null;
+        one.refresh();
+      }),
+    };
+  }
+  const centre = axes("Place", null, () => active()?.center, (axis, value) => {
+    const move = [0, 0, 0];
+    move[axis] = value - active().center[axis];
+    actions.transform({ move }, `workspace-place-${axis}`);
+  });
+  const size = axes("Lengths", length, () => active()?.half.map((h) => 2 * h), (axis, value) => {
+    const scale = [1, 1, 1];
+    scale[axis] = value / (2 * active().half[axis]);
+    actions.transform({ scale, pivot: active().center }, `workspace-size-${axis}`);
+  });
+  const factorId = freshId("factor");
+  const factor = el("input", { type: "number", id: factorId, min: "0.01", max: "100", step: "any", value: "1.25" });
+  const scaleAll = el("button", { type: "button", onclick: () => {
+    const by = factor.valueAsNumber;
+    if (by > 0) actions.transform({ scale: [by, by, by] }, null);
+  } }, "Scale all axes");
+  const what = el("p", { class: "why", role: "status" });
+
+  // --- shape tools ---
+
+  const starterId = freshId("starter");
+  const starter = el("select", { id: starterId }, ...STARTERS.map(([name, title]) => el("option", { value: name }, title)));
+  const field = (label, id, ...children) => el("div", { class: "field" }, el("label", { for: id }, label), ...children);
+  const button = (title, action) => el("button", { type: "button", onclick: async () => {
+    try {
+      await action();
+    } catch (error) {
+      if (error.name !== "AbortError") failed(error);
+    }
+  } }, title);
+  const thickness = THICKNESS.map(([name, depth]) => button(name[0].toUpperCase() + name.slice(1), async () => {
+    const { scene } = store;
+    const { survey } = await api.plan(store.text);
+    if (store.scene !== scene) return; // edited meanwhile
+    const measured = survey?.optical_depth?.zenith;
+    if (!(measured > 0)) throw new Error("There is no matter to make thicker.");
+    const density = atOrDefault(scene, "/density");
+    store.update(() => thickened(scene, typeof density === "number" ? density : fieldAt("/density").standard, measured, depth, fieldAt("/density").most));
+    note(`${name}: an optical depth of ${depth} straight up.`);
+  }));
+  const countId = freshId("count");
+  const count = el("input", { type: "number", id: countId, min: "1", max: String(kMostTwins), step: "1", value: "8" });
+  const reachId = freshId("reach");
+  const reach = el("input", { type: "number", id: reachId, min: "0", step: "any", value: "10" });
+  let strewn = 0;
+  const scatter = button("Scatter", () => {
+    const [many, out] = [Math.round(count.valueAsNumber), reach.valueAsNumber];
+    if (!selection().length) return note("Nothing is selected.");
+    if (!(many >= 1 && many <= kMostTwins && out >= 0)) throw new Error(`Scatter makes from 1 to ${kMostTwins} twins.`);
+    strewn += 1;
+    actions.change(...scattered(store.scene, ids(), many, out, strewn));
+  });
+  const file = el("input", { type: "file", accept: ".json,.awn,application/json,text/x-awn", hidden: true, "aria-label": "File to insert" });
+  file.addEventListener("change", async () => {
+    const [chosen] = file.files;
+    file.value = "";
+    if (!chosen) return;
+    try {
+      const text = await chosen.text();
+      const isAwn = /\.awn$/i.test(chosen.name);
+      await api.plan(text, { type: isAwn ? "text/x-awn" : "application/json" }); // the service judges it first
+      const clouds = cloudsFrom(text, isAwn);
+      const next = withClouds(store.scene, clouds);
+      const first = next.clouds.length - clouds.length;
+      actions.change(next, clouds.map((_cloud, i) => `/clouds/${first + i}`));
+      note(`${chosen.name} is in the scene.`);
+    } catch (error) {
+      failed(new Error(`${chosen.name}: ${error.message}`));
+    }
+  });
+
+  const element = group("Shape", "", window.matchMedia("(min-width: 60rem)").matches,
+    el("label", { for: outlineId, class: "unseen" }, "Outline"), outline, more, what, centre.element, size.element,
+    field("Factor", factorId, factor, scaleAll),
+    field("Start with", starterId, starter,
+      button("New", () => actions.change(started(store.scene, starter.value), [])),
+      button("Add", () => actions.change(withStarter(store.scene, starter.value)))),
+    el("div", { class: "field", role: "group", "aria-label": "Thickness" }, el("span", { class: "name" }, "Thickness"), ...thickness),
+    el("div", { class: "field scatter" }, el("label", { for: countId }, "Scatter twins"), count, el("label", { for: reachId }, "within"), reach, scatter),
+    el("div", { class: "table-tools" }, el("button", { type: "button", onclick: () => file.click() }, "Insert a file…"), file));
+  element.removeAttribute("data-pointer"); // it stands for no place of its own
+  element.id = "shape";
+
+  return {
+    element,
+    refresh() {
+      if (!element.open) return;
+      refreshOutline();
+      const one = active();
+      what.textContent = one ? `${selection().length > 1 ? `${selection().length} selected; ` : ""}${one.label}` : "Nothing selected: click in the picture, or choose above.";
+      scaleAll.setAttribute("aria-disabled", String(one === null));
+      centre.refresh();
+      size.refresh();
+    },
+  };
+}

@@ -1,0 +1,77 @@
+// The particles of a scene, as the service's binary answer has them (PLY), and an estimate of the light that each has
+// from the sun, for as long as no picture is there: what lies between it and the sun is summed up on a coarse grid.
+
+const SIZES = { double: 8, float: 4, int: 4, uint: 4, short: 2, ushort: 2, char: 1, uchar: 1 };
+
+// { count, places, radii, densities, covers } of a little-endian PLY; RangeError when it is none.
+export function readPly(buffer) {
+  const head = new TextDecoder("latin1").decode(new Uint8Array(buffer, 0, Math.min(buffer.byteLength, 4096)));
+  const end = head.indexOf("end_header\n");
+  if (!head.startsWith("ply\nformat binary_little_endian") || end < 0) throw new RangeError("The particles are not a binary PLY.");
+  let count = 0;
+  let stride = 0;
+  const columns = {};
+  for (const line of head.slice(0, end).split("\n")) {
+    const [word, type, name] = line.split(" ");
+    if (word === "element" && type === "vertex") count = Number(name);
+    if (word !== "property") continue;
+    columns[name] = { at: stride, double: type === "double" };
+    stride += SIZES[type];
+  }
+  const begin = end + "end_header\n".length;
+  if (buffer.byteLength < begin + count * stride) throw new RangeError("The particles end too early.");
+  const view = new DataView(buffer, begin);
+  const column = (name) => {
+    const { at, double } = columns[name];
+    return double ? (i) => view.getFloat64(i * stride + at, true) : (i) => view.getFloat32(i * stride + at, true);
+  };
+  const [x, y, z, radius, density] = ["x", "y", "z", "radius", "density"].map(column);
+  const [places, radii, densities, covers] = [new Float32Array(3 * count), new Float32Array(count), new Float32Array(count), new Float32Array(count)];
+  for (let i = 0; i < count; i += 1) {
+    [places[3 * i], places[3 * i + 1], places[3 * i + 2]] = [x(i), y(i), z(i)];
+    radii[i] = radius(i);
+    densities[i] = density(i);
+    covers[i] = 1 - Math.exp(-densities[i] * (radii[i] / 2) * Math.sqrt(2 * Math.PI));
+  }
+  return { count, places, radii, densities, covers };
+}
+
+const kCells = 24; // along each side of the grid
+
+// Three numbers a particle, 0..1. towards: unit vector to the sun.
+export function litFrom({ count, places, radii, densities }, towards) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < count; i += 1) {
+    for (let axis = 0; axis < 3; axis += 1) {
+      low[axis] = Math.min(low[axis], places[3 * i + axis]);
+      high[axis] = Math.max(high[axis], places[3 * i + axis]);
+    }
+  }
+  const side = Math.max(1e-6, ...high.map((h, axis) => h - low[axis])) / kCells;
+  const cell = (value, axis) => Math.min(kCells - 1, Math.max(0, Math.floor((value - low[axis]) / side)));
+  const matter = new Float32Array(kCells ** 3);
+  for (let i = 0; i < count; i += 1) {
+    const [a, b, c] = [0, 1, 2].map((axis) => cell(places[3 * i + axis], axis));
+    matter[(c * kCells + b) * kCells + a] += (densities[i] * (2 * Math.PI) ** 1.5 * (radii[i] / 2) ** 3) / side ** 3;
+  }
+  const depthFrom = (a, b, c) => {
+    let depth = 0;
+    for (let step = 1; step < 2 * kCells; step += 1) {
+      const p = [a + 0.5 + step * towards[0], b + 0.5 + step * towards[1], c + 0.5 + step * towards[2]].map(Math.floor);
+      if (p.some((x) => x < 0 || x >= kCells)) break;
+      depth += matter[(p[2] * kCells + p[1]) * kCells + p[0]] * side;
+    }
+    return depth;
+  };
+  const known = new Float32Array(kCells ** 3).fill(-1);
+  const light = new Float32Array(3 * count);
+  for (let i = 0; i < count; i += 1) {
+    const [a, b, c] = [0, 1, 2].map((axis) => cell(places[3 * i + axis], axis));
+    const at = (c * kCells + b) * kCells + a;
+    if (known[at] < 0) known[at] = depthFrom(a, b, c);
+    // Scattered light goes on where the direct ray is long gone: diffusion falls as 1 / (1 + depth).
+    const sun = 0.7 / (1 + 0.25 * known[at]);
+    light.set([0.26 + sun, 0.29 + sun * 0.98, 0.34 + sun * 0.94], 3 * i);
+  }
+  return light;
+}

@@ -1,0 +1,114 @@
+// While something moves, the particles are shown at once and the picture follows; when it is there, the one goes over into
+// the other. Particles are asked for when the matter has changed: one request under way, and the latest state waits.
+
+import * as api from "./api.js";
+import { compactJson } from "./json_text.js";
+import { litFrom, readPly } from "./workspace_particles.js";
+
+const kMost = 100_000; // particles; more would not be drawn in time
+const kFadeMs = 220;
+const kRestMs = 350;
+const kSlowFrameMs = 60; // where frames take longer, the pictures of the service are as quick
+const kFramesWatched = 12;
+const kTriedAgainMs = 30_000;
+const ELSEWHERE = new Set(["camera", "image", "sun", "sky", "ground", "haze", "accuracy", "effects", "sequence", "look", "display"]);
+
+// view(): of workspace_view.js, or null. scene() -> the document; sun() -> unit vector to it.
+export function createSpriteLoop({ view, scene, sun }) {
+  let known = null; // { matter, set } of what is shown
+  let flight = false;
+  let wanted = null;
+  let moving = false;
+  let lastMove = 0;
+  let opacity = 0;
+  let fading = 0;
+  let slowUntil = 0; // no sprites before
+  let frames = [];
+  const stage = document.getElementById("stage");
+
+  const matterOf = (document) => Object.entries(document).filter(([name]) => !ELSEWHERE.has(name));
+  const same = (a, b) => a.length === b.length && a.every(([name, value], i) => b[i][0] === name && b[i][1] === value);
+
+  function fade(to) {
+    cancelAnimationFrame(fading);
+    const from = opacity;
+    const begun = performance.now();
+    const step = (now) => {
+      const share = to > from ? 1 : Math.min(1, (now - begun) / kFadeMs);
+      opacity = from + (to - from) * share;
+      view()?.spritesAt(opacity);
+      stage.classList.toggle("sprites", opacity > 0.5);
+      if (share < 1) fading = requestAnimationFrame(step);
+    };
+    step(begun);
+  }
+  const isReady = () => known !== null && known.set !== null && performance.now() >= slowUntil && view() !== null;
+
+  async function ask() {
+    const document = scene();
+    const matter = matterOf(document);
+    if (known && same(known.matter, matter)) return;
+    if (flight) {
+      wanted = true;
+      return;
+    }
+    flight = true;
+    try {
+      const { image: _image, sequence: _sequence, ...rest } = document;
+      const blob = await api.particles(compactJson(rest), "application/x-ply");
+      const set = readPly(await blob.arrayBuffer());
+      known = { matter, set: set.count <= kMost ? set : null };
+      if (known.set) view()?.particles(set, litFrom(set, sun()));
+      if (moving && isReady() && opacity === 0) fade(1);
+    } catch {
+      // The picture says what is wrong.
+      known = { matter, set: null };
+      if (opacity > 0) fade(0);
+    } finally {
+      flight = false;
+      if (wanted) {
+        wanted = null;
+        ask();
+      }
+    }
+  }
+  function watch(now) {
+    if (!moving || opacity === 0) {
+      frames = [];
+      return;
+    }
+    frames.push(now);
+    if (frames.length > kFramesWatched) {
+      const isSlow = (now - frames[0]) / (frames.length - 1) > kSlowFrameMs;
+      frames = [];
+      if (isSlow) {
+        slowUntil = now + kTriedAgainMs;
+        fade(0);
+      }
+    }
+    requestAnimationFrame(watch);
+  }
+
+  return {
+    // The document has changed; `moves`: something is being dragged.
+    changed(moves) {
+      if (!view()) return;
+      const begins = moves && !moving;
+      moving = moves;
+      if (moves) lastMove = performance.now();
+      ask();
+      if (moving && isReady() && opacity === 0) fade(1);
+      if (begins) requestAnimationFrame(watch);
+    },
+    lit() {
+      if (known?.set && view()) view().particles(known.set, litFrom(known.set, sun()));
+    },
+    letGo() { moving = false; },
+    // A picture of the latest state is on the screen. While the pointer is on its way, the next is about to be late again.
+    settled() {
+      if (moving && performance.now() - lastMove < kRestMs) return;
+      moving = false;
+      if (opacity > 0) fade(0);
+    },
+  };
+}
