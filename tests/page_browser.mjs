@@ -15,17 +15,26 @@ export const axe = fs.readFileSync(needs.resolve("axe-core/axe.min.js"), "utf8")
 // Without WebGL, as on many machines; AWAN_PAGE_GL=1: with that of a program.
 const drawing = process.env.AWAN_PAGE_GL ? ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]
   : ["--disable-gpu", "--disable-3d-apis"];
+// The page's modules are served as two bundles; a test that looks into one of the others gets it as it lies in web/.
+const BUNDLES = ["start.js", "workspace_view.js"];
+const MODULES = new Set(fs.readdirSync(path.join(root, "web")).filter((name) => name.endsWith(".js") && !BUNDLES.includes(name)));
+
 // A browser with a profile of its own.
-export const launch = (profile, options = {}) => chromium.launchPersistentContext(path.join(scratch, profile), {
-  executablePath: "/usr/bin/chromium",
-  headless: true,
-  acceptDownloads: true,
-  downloadsPath: scratch,
-  viewport: { width: 1440, height: 900 },
-  args: ["--no-sandbox", ...drawing, "--disable-quic", "--no-first-run",
-    "--disable-background-networking", "--disable-component-update", "--disable-sync"],
-  ...options,
-});
+export async function launch(profile, options = {}) {
+  const browser = await chromium.launchPersistentContext(path.join(scratch, profile), {
+    executablePath: "/usr/bin/chromium",
+    headless: true,
+    acceptDownloads: true,
+    downloadsPath: scratch,
+    viewport: { width: 1440, height: 900 },
+    args: ["--no-sandbox", ...drawing, "--disable-quic", "--no-first-run",
+      "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+    ...options,
+  });
+  await browser.route((url) => MODULES.has(url.pathname.slice(1)), (route) =>
+    route.fulfill({ path: path.join(root, "web", new URL(route.request().url()).pathname), contentType: "text/javascript" }));
+  return browser;
+}
 export const context = await launch("profile");
 const patience = process.env.AWAN_SANITIZED ? 10 : 1; // a program with sanitizers is slow
 context.setDefaultTimeout(patience * 15_000);
