@@ -145,16 +145,17 @@ export function createPanel(store, { actions, select, ids, items, selection, act
   element.removeAttribute("data-pointer"); // it stands for no place of its own
   element.id = "shape";
 
-  return {
-    element,
-    refresh() {
-      if (!element.open) return;
-      refreshOutline();
-      const one = active();
-      what.textContent = one ? `${selection().length > 1 ? `${selection().length} selected; ` : ""}${one.label}` : "Nothing selected: click in the picture, or choose above.";
-      scaleAll.setAttribute("aria-disabled", String(one === null));
-      centre.refresh();
-      size.refresh();
-    },
-  };
+  // Folded away, it is not kept up to date.
+  function refresh() {
+    if (!element.open) return;
+    refreshOutline();
+    const one = active();
+    what.textContent = one ? `${selection().length > 1 ? `${selection().length} selected; ` : ""}${one.label}` : "Nothing selected: click in the picture, or choose above.";
+    scaleAll.setAttribute("aria-disabled", String(one === null));
+    centre.refresh();
+    size.refresh();
+  }
+  element.addEventListener("toggle", refresh);
+
+  return { element, refresh };
 }
