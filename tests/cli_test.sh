@@ -40,6 +40,25 @@ run 0 render moving.json --fps 4 -o m.apng
 oiiotool --info m.apng >info 2>&1 || fail "oiiotool does not read the APNG: $(cat info)"
 contains "APNG's size" "64 x   48" "$(cat info)"
 run 5 render moving.json -o nowhere/m.webp
+# A sheet holds the frames' own pixels, where its layout says.
+run 0 render moving.json --flipbook --columns 3 -o m.png
+same "places of a flipbook" "m.png 192 96, 0 0 0 64 48, 1 64 0 64 48, 2 128 0 64 48, 3 0 48 64 48" "$(python3 -c '
+import json
+sheet = json.load(open("m.json"))
+meta, size = sheet["meta"], sheet["meta"]["size"]
+places = [(i, *(f["frame"][k] for k in "xywh")) for i, f in enumerate(sheet["frames"])]
+print(", ".join(" ".join(map(str, row)) for row in [(meta["image"], size["w"], size["h"])] + places))')"
+for place in 0:64x48+0+0 2:64x48+128+0 3:64x48+0+48; do
+    oiiotool m.png --cut "${place#*:}" --ch R,G,B "m.00${place%%:*}.png" --diff >info 2>&1 || fail "frame $place of the flipbook: $(cat info)"
+done
+run 0 render moving.json --flipbook --frames 1-2 -o m.exr
+contains "EXR flipbook" "128 x   48" "$(oiiotool --info m.exr)"
+run 2 render scene.json --flipbook -o f.png
+contains "a flipbook of what?" "sequence" "$(cat err)"
+run 2 render moving.json --flipbook -o f.webp
+run 2 render moving.json --columns 2 -o f.webp
+run 3 render moving.json --flipbook --columns 5 -o f.png
+contains "more columns than frames" "/sequence/frames" "$(cat err)"
 rm -f m.* alone.png at.png info
 
 # --- usage

@@ -92,6 +92,17 @@ for path, ending, magic in ((sys.argv[1], "png", b"\x89PNG"), (sys.argv[2], "exr
 PYTHON
 job zip "$moving" "$work/c.zip"
 cmp -s "$work/a.zip" "$work/c.zip" || fail "the same frames make another archive"
+job flipbook "$moving" "$work/f.zip"
+mkdir "$work/sheet"
+unzip -qd "$work/sheet" "$work/f.zip"
+"$awan" render "$work/moving.json" --flipbook -o "$work/sheet/own.png" || fail "a flipbook by the command line"
+cmp -s "$work/sheet/flipbook.png" "$work/sheet/own.png" || fail "flipbooks of the service and of the command line differ"
+python3 - "$work/sheet" <<'PYTHON' || fail "the layout of the flipbook"
+import json, sys
+sheet, own = (json.load(open(f"{sys.argv[1]}/{name}.json")) for name in ("flipbook", "own"))
+assert (sheet["meta"].pop("image"), own["meta"].pop("image")) == ("flipbook.png", "own.png")
+assert sheet == own and [f["time"] for f in sheet["frames"]] == [0, 1, 2, 3], sheet
+PYTHON
 job webp "$moving" "$work/a.webp"
 webpinfo "$work/a.webp" >"$work/webp" || fail "webpinfo does not open the animation"
 same "pictures of the animation" "$frames" "$(grep -c 'Chunk ANMF' "$work/webp")"

@@ -31,6 +31,9 @@ struct RenderCommand {
     std::string frames;
     // That an animation shows.
     double frames_per_second = 12;
+    // The frames side by side on one sheet, with its layout beside it; so many in a row, 0: about a square.
+    bool flipbook = false;
+    int columns = 0;
     // "", "sky", "transparent".
     std::string background;
     // Of rung, error and time_ms at most one is set.

@@ -182,6 +182,13 @@ Run add_render(CLI::App& app) {
     add(*render, "--time", command->time, "seconds, instead of the document's");
     add(*render, "--frames", command->frames,
         "of the scene's sequence: all, or numbers from 0 as 3, 0-11,20 or 0-99x10");
+    render
+        ->add_flag("--flipbook", command->flipbook,
+                   "a sequence's frames side by side on one .png or .exr; a .json beside it says "
+                   "what lies where")
+        ->envname("AWAN_FLIPBOOK");
+    add(*render, "--columns", command->columns, "of a flipbook; 0: about a square")
+        ->check(CLI::Range(0, limits::kMaxImageSide));
     add(*render, "--bits", command->bits, "of a channel of PNG, 8 or 16")
         ->check(CLI::IsMember({8, 16}));
     add_farm_flags(*render, command->skip_existing, command->depfile);
@@ -220,6 +227,7 @@ Run add_render(CLI::App& app) {
         "  awan render growth.json -o growth.webp                        to look at; .apng too\n"
         "  awan render growth.json --frames all -o growth.%04d.exr       numbered files\n"
         "  awan render growth.json --frames 30-59 -o growth.####.exr     a farm's share of them\n"
+        "  awan render growth.json --flipbook -o growth.png              a sheet, and growth.json\n"
         "A frame depends on its time alone: rendered by itself, on another machine or on other\n"
         "threads, it has the same bytes.");
     return [command] { return run_render(*command); };

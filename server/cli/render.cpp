@@ -4,6 +4,7 @@
 
 #include "core/formats/animation.h"
 #include "core/formats/image_file.h"
+#include "core/formats/sheet.h"
 #include "core/light/machine_speed.h"
 #include "core/pipeline.h"
 #include "core/scene/validate.h"
@@ -14,6 +15,7 @@
 #include "server/cli/result_line.h"
 #include "server/cli/support.h"
 #include "server/cli/targets.h"
+#include "server/document/sheet_text.h"
 #include "server/service/problem.h"
 
 namespace awan {
@@ -123,21 +125,58 @@ Result<Rendered> render_of(const Settled& settled, double time, Work& work, Scen
     return render_frame(scene, std::move(planned), work);
 }
 
-// An animation that is being made, and where it goes.
+// What holds every frame and is being made, and where it goes: an animation, or a sheet.
 struct Film {
     const Target* target;
-    Animation animation;
+    std::optional<Animation> animation;
+    SheetLayout layout;
+    Image sheet;
+    std::uint64_t frames = 0;
+
+    Status add(const Image& picture, double exposure_stops) {
+        if (animation) return animation->add(picture, exposure_stops);
+        if (frames == 0) sheet = begin_sheet(layout, picture.opaque);
+        put_on_sheet(layout, frames++, picture, sheet);
+        return std::nullopt;
+    }
 };
 
-Result<std::vector<Film>> begin_films(const Work& work, std::size_t frames) {
+// The file of a sheet's layout: clouds.png has clouds.json beside it.
+std::string layout_path(const std::string& sheet) {
+    return sheet.substr(0, sheet.rfind('.')) + ".json";
+}
+
+Status write_sheet(const Film& film, const std::vector<std::uint64_t>& frames, const Scene& scene,
+                   const Work& work) {
+    const std::string& path = film.target->path;
+    auto bytes = film.target->format == "exr"
+                     ? encode_exr(film.sheet, scene->image.precision)
+                     : encode_png(film.sheet, exposure_of(scene), work.command.bits);
+    if (!bytes) return bytes.error();
+    if (Status failed = write_output(path, *bytes)) return failed;
+    std::vector<double> times;
+    for (const std::uint64_t frame : frames) times.push_back(frame_time(*scene->sequence, frame));
+    return write_output(layout_path(path),
+                        sheet_to_json(film.layout, path.substr(path.rfind('/') + 1), frames, times,
+                                      work.command.frames_per_second));
+}
+
+Result<std::vector<Film>> begin_films(const Scene& scene, const Work& work, std::size_t frames) {
     std::vector<Film> films;
     for (const Target& target : work.targets) {
         if (!target.animated()) continue;
+        if (target.sheet) {
+            const auto layout =
+                sheet_layout(frames, scene->image.width, scene->image.height, work.command.columns);
+            if (!layout) return layout.error();
+            films.push_back({&target, std::nullopt, *layout, {}});
+            continue;
+        }
         auto begun = Animation::begin(
             target.format == "webp" ? AnimationFormat::kWebp : AnimationFormat::kApng,
             work.command.frames_per_second, frames);
         if (!begun) return begun.error();
-        films.push_back({&target, *std::move(begun)});
+        films.push_back({&target, *std::move(begun), {}, {}});
     }
     return films;
 }
@@ -159,7 +198,7 @@ std::vector<std::uint64_t> missing_frames(const Scene& scene,
 
 // Frames as files of their own, or as animations.
 Status render_frames(const Scene& scene, std::vector<std::uint64_t> frames, Work& work) {
-    auto films = begin_films(work, frames.size());
+    auto films = begin_films(scene, work, frames.size());
     if (!films) return films.error();
     if (work.command.skip_existing) {
         // An animation holds every frame.
@@ -178,8 +217,7 @@ Status render_frames(const Scene& scene, std::vector<std::uint64_t> frames, Work
         auto rendered = render_of(*settled, frame_time(sequence, frames[i]), work, still);
         if (!rendered) return rendered.error();
         for (Film& film : *films)
-            if (Status failed = film.animation.add(rendered->image, exposure_of(still)))
-                return failed;
+            if (Status failed = film.add(rendered->image, exposure_of(still))) return failed;
         PictureResult result{work.command.scene.path, files_of_frame(work.targets, &frames[i]),
                              frames[i], false, 0};
         if (Status failed = write_picture(*rendered, still, &frames[i], work, result.encode_ms))
@@ -188,7 +226,11 @@ Status render_frames(const Scene& scene, std::vector<std::uint64_t> frames, Work
     }
     work.progress.say("encoding");
     for (Film& film : *films) {
-        auto bytes = film.animation.end();
+        if (!film.animation) {
+            if (Status failed = write_sheet(film, frames, scene, work)) return failed;
+            continue;
+        }
+        auto bytes = film.animation->end();
         if (!bytes) return bytes.error();
         if (Status failed = write_output(film.target->path, *bytes)) return failed;
     }
@@ -237,6 +279,13 @@ int run_render(const RenderCommand& command) {
     draft->image.format = std::any_of(targets->begin(), targets->end(), is_exr) ? ImageFormat::kExr
                                                                                 : ImageFormat::kPng;
     const auto is_standard = [](const Target& target) { return target.path == "-"; };
+    const auto is_sheet = [](const Target& target) { return target.sheet; };
+    if (command.flipbook && std::none_of(targets->begin(), targets->end(), is_sheet))
+        return bad_usage("--flipbook: a sheet is a .png or an .exr");
+    for (const Target& target : *targets)
+        if (target.sheet && is_standard(target))
+            return bad_usage("--flipbook: a sheet and its layout are two files; give -o a name");
+    if (command.columns > 0 && !command.flipbook) return bad_usage("--columns is of --flipbook");
     if (command.json && std::any_of(targets->begin(), targets->end(), is_standard))
         return bad_usage("--json: standard output takes either the picture or the line");
 
@@ -257,7 +306,9 @@ int run_render(const RenderCommand& command) {
         return kExitFine;
     }
     if (!(*scene)->sequence)
-        return bad_usage(std::string(animated ? "an animation" : "--frames") +
+        return bad_usage(std::string(command.flipbook ? "--flipbook"
+                                     : animated       ? "an animation"
+                                                      : "--frames") +
                          " needs a scene with a `sequence`, and " + name + " has none");
     const auto frames = frames_of(*scene, work);
     if (!frames) return bad_usage(frames.error().message);
@@ -266,6 +317,7 @@ int run_render(const RenderCommand& command) {
         if (const Status failed = check_writable(numbered_name(target.path, frames->front())))
             return report_error("", *failed);
         if (target.animated()) outputs.push_back(target.path);
+        if (target.sheet) outputs.push_back(layout_path(target.path));
     }
     for (const std::uint64_t frame : *frames)
         for (std::string& file : files_of_frame(work.targets, &frame))

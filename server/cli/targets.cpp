@@ -20,7 +20,8 @@ Result<std::vector<Target>> targets_of(const RenderCommand& command, const std::
         if (!known) return known.error();
         if (binary_to_terminal(path))
             return Error{ErrorCode::kIo, "", "-o -: an image is not written to a terminal"};
-        targets.push_back({path, *std::move(known)});
+        const bool sheet = command.flipbook && (*known == "png" || *known == "exr");
+        targets.push_back({path, *std::move(known), sheet});
     }
     return targets;
 }

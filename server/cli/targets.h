@@ -14,8 +14,11 @@ namespace awan {
 struct Target {
     std::string path;
     std::string format;
+    // All frames side by side.
+    bool sheet = false;
 
-    bool animated() const { return format == "webp" || format == "apng"; }
+    // It holds every frame.
+    bool animated() const { return sheet || format == "webp" || format == "apng"; }
 };
 
 // Those of the command. otherwise: the format of standard output, where none is named. The error is of bad usage: two

@@ -27,7 +27,10 @@ const std::vector<JobKind>& job_kinds() {
          {{"json", "application/json"}, {"csv", "text/csv"}, {"png", "image/png"}}},
         {"sequence",
          "",
-         {{"webp", "image/webp"}, {"apng", "image/apng"}, {"zip", "application/zip"}}}};
+         {{"webp", "image/webp"},
+          {"apng", "image/apng"},
+          {"zip", "application/zip"},
+          {"flipbook", "application/zip"}}}};
     return kinds;
 }
 

@@ -1,5 +1,5 @@
-// The frames of a sequence as one animation, or as pictures in one archive. What is settled for all frames is settled
-// once; then each frame has a lane for itself, so that others compute between two of them.
+// The frames of a sequence as one animation, as pictures in one archive, or side by side on one sheet. What is settled
+// for all frames is settled once; then each frame has a lane for itself, so that others compute between two of them.
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -9,8 +9,10 @@
 
 #include "core/formats/animation.h"
 #include "core/formats/image_file.h"
+#include "core/formats/sheet.h"
 #include "core/formats/zip_archive.h"
 #include "core/sequence.h"
+#include "server/document/sheet_text.h"
 #include "server/service/problem.h"
 #include "server/service/state.h"
 
@@ -26,13 +28,25 @@ constexpr std::chrono::milliseconds kLinesAreFull{100};
 // Where the frames go, in their order.
 class Reel {
   public:
-    // format: "webp", "apng" or "zip".
-    static Result<Reel> begin(const std::string& format, std::uint64_t frames) {
+    // format: "webp", "apng", "zip" or "flipbook".
+    static Result<Reel> begin(const std::string& format, const Scene& scene) {
         Reel reel;
-        if (format == "zip") {
+        const std::uint64_t frames = scene->sequence->frames;
+        if (format == "zip" || format == "flipbook") {
             auto archive = ZipArchive::begin();
             if (!archive) return archive.error();
             reel.archive_ = *std::move(archive);
+            if (format == "zip") return reel;
+            auto layout = sheet_layout(frames, scene->image.width, scene->image.height);
+            if (!layout) return in_scene(layout.error());
+            const std::size_t bytes = 4 * sizeof(float) *
+                                      static_cast<std::size_t>(layout->sheet_width()) *
+                                      static_cast<std::size_t>(layout->sheet_height());
+            if (bytes > limits::kJobBytes)
+                return in_scene({ErrorCode::kTooLarge, "/sequence/frames",
+                                 "the sheet takes over " + std::to_string(limits::kJobBytes >> 20) +
+                                     " MiB while it is made; ask for fewer or smaller frames"});
+            reel.layout_ = *layout;
             return reel;
         }
         auto animation =
@@ -45,16 +59,52 @@ class Reel {
     Status add(const Rendered& rendered, const Scene& scene, std::uint64_t frame,
                const Deadline& deadline) {
         if (animation_) return animation_->add(rendered.image, exposure_of(scene));
+        if (layout_) {
+            if (frame == 0) sheet_ = begin_sheet(*layout_, rendered.image.opaque);
+            put_on_sheet(*layout_, frame, rendered.image, sheet_);
+            return std::nullopt;
+        }
         const bool exr = scene->image.format == ImageFormat::kExr;
         auto bytes = encode_picture(rendered, scene, exr ? "image/x-exr" : "image/png", deadline);
         if (!bytes) return bytes.error();
         return archive_->add(frame_name(frame, exr ? "exr" : "png"), *bytes);
     }
     // Of an archive so far. An animation is small beside its frames.
-    std::size_t bytes() const { return archive_ ? archive_->bytes() : 0; }
-    Result<std::string> end() { return animation_ ? animation_->end() : archive_->end(); }
+    std::size_t bytes() const {
+        return (archive_ ? archive_->bytes() : 0) + sheet_.pixels.size() * sizeof(float);
+    }
+    // scene: any of the frames, since the light and so the exposure is the same for all.
+    Result<std::string> end(const Scene& scene, const Deadline& deadline) {
+        if (animation_) return animation_->end();
+        if (layout_)
+            if (const Status failed = add_sheet(scene, deadline)) return *failed;
+        return archive_->end();
+    }
 
   private:
+    // The scene of a job stands in its document.
+    static Error in_scene(Error error) {
+        error.pointer = "/scene" + error.pointer;
+        return error;
+    }
+
+    Status add_sheet(const Scene& scene, const Deadline& deadline) {
+        const bool exr = scene->image.format == ImageFormat::kExr;
+        auto bytes = exr ? encode_exr(sheet_, scene->image.precision, {}, deadline)
+                         : encode_png(sheet_, exposure_of(scene), 8, deadline);
+        if (!bytes) return bytes.error();
+        const std::string name = exr ? "flipbook.exr" : "flipbook.png";
+        if (Status failed = archive_->add(name, *bytes)) return failed;
+        std::vector<std::uint64_t> numbers;
+        std::vector<double> times;
+        for (std::uint64_t i = 0; i < layout_->frames; ++i) {
+            numbers.push_back(i);
+            times.push_back(frame_time(*scene->sequence, i));
+        }
+        return archive_->add("flipbook.json",
+                             sheet_to_json(*layout_, name, numbers, times, kFramesPerSecond));
+    }
+
     // As of `awan render SCENE --frames all -o frame.%04d.png`.
     static std::string frame_name(std::uint64_t frame, const char* ending) {
         std::array<char, 40> name{};
@@ -65,10 +115,13 @@ class Reel {
 
     std::optional<Animation> animation_;
     std::optional<ZipArchive> archive_;
+    // Of a flipbook.
+    std::optional<SheetLayout> layout_;
+    Image sheet_;
 };
 
 const char* type_of_reel(const std::string& format) {
-    if (format == "zip") return "application/zip";
+    if (format == "zip" || format == "flipbook") return "application/zip";
     return format == "apng" ? "image/apng" : "image/webp";
 }
 
@@ -119,7 +172,7 @@ Response answer_sequence(Service::State& state, const Request& request, const st
                       request.deadline);
     }();
     if (!settled) return fail(settled.error(), request);
-    auto reel = Reel::begin(format, sequence.frames);
+    auto reel = Reel::begin(format, *scene);
     if (!reel) return fail(reel.error(), request);
     for (std::uint64_t i = 0; i < sequence.frames;) {
         Scene still = *scene;
@@ -147,7 +200,7 @@ Response answer_sequence(Service::State& state, const Request& request, const st
         if (request.progress)
             request.progress(static_cast<double>(i) / static_cast<double>(sequence.frames));
     }
-    auto bytes = reel->end();
+    auto bytes = reel->end(*scene, request.deadline);
     if (!bytes) return fail(bytes.error(), request);
     Response response;
     response.headers = {{"Content-Type", type_of_reel(format)}, {"Cache-Control", "no-store"}};

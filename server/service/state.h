@@ -81,7 +81,8 @@ Response submit_job(Service::State& state, const Request& request);
 Response tell_job(Service::State& state, const Request& request);
 Response answer_job_work(Service::State& state, const JobWork& work, const Request& request);
 
-// The frames of a sequence as an animation, "webp" or "apng", or as pictures in an archive, "zip" (sequence_job.cpp).
+// The frames of a sequence as an animation, "webp" or "apng", as pictures in an archive, "zip", or as a sheet
+// and its layout in one, "flipbook" (sequence_job.cpp).
 Response answer_sequence(Service::State& state, const Request& request, const std::string& format);
 
 // Draws what is planned: with the device, in whose line it waits while another computes in its lane, or in its lane.
