@@ -181,8 +181,8 @@ url=${url/0.0.0.0/127.0.0.1}
 same "health without a token" 200 "$(code "$url/healthz")"
 same "without a token" 401 "$(code -H "$json" -d "$scene" "$url/v1/plan")"
 contains "what is wanted" 'WWW-Authenticate: Bearer' "$(curl -si "$url/metrics")"
-for open in / /page.js /openapi.json; do same "$open without a token" 200 "$(code "$url$open")"; done
-for closed in /v1/presets /version /page.jsx //page.js; do same "$closed without a token" 401 "$(code --path-as-is "$url$closed")"; done
+for open in / /start.js /openapi.json; do same "$open without a token" 200 "$(code "$url$open")"; done
+for closed in /v1/presets /version /start.jsx //start.js; do same "$closed without a token" 401 "$(code --path-as-is "$url$closed")"; done
 same "a page that is posted to" 401 "$(code -d x "$url/")"
 same "with another" 401 "$(code -H 'Authorization: Bearer 0123456789abcdee' "$url/metrics")"
 token='Authorization: bearer 0123456789abcdef'

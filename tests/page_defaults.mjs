@@ -72,6 +72,7 @@ async function write(page, scene) {
   await page.locator("#json").blur(); // while it is being written, it is not rewritten
 }
 
+// (The group "Shape" is of tools, which are of no place in the document, and of the places of what is selected.)
 // Every control for which the document at hand says nothing: { pointer, shown, standard, other }. `shown` is what the
 // control says there is; a colour comes as linear light. `standard` is what it was made from, `other` another value.
 // And of those for which it says something { pointer, said, standard }.
@@ -82,7 +83,7 @@ const silentControls = (page, scene) => page.evaluate(async (document_) => {
   const linear = (hex) => [1, 3, 5].map((i) => decode(parseInt(hex.slice(i, i + 2), 16) / 255));
   const said = new Set();
   const found = new Map();
-  for (const input of document.querySelectorAll("#groups input, #groups select")) {
+  for (const input of document.querySelectorAll(".group:not(#shape) input, .group:not(#shape) select")) {
     if (input.closest("[hidden]") || input.type === "range" || input.type === "checkbox") continue;
     const pointer = input.dataset.pointer ?? input.closest("[data-pointer]").dataset.pointer;
     const text = input.value || input.placeholder || "";
@@ -187,17 +188,17 @@ export const defaultsTests = {
       await write(page, model === "cubes" ? { cubes: [] } : cloud(model, {}));
       await page.evaluate(() => {
         const shown = (selector) => [...document.querySelectorAll(selector)].filter((element) => !element.closest("[hidden]"));
-        const boxes = shown('#groups input[type="checkbox"]')
+        const boxes = shown('.group:not(#shape) input[type="checkbox"]')
           .filter((box) => !box.checked && box.closest(".field").dataset.pointer !== "/camera");
         for (const box of boxes) box.click();
-        for (const button of shown("#groups button").filter(({ textContent }) => textContent.startsWith("Add "))) button.click();
+        for (const button of shown(".group:not(#shape) button").filter(({ textContent }) => textContent.startsWith("Add "))) button.click();
       });
       const text = await page.locator("#json").inputValue();
       const scene = JSON.parse(text);
       for (const part of ["ground", "haze", "detail", "sequence"]) assert.ok(scene[part], `${model}: ${part} is on`);
       const name = await nameOf(scene);
       if (!isName(name)) wrong.push(`${model}: ${name}`);
-      wrong.push(...await page.evaluate(() => [...document.querySelectorAll("#groups input")]
+      wrong.push(...await page.evaluate(() => [...document.querySelectorAll(".group:not(#shape) input")]
         .filter((input) => !input.closest("[hidden]") && (!input.validity.valid || input.classList.contains("incomplete")))
         .map((input) => `${input.closest("[data-pointer]").dataset.pointer}: ${input.value} ${input.validationMessage}`)));
     }

@@ -21,7 +21,9 @@ TEST(Sheet, AFrameIsWhereTheLayoutSays) {
             if (static_cast<std::uint64_t>(columns) > frames) continue;
             const auto layout = sheet_layout(frames, 3, 2, columns);
             ASSERT_TRUE(layout.ok());
-            if (columns > 0) EXPECT_EQ(layout->columns, columns);
+            if (columns > 0) {
+                EXPECT_EQ(layout->columns, columns);
+            }
             Image sheet = begin_sheet(*layout, true);
             for (std::uint64_t i = 0; i < frames; ++i)
                 put_on_sheet(*layout, i, frame_of(3, 2, 100.0f * static_cast<float>(i + 1)), sheet);
@@ -38,7 +40,9 @@ TEST(Sheet, AFrameIsWhereTheLayoutSays) {
                                          static_cast<std::uint64_t>(layout->rows);
             EXPECT_EQ(sheet.opaque, places == frames);
             EXPECT_LT(places - frames, static_cast<std::uint64_t>(layout->columns));
-            if (places > frames) EXPECT_EQ(sheet.pixels.back(), 0.0f);
+            if (places > frames) {
+                EXPECT_EQ(sheet.pixels.back(), 0.0f);
+            }
         }
 }
 
