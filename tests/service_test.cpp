@@ -124,8 +124,11 @@ TEST_F(ServiceTest, ParticlesComeAsTheClientLikes) {
     EXPECT_EQ(layout.header("Content-Type"), "text/x-awn");
     EXPECT_EQ(post("/v1/particles", layout.body, {{"Accept", "text/x-awn"}}, "text/x-awn").body,
               layout.body);
-    for (const char* accept : {"text/html", "image/*", "application/json;q=0", "nonsense"})
+    for (const char* accept : {"image/*", "application/json;q=0", "nonsense"})
         expect_problem(post("/v1/particles", kScene, {{"Accept", accept}}), 406);
+    const Response page = post("/v1/particles", kScene, {{"Accept", "text/html"}});
+    EXPECT_EQ(page.status, 406);
+    EXPECT_EQ(page.header("Content-Type"), "text/html; charset=utf-8") << "a browser's own";
 }
 
 TEST_F(ServiceTest, LongAnswersAreStreamedAndWhole) {

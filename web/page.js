@@ -49,9 +49,9 @@ function say(text) {
 function showProblem() {
   const alert = byId("alert");
   const button = byId("go-to-field");
-  clearMarks();
-  button.hidden = true;
   if (!problem) {
+    clearMarks();
+    button.hidden = true;
     alert.textContent = "";
     return;
   }

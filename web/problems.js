@@ -17,6 +17,7 @@ const inputsOf = (element) =>
   element.matches("input, select, textarea") ? [element] : [...element.querySelectorAll("input, select, textarea")];
 
 let marked = []; // undo functions of what mark() did
+let shown = null; // { element, text, message } of the problem that is marked
 
 function mark(element, text) {
   const id = freshId("problem");
@@ -36,6 +37,7 @@ function mark(element, text) {
     input.setAttribute("aria-invalid", "true");
     input.setAttribute("aria-describedby", id);
   }
+  shown = { element, text, message };
   marked.push(() => {
     placed.remove();
     for (const input of inputs) {
@@ -48,12 +50,15 @@ function mark(element, text) {
 export function clearMarks() {
   marked.forEach((undo) => undo());
   marked = [];
+  shown = null;
 }
 
 // Marks the field of the problem. True when one was found.
 export function markProblem({ pointer, message }) {
-  clearMarks();
   const element = pointer ? elementAt(pointer) : null;
+  // What stands there already stays: whoever reads it is not interrupted.
+  if (element && shown?.element === element && shown.text === message && shown.message.isConnected) return true;
+  clearMarks();
   if (element) mark(element, message);
   return element !== null;
 }
