@@ -19,7 +19,7 @@ TEST_F(ServiceTest, PagesAreStrictAboutScripts) {
     ASSERT_EQ(page.status, 200);
     EXPECT_EQ(page.header("Content-Type"), "text/html; charset=utf-8");
     EXPECT_EQ(page.header("Cache-Control"), "no-cache");
-    EXPECT_EQ(page.header("Referrer-Policy"), "no-referrer");
+    EXPECT_EQ(page.header("Referrer-Policy"), "same-origin");
     EXPECT_EQ(page.header("Content-Security-Policy"), kContentSecurityPolicy);
     EXPECT_EQ(get("/index.html").body, page.body);
     EXPECT_EQ(get("/", {{"If-None-Match", std::string(page.header("ETag"))}}).status, 304);
