@@ -108,7 +108,8 @@ const tests = {
     await settled(page);
     const coarse = renders.slice(from).filter(({ scene }) => scene.image.width < before.width);
     assert.deepEqual(coarse.filter(({ state }) => state !== "done"), [], "no coarse picture is cancelled");
-    assert.deepEqual(coarse[0].scene.accuracy, { rung: "transport-16" });
+    assert.deepEqual(coarse[0].scene.accuracy, { time_ms: 120 });
+    assert.ok(coarse.every(({ scene }) => scene.detail === undefined), "lumps hardly show, and cost half of the time");
     const after = await look(page);
     assert.equal(after.width, before.width);
     assert.notEqual(after.hash, before.hash);

@@ -10,8 +10,11 @@ import { Problem } from "./api.js";
 
 const kSettleMs = 30; // a change waits so long for its fellows
 const kRestMs = 400;
-const kSlowCoarseMs = 150; // a coarse picture at half size that takes longer makes the next one a quarter,
-const kFastCoarseMs = 50; // and one at a quarter that takes less, a half
+// The sides of coarse pictures are a half, a quarter or an eighth of the whole one's: smaller after one that took long, larger
+// after one that took next to nothing.
+const kSlowCoarseMs = 150;
+const kFastCoarseMs = 40;
+const kLargestCoarse = 2, kSmallestCoarse = 8;
 const kShortWholeMs = 250; // what is expected to take no longer needs none before it
 const kLongWholeMs = 1200; // what is expected to take longer is shown at half its size before
 
@@ -64,8 +67,8 @@ export function createRenderLoop({ render, shown, failed, busy, marked }) {
         if (signal.aborted) return;
         const took = performance.now() - mine.started;
         if (mine.step === "whole") wholeMs = took;
-        if (mine.step === "coarse" && took > kSlowCoarseMs) reduction = 4;
-        if (mine.step === "coarse" && took < kFastCoarseMs) reduction = 2;
+        if (mine.step === "coarse" && took > kSlowCoarseMs) reduction = Math.min(2 * reduction, kSmallestCoarse);
+        if (mine.step === "coarse" && took < kFastCoarseMs) reduction = Math.max(reduction / 2, kLargestCoarse);
         await shown(picture, { whole: mine.step === "whole" });
         onScreen = mine;
       })
