@@ -17,7 +17,7 @@ await page.addInitScript(() => {
 });
 const whole = () => page.waitForFunction(() =>
   document.querySelector("#stage").getAttribute("aria-busy") === "false" && document.querySelector("#left").dataset.picture === "", null, { polling: 10 });
-await page.goto(`${origin}/#cumulus`);
+await page.goto(`${origin}/#congestus`); // none of those below
 await whole();
 
 console.log("preset                first ms   whole ms   pictures in a drag of 1 s");
