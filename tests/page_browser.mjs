@@ -159,8 +159,11 @@ export const look = (page, base64 = null) => page.evaluate(async (png) => {
 }, base64);
 
 export async function choose(page, preset) {
-  await page.selectOption("#preset", preset);
-  await page.waitForFunction((name) => location.hash === `#${name}`, preset);
+  // The address names the preset at hand: where it does already, nothing would show when it has been chosen again.
+  if (!(await page.evaluate((name) => location.hash === `#${name}`, preset))) {
+    await page.selectOption("#preset", preset);
+    await page.waitForFunction((name) => location.hash === `#${name}`, preset);
+  }
   await settled(page);
 }
 export const particles = async (page) => Number((await page.textContent("#particles")).replace(/\D/g, ""));
