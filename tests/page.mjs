@@ -7,7 +7,7 @@ import fs from "node:fs";
 import path from "node:path";
 
 import {
-  cell, choose, context, download, faults, group, look, open, origin, particles, renders, scratch, settled,
+  cell, choose, download, group, look, open, origin, particles, renders, runTests, scratch, settled,
 } from "./page_browser.mjs";
 import { modelTests } from "./page_models.mjs";
 
@@ -432,24 +432,6 @@ const tests = {
 };
 
 const start = Date.now();
-let failed = null;
-try {
-  const page = await open();
-  for (const [name, test] of Object.entries(tests)) {
-    const begun = Date.now();
-    try {
-      await test(page);
-      assert.deepEqual(faults, [], "errors of the browser");
-    } catch (error) {
-      failed = error;
-      console.error(`page_test: ${name}: ${error.stack}`);
-      console.error(`  faults: ${JSON.stringify(faults)}`);
-      break;
-    }
-    console.log(`ok ${name} (${Date.now() - begun} ms)`);
-  }
-} finally {
-  await context.close();
-}
-console.log(`${failed ? "failed" : "passed"} in ${((Date.now() - start) / 1000).toFixed(1)} s`);
-process.exit(failed ? 1 : 0);
+const passed = await runTests(tests);
+console.log(`${passed ? "passed" : "failed"} in ${((Date.now() - start) / 1000).toFixed(1)} s`);
+process.exit(passed ? 0 : 1);

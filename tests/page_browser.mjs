@@ -1,6 +1,7 @@
 // What page.mjs uses: Debian's Chromium, a watch on everything that goes wrong in it, and ways to look
 // at the page as it stands.
 
+import assert from "node:assert/strict";
 import fs from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";
@@ -173,4 +174,26 @@ export const cell = (page, row, member) => page.locator(`tbody input[data-pointe
 export async function download(page, click) {
   const [file] = await Promise.all([page.waitForEvent("download"), click()]);
   return { name: file.suggestedFilename(), bytes: fs.readFileSync(await file.path()) };
+}
+
+// Runs tests by name, one after the other on one page at `address`, up to the first that fails. True when all passed.
+export async function runTests(tests, address) {
+  try {
+    const page = await open(address);
+    for (const [name, test] of Object.entries(tests)) {
+      const begun = Date.now();
+      try {
+        await test(page);
+        assert.deepEqual(faults, [], "errors of the browser");
+      } catch (error) {
+        await page.screenshot({ path: path.join(scratch, "fault.png") }).catch(() => {});
+        console.error(`page_test: ${name}: ${error.stack}\n  faults: ${JSON.stringify(faults)}`);
+        return false;
+      }
+      console.log(`ok ${name} (${Date.now() - begun} ms)`);
+    }
+    return true;
+  } finally {
+    await context.close();
+  }
 }

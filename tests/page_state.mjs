@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import fs from "node:fs";
 import path from "node:path";
 
-import { cell, choose, context, download, faults, group, look, open, openQuiet, origin, particles, renders, scratch, settled } from "./page_browser.mjs";
+import { cell, choose, context, download, faults, group, look, open, openQuiet, origin, particles, renders, runTests, scratch, settled } from "./page_browser.mjs";
 
 const elevation = (page) => group(page, "Sun").getByLabel("Elevation, °");
 const noteSays = (page, text) => page.waitForFunction((t) => document.querySelector("#note").textContent.includes(t), text);
@@ -255,22 +255,4 @@ const tests = {
   },
 };
 
-let failed = null;
-try {
-  const page = await open("/#cumulus");
-  for (const [name, test] of Object.entries(tests)) {
-    const begun = Date.now();
-    try {
-      await test(page);
-      assert.deepEqual(faults, [], "errors of the browser");
-    } catch (error) {
-      failed = error;
-      console.error(`page_test: ${name}: ${error.stack}\n  faults: ${JSON.stringify(faults)}`);
-      break;
-    }
-    console.log(`ok ${name} (${Date.now() - begun} ms)`);
-  }
-} finally {
-  await context.close();
-}
-process.exit(failed ? 1 : 0);
+process.exit(await runTests(tests, "/#cumulus") ? 0 : 1);

@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import fs from "node:fs";
 import path from "node:path";
 
-import { STAND_IN, context, faults, group, look, origin, renders, open, scratch, settled } from "./page_browser.mjs";
+import { STAND_IN, context, group, look, origin, renders, open, runTests, scratch, settled } from "./page_browser.mjs";
 
 const kMostKilobytes = 300; // of the whole page, compressed
 const kDistance = 20;
@@ -309,17 +309,4 @@ const tests = {
   },
 };
 
-const page = await open("/#cumulus");
-for (const [name, test] of Object.entries(tests)) {
-  const begun = Date.now();
-  try {
-    await test(page);
-    assert.deepEqual(faults, [], "console errors");
-  } catch (error) {
-    await page.screenshot({ path: path.join(scratch, "fault.png") }).catch(() => {});
-    console.error(`page_workspace: ${name}: ${error.stack}`);
-    process.exit(1);
-  }
-  console.log(`  ${name} (${Date.now() - begun} ms)`);
-}
-await context.close();
+process.exit(await runTests(tests, "/#cumulus") ? 0 : 1);

@@ -3,6 +3,7 @@
 import * as api from "./api.js";
 import { group, numberInput, stepByArrows } from "./controls.js";
 import { el, freshId } from "./dom.js";
+import { documentOf } from "./opening.js";
 import { atOrDefault, fieldAt } from "./schema.js";
 import { around } from "./workspace_items.js";
 import { STARTERS, THICKNESS, cloudsFrom, scattered, started, thickened, withClouds, withStarter } from "./workspace_shapes.js";
@@ -120,10 +121,9 @@ export function createPanel(store, { actions, select, ids, items, selection, act
     file.value = "";
     if (!chosen) return;
     try {
-      const text = await chosen.text();
-      const isAwn = /\.awn$/i.test(chosen.name);
-      await api.plan(text, { type: isAwn ? "text/x-awn" : "application/json" }); // the service judges it first
-      const clouds = cloudsFrom(text, isAwn);
+      const { text } = await documentOf(chosen);
+      await api.plan(text); // the service judges it first
+      const clouds = cloudsFrom(text);
       const next = withClouds(store.scene, clouds);
       const first = next.clouds.length - clouds.length;
       actions.change(next, clouds.map((_cloud, i) => `/clouds/${first + i}`));

@@ -1,7 +1,7 @@
 // Shape tools: what one starts from, how thick it is, what is strewn about, and another file put into the scene.
 
 import { parseJson } from "./json_text.js";
-import { cloudsOf, sceneFromAwn, withCloudList } from "./document.js";
+import { cloudsOf, withCloudList } from "./document.js";
 import { duplicated, transformed } from "./workspace_edit.js";
 import { around, itemsOf } from "./workspace_items.js";
 
@@ -98,8 +98,8 @@ export function scattered(scene, ids, count, reach, seed) {
 }
 
 // The clouds of another document. What it says for all of its clouds goes into each.
-export function cloudsFrom(text, isAwn) {
-  const scene = isAwn ? sceneFromAwn(text) : parseJson(text);
+export function cloudsFrom(text) {
+  const scene = parseJson(text);
   if (scene === null || typeof scene !== "object" || Array.isArray(scene)) throw new TypeError("A scene document is a JSON object: { … }.");
   const common = {};
   for (const member of ["fill", "seed"]) if (scene[member] !== undefined) common[member] = scene[member];

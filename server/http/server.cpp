@@ -127,7 +127,7 @@ void HttpServer::State::poll_once() {
         });
     }
     if (polled[1].revents) accept_all();
-    connections.remove_if([](const Connection& c) { return c.socket.get() < 0; });
+    forget_ended();
 }
 
 void HttpServer::State::on_event(Connection& c, short events) {
@@ -208,7 +208,7 @@ void HttpServer::State::accept_all() {
         const bool full = connections.size() >= options.max_connections && !make_room();
         if (full && connections.size() >= options.max_connections + kTurnedAway) end_turned_away();
         // Those that made room count no more.
-        connections.remove_if([](const Connection& c) { return c.socket.get() < 0; });
+        forget_ended();
         Connection& c = connections.emplace_back();
         c.local_address = address_of(socket.get(), getsockname);
         c.client = address_of(socket.get(), getpeername);
@@ -274,6 +274,10 @@ void HttpServer::State::end(Connection& c) {
     c.sent = 0;
     count_parked(c, parked);
     c.socket.close();
+}
+
+void HttpServer::State::forget_ended() {
+    connections.remove_if([](const Connection& c) { return c.socket.get() < 0; });
 }
 
 // --- The end

@@ -78,8 +78,9 @@ struct HttpServer::State {
     void refuse(Connection& c, int status, std::string_view detail, std::string_view reason);
     void taken_back(Connection& c, bool alive);
     void written(Connection& c);
-    // Closes it; it leaves the list at the end of the turn.
+    // Closes it; it leaves the list with forget_ended().
     void end(Connection& c);
+    void forget_ended();
 };
 
 }  // namespace awan
