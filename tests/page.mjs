@@ -7,7 +7,7 @@ import fs from "node:fs";
 import path from "node:path";
 
 import {
-  cell, choose, download, group, look, open, origin, particles, renders, runTests, scratch, settled,
+  cell, choose, download, group, look, open, origin, particles, patience, renders, runTests, scratch, settled,
 } from "./page_browser.mjs";
 import { modelTests } from "./page_models.mjs";
 
@@ -354,7 +354,7 @@ const tests = {
     await scene((document) => ({ ...document, image: { width: 16, height: 12 } }));
     await page.waitForTimeout(300); // until the service has seen that nobody waits for the first
     await button.click();
-    await page.waitForFunction(() => document.querySelector("#sweep-plot").naturalWidth === 1120, null, { timeout: 120_000 });
+    await page.waitForFunction(() => document.querySelector("#sweep-plot").naturalWidth === 1120, null, { timeout: patience * 60_000 });
     await page.waitForSelector('#sweep[aria-busy="false"]');
     await page.keyboard.press("Escape");
     await page.waitForSelector("#sweep:not([open])", { state: "attached" });

@@ -37,7 +37,7 @@ export async function launch(profile, options = {}) {
   return browser;
 }
 export const context = await launch("profile");
-const patience = process.env.AWAN_SANITIZED ? 10 : 1; // a program with sanitizers is slow
+export const patience = process.env.AWAN_SANITIZED ? 10 : 1; // a program with sanitizers is slow
 context.setDefaultTimeout(patience * 15_000);
 await context.grantPermissions(["clipboard-read", "clipboard-write"], { origin });
 
