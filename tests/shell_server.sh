@@ -1,5 +1,7 @@
 # What scripts use that try the built program, $awan, as a server; each sources it after shell_checks.sh. Gives them a
 # folder of their own, $work, and kills the server at the end.
+patience=20 # seconds
+[ -z "${AWAN_SANITIZED:-}" ] || patience=300
 work=$(mktemp -d)
 server=
 trap '[ -n "$server" ] && kill -KILL "$server" 2>/dev/null; rm -rf "$work"' EXIT
@@ -15,7 +17,7 @@ start() {
         sleep 0.05
     done
     [ -n "$url" ] || { cat "$work/log" >&2; fail "the server did not start"; exit 1; }
-    for _ in $(seq 400); do
+    for _ in $(seq $((20 * patience))); do
         [ "$(code "$url/readyz")" = 200 ] && return
         sleep 0.05
     done
@@ -29,6 +31,4 @@ stop() {  # expects exit code $1 after signal $2
     same "exit code after SIG$2" "$1" "$?"
     server=
 }
-patience=20 # seconds
-[ -z "${AWAN_SANITIZED:-}" ] || patience=300
 code() { curl -s -o /dev/null -w '%{http_code}' --max-time "$patience" "$@"; }
