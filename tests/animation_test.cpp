@@ -67,7 +67,7 @@ TEST(Apng, HoldsEveryFramesPixelsAsTheyWere) {
     std::vector<std::string> pixels;
     for (const float level : {0.1f, 0.4f, 0.9f}) {
         const Image image = picture(33, 17, level, false);
-        pixels.push_back(pixels_of(chunks_of(*encode_png(image, 0))));
+        pixels.push_back(pixels_of(chunks_of(*encode_png(image, {}))));
         ASSERT_FALSE(animation->add(image, 0).has_value());
     }
     auto file = animation->end();
@@ -101,10 +101,10 @@ TEST(Apng, HoldsEveryFramesPixelsAsTheyWere) {
 TEST(Apng, RefusesFramesOfAnotherSizeAndWhatIsNoPng) {
     ApngWriter writer(40, 2);
     EXPECT_TRUE(writer.add("GIF89a").has_value());
-    ASSERT_FALSE(writer.add(*encode_png(picture(8, 8, 1, true), 0)).has_value());
-    EXPECT_TRUE(writer.add(*encode_png(picture(9, 8, 1, true), 0)).has_value());
-    EXPECT_TRUE(writer.add(*encode_png(picture(8, 8, 1, false), 0)).has_value());
-    const std::string whole = *encode_png(picture(8, 8, 1, true), 0);
+    ASSERT_FALSE(writer.add(*encode_png(picture(8, 8, 1, true), {})).has_value());
+    EXPECT_TRUE(writer.add(*encode_png(picture(9, 8, 1, true), {})).has_value());
+    EXPECT_TRUE(writer.add(*encode_png(picture(8, 8, 1, false), {})).has_value());
+    const std::string whole = *encode_png(picture(8, 8, 1, true), {});
     EXPECT_TRUE(writer.add(whole.substr(0, whole.size() / 2)).has_value());
 }
 

@@ -23,7 +23,7 @@ struct RenderCommand {
     std::vector<std::string> outputs;
     // These and the next are in place of what the document says.
     std::optional<int> width, height;
-    // "", "png", "exr"; of an animation "webp", "apng".
+    // "", "png", "png16", "exr"; of an animation "webp", "apng".
     std::string format;
     // Seconds, in place of the document's.
     std::optional<double> time;
@@ -39,8 +39,8 @@ struct RenderCommand {
     // Of rung, error and time_ms at most one is set.
     std::optional<std::string> rung;
     std::optional<double> error, time_ms;
-    // A channel of PNG: 8 or 16.
-    int bits = 8;
+    // A channel of PNG: 8 or 16, in place of what the format says.
+    std::optional<int> bits;
     // Pictures whose files are all there are not made again.
     bool skip_existing = false;
     // What make and ninja read to know what the files are made of, or "".

@@ -189,7 +189,7 @@ Run add_render(CLI::App& app) {
         ->envname("AWAN_FLIPBOOK");
     add(*render, "--columns", command->columns, "of a flipbook; 0: about a square")
         ->check(CLI::Range(0, limits::kMaxImageSide));
-    add(*render, "--bits", command->bits, "of a channel of PNG, 8 or 16")
+    add(*render, "--bits", command->bits, "of a channel of PNG, 8 or 16, instead of the document's")
         ->check(CLI::IsMember({8, 16}));
     add_farm_flags(*render, command->skip_existing, command->depfile);
     render
@@ -203,8 +203,9 @@ Run add_render(CLI::App& app) {
     add(*render, "--height", command->height, "pixels, instead of the document's")
         ->check(CLI::Range(1, limits::kMaxImageSide));
     add(*render, "--format", command->format,
-        "png or exr, instead of the document's; webp or apng for standard output")
-        ->check(CLI::IsMember({"png", "exr", "webp", "apng"}));
+        "png, png16 (16 bits a channel) or exr, instead of the document's; webp or apng for "
+        "standard output")
+        ->check(CLI::IsMember({"png", "png16", "exr", "webp", "apng"}));
     add(*render, "--background", command->background,
         "sky or transparent, instead of the document's")
         ->check(CLI::IsMember({"sky", "transparent"}));

@@ -23,10 +23,13 @@ namespace {
 
 // What the renders of one command share.
 struct Work {
-    Work(const RenderCommand& c, std::vector<Target> t) : command(c), targets(std::move(t)) {}
+    Work(const RenderCommand& c, std::vector<Target> t, int bits)
+        : command(c), targets(std::move(t)), png_bits(bits) {}
 
     const RenderCommand& command;
     const std::vector<Target> targets;
+    // A channel.
+    const int png_bits;
     MachineSpeed speed = measure_speed();
     std::optional<Device> device;
     ProgressLine progress;
@@ -54,7 +57,7 @@ Result<std::string> encode(const Rendered& rendered, const Scene& scene, const s
         if (rendered.image.pixel_count() >= kLargePicture) set_exr_threads(threads);
         return encode_exr(rendered.image, scene->image.precision, notes_of(rendered));
     }
-    return encode_png(rendered.image, exposure_of(scene), bits);
+    return encode_png(rendered.image, film_of(scene), bits);
 }
 
 // Writes the picture to every file that is not an animation. frame: none for a scene that stands still.
@@ -64,7 +67,7 @@ Status write_picture(const Rendered& rendered, const Scene& scene, const std::ui
     for (const Target& target : work.targets) {
         if (target.animated()) continue;
         const auto bytes =
-            encode(rendered, scene, target.format, work.command.bits, work.command.threads);
+            encode(rendered, scene, target.format, work.png_bits, work.command.threads);
         if (!bytes) return bytes.error();
         const std::string path =
             frame == nullptr ? target.path : numbered_name(target.path, *frame);
@@ -126,7 +129,7 @@ Result<Rendered> render_of(const Settled& settled, double time, Work& work, Scen
 }
 
 // What holds every frame and is being made, and where it goes: an animation, or a sheet.
-struct Film {
+struct MovingPicture {
     const Target* target;
     std::optional<Animation> animation;
     SheetLayout layout;
@@ -146,39 +149,40 @@ std::string layout_path(const std::string& sheet) {
     return sheet.substr(0, sheet.rfind('.')) + ".json";
 }
 
-Status write_sheet(const Film& film, const std::vector<std::uint64_t>& frames, const Scene& scene,
-                   const Work& work) {
-    const std::string& path = film.target->path;
-    auto bytes = film.target->format == "exr"
-                     ? encode_exr(film.sheet, scene->image.precision)
-                     : encode_png(film.sheet, exposure_of(scene), work.command.bits);
+Status write_sheet(const MovingPicture& picture, const std::vector<std::uint64_t>& frames,
+                   const Scene& scene, const Work& work) {
+    const std::string& path = picture.target->path;
+    auto bytes = picture.target->format == "exr"
+                     ? encode_exr(picture.sheet, scene->image.precision)
+                     : encode_png(picture.sheet, film_of(scene), work.png_bits);
     if (!bytes) return bytes.error();
     if (Status failed = write_output(path, *bytes)) return failed;
     std::vector<double> times;
     for (const std::uint64_t frame : frames) times.push_back(frame_time(*scene->sequence, frame));
     return write_output(layout_path(path),
-                        sheet_to_json(film.layout, path.substr(path.rfind('/') + 1), frames, times,
-                                      work.command.frames_per_second));
+                        sheet_to_json(picture.layout, path.substr(path.rfind('/') + 1), frames,
+                                      times, work.command.frames_per_second));
 }
 
-Result<std::vector<Film>> begin_films(const Scene& scene, const Work& work, std::size_t frames) {
-    std::vector<Film> films;
+Result<std::vector<MovingPicture>> begin_moving(const Scene& scene, const Work& work,
+                                                std::size_t frames) {
+    std::vector<MovingPicture> moving;
     for (const Target& target : work.targets) {
         if (!target.animated()) continue;
         if (target.sheet) {
             const auto layout =
                 sheet_layout(frames, scene->image.width, scene->image.height, work.command.columns);
             if (!layout) return layout.error();
-            films.push_back({&target, std::nullopt, *layout, {}});
+            moving.push_back({&target, std::nullopt, *layout, {}});
             continue;
         }
         auto begun = Animation::begin(
             target.format == "webp" ? AnimationFormat::kWebp : AnimationFormat::kApng,
             work.command.frames_per_second, frames);
         if (!begun) return begun.error();
-        films.push_back({&target, *std::move(begun), {}, {}});
+        moving.push_back({&target, *std::move(begun), {}, {}});
     }
-    return films;
+    return moving;
 }
 
 // The frames that are to be made: all, or those of which a file is missing.
@@ -198,11 +202,11 @@ std::vector<std::uint64_t> missing_frames(const Scene& scene,
 
 // Frames as files of their own, or as animations.
 Status render_frames(const Scene& scene, std::vector<std::uint64_t> frames, Work& work) {
-    auto films = begin_films(scene, work, frames.size());
-    if (!films) return films.error();
+    auto moving = begin_moving(scene, work, frames.size());
+    if (!moving) return moving.error();
     if (work.command.skip_existing) {
         // An animation holds every frame.
-        if (films->empty()) frames = missing_frames(scene, frames, work);
+        if (moving->empty()) frames = missing_frames(scene, frames, work);
         if (frames.empty()) return std::nullopt;
     }
     work.progress.say("settling the sequence");
@@ -216,8 +220,8 @@ Status render_frames(const Scene& scene, std::vector<std::uint64_t> frames, Work
         Scene still = scene;
         auto rendered = render_of(*settled, frame_time(sequence, frames[i]), work, still);
         if (!rendered) return rendered.error();
-        for (Film& film : *films)
-            if (Status failed = film.add(rendered->image, exposure_of(still))) return failed;
+        for (MovingPicture& picture : *moving)
+            if (Status failed = picture.add(rendered->image, film_of(still))) return failed;
         PictureResult result{work.command.scene.path, files_of_frame(work.targets, &frames[i]),
                              frames[i], false, 0};
         if (Status failed = write_picture(*rendered, still, &frames[i], work, result.encode_ms))
@@ -225,14 +229,14 @@ Status render_frames(const Scene& scene, std::vector<std::uint64_t> frames, Work
         say_result(result, still, &*rendered, work);
     }
     work.progress.say("encoding");
-    for (Film& film : *films) {
-        if (!film.animation) {
-            if (Status failed = write_sheet(film, frames, scene, work)) return failed;
+    for (MovingPicture& picture : *moving) {
+        if (!picture.animation) {
+            if (Status failed = write_sheet(picture, frames, scene, work)) return failed;
             continue;
         }
-        auto bytes = film.animation->end();
+        auto bytes = picture.animation->end();
         if (!bytes) return bytes.error();
-        if (Status failed = write_output(film.target->path, *bytes)) return failed;
+        if (Status failed = write_output(picture.target->path, *bytes)) return failed;
     }
     return std::nullopt;
 }
@@ -247,6 +251,13 @@ void apply_flags(const RenderCommand& command, SceneDraft& draft) {
     if (command.background == "sky") image.background = Background::kSky;
     if (command.background == "transparent") image.background = Background::kTransparent;
     if (command.time) draft.time = *command.time;
+}
+
+// A channel of PNG: as the flags say, else as the document does.
+int png_bits_of(const RenderCommand& command, ImageFormat format) {
+    if (command.bits) return *command.bits;
+    if (!command.format.empty()) return command.format == "png16" ? 16 : 8;
+    return format == ImageFormat::kPng16 ? 16 : 8;
 }
 
 // The frames that are asked for, once it is sure that each has a name. The error is of bad usage.
@@ -276,8 +287,10 @@ int run_render(const RenderCommand& command) {
     auto targets = targets_of(command, draft->image.format == ImageFormat::kExr ? "exr" : "png");
     if (!targets) return bad_usage(targets.error().message);
     const auto is_exr = [](const Target& target) { return target.format == "exr"; };
+    const int bits = png_bits_of(command, draft->image.format);
     draft->image.format = std::any_of(targets->begin(), targets->end(), is_exr) ? ImageFormat::kExr
-                                                                                : ImageFormat::kPng;
+                          : bits == 16 ? ImageFormat::kPng16
+                                       : ImageFormat::kPng;
     const auto is_standard = [](const Target& target) { return target.path == "-"; };
     const auto is_sheet = [](const Target& target) { return target.sheet; };
     if (command.flipbook && std::none_of(targets->begin(), targets->end(), is_sheet))
@@ -291,7 +304,7 @@ int run_render(const RenderCommand& command) {
 
     auto scene = validate(std::move(draft).value());
     if (!scene) return report_error(name, scene.error());
-    Work work(command, *std::move(targets));
+    Work work(command, *std::move(targets), bits);
     const bool animated = std::any_of(work.targets.begin(), work.targets.end(),
                                       [](const Target& t) { return t.animated(); });
     if (!animated && command.frames.empty()) {

@@ -58,7 +58,7 @@ class Reel {
     }
     Status add(const Rendered& rendered, const Scene& scene, std::uint64_t frame,
                const Deadline& deadline) {
-        if (animation_) return animation_->add(rendered.image, exposure_of(scene));
+        if (animation_) return animation_->add(rendered.image, film_of(scene));
         if (layout_) {
             if (frame == 0) sheet_ = begin_sheet(*layout_, rendered.image.opaque);
             put_on_sheet(*layout_, frame, rendered.image, sheet_);
@@ -90,8 +90,10 @@ class Reel {
 
     Status add_sheet(const Scene& scene, const Deadline& deadline) {
         const bool exr = scene->image.format == ImageFormat::kExr;
-        auto bytes = exr ? encode_exr(sheet_, scene->image.precision, {}, deadline)
-                         : encode_png(sheet_, exposure_of(scene), 8, deadline);
+        auto bytes =
+            exr ? encode_exr(sheet_, scene->image.precision, {}, deadline)
+                : encode_png(sheet_, film_of(scene),
+                             scene->image.format == ImageFormat::kPng16 ? 16 : 8, deadline);
         if (!bytes) return bytes.error();
         const std::string name = exr ? "flipbook.exr" : "flipbook.png";
         if (Status failed = archive_->add(name, *bytes)) return failed;
