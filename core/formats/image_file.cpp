@@ -63,8 +63,8 @@ std::vector<std::uint8_t> display_pixels(const Image& image, const FilmSettings&
 constexpr double kCloudReflectance = 0.5;
 
 // The share of the stops lost to a low sun that stays lost. From noon to sunset a cloud loses 3 or 4 stops, to the end
-// of civil twilight 13: these become .7 and 2.6.
-constexpr double kEveningKept = 0.2;
+// of civil twilight 13: these become .9 and 3.3.
+constexpr double kEveningKept = 0.25;
 
 // What the scene's sun makes of that cloud from 45 degrees up, without the sky. >= 0.
 double high_sun_cloud(const Scene& scene) {

@@ -50,7 +50,7 @@ void set_exr_threads(int threads);
 // Exposure in stops for "auto": what a photographer would meter on the sunlit side of a thick cloud, which is half of
 // the sun's light, as from a white wall at 45 degrees, and the sky's mean radiance. It is brought to kMeteredLevel
 // before the tone curve. Depends on the lights only, so it does not flicker as a camera moves. Of what a low sun takes
-// away from the light of a high one, four stops in five are made up for: the eye adapts, but evening stays evening.
+// away from the light of a high one, three stops in four are made up for: the eye adapts, but evening stays evening.
 double auto_exposure(const Scene& scene);
 
 // The scene's own exposure, or that one, in stops.
