@@ -368,7 +368,8 @@ glm::dvec3 radiance(const AirSky& sky, const glm::dvec3& direction) {
     const double phase = aerosol_phase(std::clamp(glm::dot(direction, sky.to_sun), -1.0, 1.0));
     glm::dvec3 xyz(0);
     for (int a = 0; a < 4; ++a) {
-        const auto r = static_cast<std::size_t>(std::clamp(i + a - 1, 0, AirSky::kRows - 1));
+        // Smooth in the elevation, so even in its root.
+        const auto r = static_cast<std::size_t>(std::min(std::abs(i + a - 1), AirSky::kRows - 1));
         glm::dvec3 even(0), haze(0);
         for (int b = 0; b < 4; ++b) {
             // The sky is the same on both sides of the sun: past the last column stands the one before it.

@@ -136,8 +136,8 @@ struct MovingPicture {
     Image sheet;
     std::uint64_t frames = 0;
 
-    Status add(const Image& picture, double exposure_stops) {
-        if (animation) return animation->add(picture, exposure_stops);
+    Status add(const Image& picture, const FilmSettings& film) {
+        if (animation) return animation->add(picture, film);
         if (frames == 0) sheet = begin_sheet(layout, picture.opaque);
         put_on_sheet(layout, frames++, picture, sheet);
         return std::nullopt;
