@@ -118,9 +118,8 @@ glm::dvec3 rec709(const glm::dvec3& xyz) {
 }
 
 glm::dvec3 balanced_rec709(const glm::dvec3& xyz) {
-    // Sunlight above the air is (1.0643, .9803, 1.0056); the colour of the locus with the same ratio of red to blue and
-    // the same luminance is (1.0209, .9979, .9594).
-    return rec709(xyz) * glm::dvec3(0.9592, 1.0180, 0.9541);
+    // What makes rec709 of the sun 45 degrees high in air of turbidity 2, (1.1453, .9749, .8212) at Y = 1, white.
+    return rec709(xyz) * glm::dvec3(0.8731, 1.0258, 1.2177);
 }
 
 double air_transmittance(int number, double m, double turbidity) {
@@ -194,7 +193,7 @@ glm::dvec3 radiance(const ClearSky& sky, const glm::dvec3& direction) {
     // Out of the range that the fits were made for, x and y still have to be those of a colour.
     const double x = std::clamp(value[1], 0.05, 0.7), y = std::clamp(value[2], 0.05, 0.7);
     const double luminance = sky.dimmed * std::max(value[0], 0.0);
-    return rec709(luminance * glm::dvec3(x / y, 1, std::max(1 - x - y, 0.0) / y));
+    return balanced_rec709(luminance * glm::dvec3(x / y, 1, std::max(1 - x - y, 0.0) / y));
 }
 
 }  // namespace awan
