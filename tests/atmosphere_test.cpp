@@ -24,16 +24,29 @@ AirSky sky_at(double degrees, double turbidity) {
     return air_sky(towards(degrees * kDegree), turbidity);
 }
 
-// Of the sky on a level plane, lux.
-double illuminance(const AirSky& sky) {
+// Of the sky on a level plane, over the unit of luminance of daylight.h.
+glm::dvec3 irradiance(const AirSky& sky) {
     constexpr int kUp = 60, kAround = 48;
-    double sum = 0;
+    glm::dvec3 sum(0);
     for (int i = 0; i < kUp; ++i)
         for (int j = 0; j < kAround; ++j) {
             const double up = kPi / 2 * (i + 0.5) / kUp, around = 2 * kPi * (j + 0.5) / kAround;
-            sum += std::sin(up) * std::cos(up) * luminance(radiance(sky, towards(up, around)));
+            sum += std::sin(up) * std::cos(up) * radiance(sky, towards(up, around));
         }
-    return daylight_unit() * sum * (kPi / 2 / kUp) * (2 * kPi / kAround);
+    return sum * (kPi / 2 / kUp) * (2 * kPi / kAround);
+}
+
+// The same in lux; what a camera set to daylight does to the blue of a sky is 2% of it.
+double illuminance(const AirSky& sky) {
+    return daylight_unit() * luminance(irradiance(sky));
+}
+
+TEST(Daylight, OfSunAndSkyIsWhite) {
+    const double elevation = 45 * kDegree;
+    const glm::dvec3 both =
+        irradiance(sky_at(45, 2)) + std::sin(elevation) * sunlight(elevation, 2);
+    EXPECT_NEAR(both.x / both.y, 1, 1e-3);
+    EXPECT_NEAR(both.z / both.y, 1, 1e-3);
 }
 
 TEST(AirSky, LightsTheGroundAsMeasured) {

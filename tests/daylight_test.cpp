@@ -106,12 +106,6 @@ TEST(Sunlight, HasTheColourTemperatureOfTheHour) {
     EXPECT_LT(temperature_of(sunlight(3 * kDegree, 2)), 3000);
 }
 
-TEST(Sunlight, OfTheAfternoonIsWhite) {
-    const glm::dvec3 color = sunlight(45 * kDegree, 2);
-    EXPECT_NEAR(color.x / color.y, 1, 2e-4);
-    EXPECT_NEAR(color.z / color.y, 1, 2e-4);
-}
-
 TEST(Sunlight, ReddensAndDimsAsTheSunSinksAndAsTheAirThickens) {
     for (const double turbidity : {2., 3., 6., 10.}) {
         glm::dvec3 above = sunlight(90 * kDegree, turbidity);

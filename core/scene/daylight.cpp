@@ -118,8 +118,9 @@ glm::dvec3 rec709(const glm::dvec3& xyz) {
 }
 
 glm::dvec3 balanced_rec709(const glm::dvec3& xyz) {
-    // What makes rec709 of the sun 45 degrees high in air of turbidity 2, (1.1453, .9749, .8212) at Y = 1, white.
-    return rec709(xyz) * glm::dvec3(0.8731, 1.0258, 1.2177);
+    // What makes rec709 of sun 45 degrees high and sky together on a level plane, turbidity 2, (1.0775, .9809, .9607) at
+    // Y = 1, white (atmosphere_test computes it).
+    return rec709(xyz) * glm::dvec3(0.9281, 1.0194, 1.0409);
 }
 
 double air_transmittance(int number, double m, double turbidity) {

@@ -29,7 +29,7 @@ struct Sky {
     glm::dvec3 zenith{0.09, 0.25, 0.72};
     glm::dvec3 horizon{0.44, 0.67, 0.95};
     double intensity = kGradientSkyIntensity;
-    double turbidity = 3;
+    double turbidity = 2;
 };
 
 inline constexpr auto kSkyIsPhysical = [](const void* sky) {
