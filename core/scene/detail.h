@@ -27,7 +27,8 @@ static_assert(covers<Detail>(kDetailFields));
 inline constexpr Table kDetailTable{.name = "Detail",
                                     .says = "Structure finer than the particles.",
                                     .fields = kDetailFields,
-                                    .standard = standard_of<Detail>};
+                                    .standard = standard_of<Detail>,
+                                    .usual_word = "auto"};
 template <>
 inline const Table& table_of<Detail>() {
     return kDetailTable;

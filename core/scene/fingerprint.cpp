@@ -215,7 +215,7 @@ void settle_cloud(Instead& instead, const SceneDraft& scene, const Cloud& cloud)
     // Where it stands is what tells two times apart.
     instead.put(cloud.velocity, scene.time * cloud.velocity);
     instead.put(cloud.fill, fill_of(scene, cloud));
-    instead.put(cloud.density, density_of(scene, cloud));
+    if (const auto density = density_of(scene, cloud)) instead.put(cloud.density, *density);
     instead.put(cloud.seed, seed_of(scene, cloud));
 }
 

@@ -165,7 +165,7 @@ Status check_cloud(const SceneDraft& draft, std::size_t k, Totals& totals) {
     if (cloud.spheres) return check_rules(*cloud.spheres, at + "/spheres");
     if (cloud.implicit) return check_rules(*cloud.implicit, at + "/implicit");
     if (cloud.ellipsoids) return check_rules(*cloud.ellipsoids, at + "/ellipsoids");
-    const double density = density_of(draft, cloud);
+    const double density = density_of(draft, cloud).value_or(kDefaultDensity);
     const Placement placement(cloud);
     if (cloud.model == CloudModel::kParticles)
         return check_ready(cloud.ready, placement, density, totals, at);

@@ -36,8 +36,8 @@ namespace awan {
 enum class Look { kPhysical, kOstroushko, kGardner };
 inline constexpr const char* kLookWords[] = {"physical", "ostroushko", "gardner"};
 
-// Makes table 4.4 of Sunar et al. 2005 a thick cumulus: optical depth about 30 through its middle (measured by
-// survey_test).
+// Of procedural clouds that are given none, 1/unit. Cubes and ready particles get what makes them deep enough
+// (core/generate/auto_density.h).
 inline constexpr double kDefaultDensity = 0.2;
 
 struct SceneDraft {
@@ -45,16 +45,17 @@ struct SceneDraft {
     // to its cubes read /cubes/i, else /clouds/k/cubes/i.
     bool top_level_cubes = true;
     std::vector<Cloud> clouds;
-    Fill fill = Fill::kUniform;
+    Fill fill = Fill::kCumulus;
     std::uint64_t seed = 1;
-    // None: kDefaultDensity.
+    // None: automatic.
     std::optional<double> density;
     Medium medium;
     Sun sun;
     Sky sky;
     std::optional<Ground> ground;
     std::optional<Haze> haze;
-    std::optional<Detail> detail;
+    // None: the particles as they are.
+    std::optional<Detail> detail = Detail{};
     Camera camera;
     ImageSettings image;
     Effects effects{};
@@ -90,8 +91,8 @@ class Scene {
 // Unit vector towards the sun. Elevation 90 is exactly (0, 1, 0).
 glm::dvec3 sun_direction(const Sun& sun);
 
-// What holds for a cloud: its own, else the scene's, else the default.
-double density_of(const SceneDraft& scene, const Cloud& cloud);
+// What holds for a cloud: its own, else the scene's, else the default. No density: automatic.
+std::optional<double> density_of(const SceneDraft& scene, const Cloud& cloud);
 Fill fill_of(const SceneDraft& scene, const Cloud& cloud);
 std::uint64_t seed_of(const SceneDraft& scene, const Cloud& cloud);
 

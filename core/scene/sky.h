@@ -23,12 +23,12 @@ struct Sky {
     // "none": black, no light.
     bool none = false;
     // Then `zenith` and `horizon` are unused.
-    bool physical = false;
+    bool physical = true;
     // Of a physical sky.
     Daylight daylight = Daylight::kScattered;
     glm::dvec3 zenith{0.09, 0.25, 0.72};
     glm::dvec3 horizon{0.44, 0.67, 0.95};
-    double intensity = kGradientSkyIntensity;
+    double intensity = kPhysicalSkyIntensity;
     double turbidity = 2;
 };
 
@@ -52,7 +52,7 @@ inline constexpr Field kSkyFields[] = {
         {.name = "model",
          .words = kSkyModelWords,
          .says = "physical: the clear sky that belongs to the sun; zenith and horizon are errors "
-                 "then."}),
+                 "then. Left out, it is physical unless one of those is given."}),
     field<&Sky::daylight>(
         {.name = "daylight",
          .words = kDaylightWords,
@@ -86,6 +86,12 @@ inline constexpr Field kSkyFields[] = {
 };
 static_assert(covers<Sky>(kSkyFields));
 
+// Colours of a gradient are those of a gradient without saying so.
+inline void complete_sky(void* sky, const Given& given) {
+    if (!given.has("model") && (given.has("zenith") || given.has("horizon")))
+        static_cast<Sky*>(sky)->physical = false;
+}
+
 inline constexpr Table kSkyTable{.name = "Sky",
                                  .says =
                                      "Of a gradient: radiance intensity * mix(horizon, zenith, "
@@ -93,7 +99,8 @@ inline constexpr Table kSkyTable{.name = "Sky",
                                      "the elevation).",
                                  .fields = kSkyFields,
                                  .standard = standard_of<Sky>,
-                                 .shorthand = "model"};
+                                 .shorthand = "model",
+                                 .complete = complete_sky};
 template <>
 inline const Table& table_of<Sky>() {
     return kSkyTable;

@@ -59,6 +59,8 @@ struct HazeFigures {
 
 struct Survey {
     std::size_t particles = 0;
+    // ParticleSet::cloud_density.
+    std::vector<double> cloud_density;
     Bounds bounds;
     View view;
     DensityVolume volume;

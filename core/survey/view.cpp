@@ -13,7 +13,7 @@ constexpr double kRadians = std::numbers::pi / 180.0;
 // "auto" stands at this azimuth and height over the cloud and leaves this margin around it.
 constexpr double kAutoAzimuth = 30 * kRadians;
 // Looking up a little, as one sees clouds.
-constexpr double kAutoElevation = -6 * kRadians;
+constexpr double kAutoElevation = -10 * kRadians;
 constexpr double kAutoMargin = 1.08;
 
 // Distance from `target` along `back` at which every corner of the box is in the picture.

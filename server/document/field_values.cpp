@@ -25,6 +25,10 @@ bool set_object_by_word(const Field& field, void* object, std::string_view word)
         set_absent(table, field.access.put(object), true);
         return true;
     }
+    if (table.usual_word != nullptr && table.usual_word == word) {
+        set_absent(table, field.access.put(object), false);
+        return true;
+    }
     if (table.shorthand == nullptr) return false;
     const int which = find_field(table, table.shorthand);
     void* const inner = field.access.put(object);
@@ -76,7 +80,8 @@ bool takes_words(const Field& field) {
     if (field.access.holds == Holds::kText) return true;
     if (field.access.holds != Holds::kObject) return false;
     const Table& table = field.access.table();
-    return table.shorthand != nullptr || absence_of(table) != nullptr;
+    return table.shorthand != nullptr || table.usual_word != nullptr ||
+           absence_of(table) != nullptr;
 }
 
 void set_absent(const Table& table, void* object, bool absent) {
@@ -85,6 +90,7 @@ void set_absent(const Table& table, void* object, bool absent) {
 }
 
 void complete_defaults(const Table& table, std::uint64_t seen, void* object) {
+    if (table.complete != nullptr) table.complete(object, Given{table, seen});
     for (std::size_t i = 0; i < table.fields.size(); ++i) {
         const Field& field = table.fields[i];
         if (field.usual == nullptr || field.access.optional || (seen >> i & 1) != 0) continue;
