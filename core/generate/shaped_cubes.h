@@ -1,5 +1,5 @@
-// Cubes filled in the shapes of clouds. Every centre lies in the cube, every radius in (0, cube.radius]; a particle does
-// not depend on the others.
+// Cubes filled in the shapes of clouds. Every centre lies in the cube, every radius in (0, cube.radius]; a particle
+// does not depend on the others.
 #pragma once
 
 #include <array>

@@ -118,8 +118,8 @@ glm::dvec3 rec709(const glm::dvec3& xyz) {
 }
 
 glm::dvec3 balanced_rec709(const glm::dvec3& xyz) {
-    // What makes rec709 of sun 45 degrees high and sky together on a level plane, turbidity 2, (1.0775, .9809, .9607) at
-    // Y = 1, white (atmosphere_test computes it).
+    // What makes rec709 of sun 45 degrees high and sky together on a level plane, turbidity 2, (1.0775, .9809, .9607)
+    // at Y = 1, white (atmosphere_test computes it).
     return rec709(xyz) * glm::dvec3(0.9281, 1.0194, 1.0409);
 }
 

@@ -34,9 +34,9 @@ double daylight_unit();
 // Linear Rec. 709; Y of white is 1. What it has no colour for goes to its edge and keeps its luminance.
 glm::dvec3 rec709(const glm::dvec3& xyz);
 
-// The same through a camera that is set to daylight, as all light of sun and sky is seen: what a level plane gets of both
-// together is white, with the sun 45 degrees high and turbidity 2 (about 5900 K), Y kept. Without it every noon cloud
-// would be cream, as the display's white is that of a bluish daylight (6504 K), and hazy horizons mauve.
+// The same through a camera that is set to daylight, as all light of sun and sky is seen: what a level plane gets of
+// both together is white, with the sun 45 degrees high and turbidity 2 (about 5900 K), Y kept. Without it every noon
+// cloud would be cream, as the display's white is that of a bluish daylight (6504 K), and hazy horizons mauve.
 glm::dvec3 balanced_rec709(const glm::dvec3& xyz);
 
 // Illuminance of direct sunlight at normal incidence, lux; 0 below the horizon.
