@@ -1,5 +1,6 @@
-// Sines and powers of e that are the same to the last bit everywhere. A library's may round differently from one machine
-// to the next; these are polynomials in plain IEEE double arithmetic (the compiler may not contract it, see CMakeLists.txt).
+// Sines and powers of e that are the same to the last bit everywhere. A library's may round differently from one
+// machine to the next; these are polynomials in plain IEEE double arithmetic (the compiler may not contract it, see
+// CMakeLists.txt).
 #pragma once
 
 namespace awan {

@@ -12,7 +12,8 @@ const float kToneKnee = 0.5f;
 const float kToneWhite = 8.0f;
 
 // Where automatic exposure puts the sunlit side of a thick cloud, before the curve; tone_curve(1.13) is 0.78, 229 of
-// 255 in sRGB: white, where the curve is still steep, with two stops above it for brighter lumps and the rim of the sun.
+// 255 in sRGB: white, where the curve is still steep, with two stops above it for brighter lumps and the rim of the
+// sun.
 const float kMeteredLevel = 1.13f;
 
 // How fast a colour pales as the curve takes light away from it (Khronos 2024, the same figure).
