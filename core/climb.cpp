@@ -148,7 +148,7 @@ double stated_error(double difference, const Climb& climb) {
     if (climb.planned.particles.detail != nullptr) {
         const double into_sun = std::max(survey.sun_cosine, 0.0);
         floor =
-            std::hypot(floor, climb.scene->detail->amount *
+            std::hypot(floor, climb.scene->detail.value_or(Detail{}).amount *
                                   (kDetailError + kDeepDetailError * std::min(depth / kDeep, 1.0) +
                                    kBacklitDetailError * into_sun * into_sun));
     }

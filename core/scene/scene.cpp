@@ -110,9 +110,8 @@ constexpr Field kSceneFields[] = {
     field<&SceneDraft::detail>({.name = "detail",
                                 .wanted = R"(an object, "auto" or "none")",
                                 .absent = "none",
-                                .says =
-                                    "Structure finer than the particles. \"auto\": with all its "
-                                    "defaults, wherever its bumps can be seen."}),
+                                .says = "Structure finer than the particles. \"auto\": amount 0.7, "
+                                        "size 1.5, where its bumps take 12 pixels or more."}),
     field<&SceneDraft::camera>({.name = "camera",
                                 .wanted = R"(an object or "auto")",
                                 .says = "\"auto\": the whole cloud, three-quarter view."}),

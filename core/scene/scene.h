@@ -55,7 +55,7 @@ struct SceneDraft {
     std::optional<Ground> ground;
     std::optional<Haze> haze;
     // None: the particles as they are.
-    std::optional<Detail> detail = Detail{};
+    std::optional<Detail> detail = kAutomaticDetail;
     Camera camera;
     ImageSettings image;
     Effects effects{};

@@ -163,8 +163,6 @@ struct Table {
     // Where a word may stand for the whole object, the field that it sets: {"model": "physical"} is "physical". Null:
     // none.
     const char* shorthand = nullptr;
-    // The word that stands for an object with all the defaults, e.g. "auto". Null: none.
-    const char* usual_word = nullptr;
     // Sets what was not given where that follows from what was (below); null: nothing does.
     void (*complete)(void* object, const Given& given) = nullptr;
 };

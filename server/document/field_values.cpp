@@ -25,10 +25,6 @@ bool set_object_by_word(const Field& field, void* object, std::string_view word)
         set_absent(table, field.access.put(object), true);
         return true;
     }
-    if (table.usual_word != nullptr && table.usual_word == word) {
-        set_absent(table, field.access.put(object), false);
-        return true;
-    }
     if (table.shorthand == nullptr) return false;
     const int which = find_field(table, table.shorthand);
     void* const inner = field.access.put(object);
@@ -80,8 +76,7 @@ bool takes_words(const Field& field) {
     if (field.access.holds == Holds::kText) return true;
     if (field.access.holds != Holds::kObject) return false;
     const Table& table = field.access.table();
-    return table.shorthand != nullptr || table.usual_word != nullptr ||
-           absence_of(table) != nullptr;
+    return table.shorthand != nullptr || absence_of(table) != nullptr;
 }
 
 void set_absent(const Table& table, void* object, bool absent) {

@@ -159,7 +159,6 @@ std::vector<std::string> alternatives(const Field& field, const void* standard, 
     if (field.access.holds == Holds::kObject) {
         const Table& table = field.access.table();
         if (const Field* const absence = absence_of(table)) instead.push_back(absence->absent);
-        if (table.usual_word != nullptr) instead.push_back(table.usual_word);
         for (const Field& inner : table.fields)
             if (table.shorthand != nullptr && std::string_view(inner.name) == table.shorthand)
                 instead.insert(instead.end(), inner.words.begin(), inner.words.end());
@@ -197,11 +196,7 @@ void add_default(const Field& field, const void* standards, std::string& out) {
             break;
         case Holds::kObject: {
             const Table& table = field.access.table();
-            if (value && is_absent(table, value)) {
-                words("default", absence_of(table)->absent, out);
-            } else if (value && table.usual_word != nullptr) {
-                words("default", table.usual_word, out);
-            }
+            if (value && is_absent(table, value)) words("default", absence_of(table)->absent, out);
             // None of its fields has one: they exclude each other.
             if (&table == &table_of<Accuracy>()) {
                 name("default", out);
