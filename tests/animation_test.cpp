@@ -68,7 +68,7 @@ TEST(Apng, HoldsEveryFramesPixelsAsTheyWere) {
     for (const float level : {0.1f, 0.4f, 0.9f}) {
         const Image image = picture(33, 17, level, false);
         pixels.push_back(pixels_of(chunks_of(*encode_png(image, {}))));
-        ASSERT_FALSE(animation->add(image, 0).has_value());
+        ASSERT_FALSE(animation->add(image, {}).has_value());
     }
     auto file = animation->end();
     ASSERT_TRUE(file.ok());
@@ -113,7 +113,7 @@ TEST(Webp, HasEveryFrameForItsTime) {
     auto animation = Animation::begin(AnimationFormat::kWebp, 10, 4);
     ASSERT_TRUE(animation.ok());
     for (const float level : {0.1f, 0.3f, 0.6f, 0.9f})
-        ASSERT_FALSE(animation->add(picture(40, 30, level, true), 0).has_value());
+        ASSERT_FALSE(animation->add(picture(40, 30, level, true), {}).has_value());
     auto file = animation->end();
     ASSERT_TRUE(file.ok());
     ASSERT_EQ(file->substr(0, 4), "RIFF");
@@ -146,7 +146,7 @@ TEST(Webp, FramesDoNotDrift) {
     auto animation = Animation::begin(AnimationFormat::kWebp, 30, 30);
     ASSERT_TRUE(animation.ok());
     for (int i = 0; i < 30; ++i)
-        ASSERT_FALSE(animation->add(picture(8, 6, 0.02F * static_cast<float>(i) + 0.1F, true), 0)
+        ASSERT_FALSE(animation->add(picture(8, 6, 0.02F * static_cast<float>(i) + 0.1F, true), {})
                          .has_value());
     const auto file = animation->end();
     ASSERT_TRUE(file.ok());

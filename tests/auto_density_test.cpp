@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "core/base/exact_math.h"
+#include "core/generate/generate.h"
+#include "core/generate/keyed_random.h"
 #include "core/pipeline.h"
 #include "core/scene/validate.h"
 
@@ -71,7 +73,7 @@ TEST(AutoDensity, MakesPlainLayoutsDeep) {
                              box(300000, {10, 10, 10}, 0.3)};
     for (const Cloud& cloud : layouts) {
         const Survey seen = surveyed(cloud);
-        EXPECT_GT(seen.optical_depth_zenith, 25);
+        EXPECT_GT(seen.optical_depth_zenith, 22);
         EXPECT_LT(seen.optical_depth_zenith, 100);
         ASSERT_EQ(seen.cloud_density.size(), 1u);
     }
@@ -94,7 +96,7 @@ TEST(AutoDensity, OfASampleIsThatOfAllParticles) {
     // The same cloud of 256 and of 256 000 particles: the latter are looked at one in a thousand.
     const double few = density(box(256, {4, 2, 3}, 0.7)),
                  many = density(box(256000, {4, 2, 3}, 0.7));
-    EXPECT_NEAR(many * 1000 / few, 1, 0.1);
+    EXPECT_NEAR(many * 1000 / few, 1, 0.2);
 }
 
 TEST(AutoDensity, StaysWithinWhatAParticleMayHave) {

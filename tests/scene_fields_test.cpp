@@ -89,7 +89,7 @@ const char* const kDocuments[] = {
 "detail": {"amount": 0.6, "size": 1.25},
 "camera": {"eye": [1, 2, 90], "target": [0, 1, 2], "up": [0.1, 1, 0.05], "fov": 35},
 "image": {"width": 320, "height": 200, "format": "exr", "background": "transparent", "exposure": 0.5,
-          "precision": "float"},
+          "precision": "float", "tone": "reinhard"},
 "effects": {"self_shadow": true, "multiple_scattering": false, "view_extinction": true, "sky_light": false,
             "ground_light": true, "ground_shadow": false, "sun_color": true, "aerial_perspective": false,
             "light_shafts": true, "detail": false, "interior": false, "texture": false},
@@ -98,7 +98,7 @@ const char* const kDocuments[] = {
     R"({
 "cubes": [{"particles": 40, "size": [3, 1, 2], "center": [1, 2, 3], "radius": 1.5, "density": 2}],
 "sun": {"direction": [0.3, 0.5, 0.4], "color": "auto"},
-"sky": {"model": "physical", "turbidity": 3, "intensity": 0.7},
+"sky": {"model": "physical", "daylight": "preetham", "turbidity": 3, "intensity": 0.7},
 "ground": {"albedo": 0.4}, "haze": {"extinction": 0.01, "scale_height": 20, "albedo": 0.8},
 "image": {"exposure": "auto"}, "accuracy": {"time_ms": 200}
 })",

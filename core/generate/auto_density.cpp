@@ -52,8 +52,10 @@ std::vector<Blob> sampled(const Cloud& cloud, Fill fill, std::uint64_t key, std:
     std::size_t c = 0;
     std::uint64_t before = 0;
     for (std::uint64_t k = 0; k < count; ++k) {
-        // (k + 1/2) all / count, rounded down; below 2^31.
-        const std::uint64_t number = (2 * k + 1) * all / (2 * count);
+        // Anywhere in its share of the numbers: even steps would pick out some of a cube's low-discrepancy points that
+        // lie in one part of it.
+        const std::uint64_t from = k * all / count, to = (k + 1) * all / count;
+        const std::uint64_t number = from + keyed(~key, k) % (to - from);
         if (cloud.model != CloudModel::kCubes) {
             const ReadyParticles& ready = cloud.ready;
             const auto i = static_cast<std::size_t>(number);

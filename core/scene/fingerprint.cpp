@@ -226,6 +226,7 @@ void settle_lights(Instead& instead, const SceneDraft& scene) {
     instead.put(scene.sun.direction, sun_direction(scene.sun));
     const bool physical = !scene.sky.none && scene.sky.physical;
     if (!physical && !scene.sun.auto_color) instead.leave_out(scene.sky.turbidity);
+    if (!physical) instead.leave_out(scene.sky.daylight);
 }
 
 // What holds for light and picture alike.
