@@ -24,6 +24,12 @@ inline bool belongs(const char* row_object, const char* row_property, const std:
     return object.ends_with(row_object) && property == row_property;
 }
 
+// Whether a property decides another's default by being given at all: colours of a gradient make a sky one.
+inline bool decides_by_being_there(const std::string& object, const std::string& property) {
+    return belongs("Sky", "zenith", object, property) ||
+           belongs("Sky", "horizon", object, property);
+}
+
 inline json ones_for(const json& list) {
     return json(list.size(), 1);
 }

@@ -147,6 +147,10 @@ const char* const kWords[] = {"uniform",
                               "clean",
                               "physical",
                               "gradient",
+                              "scattered",
+                              "preetham",
+                              "neutral",
+                              "reinhard",
                               "ostroushko",
                               "transport-32"};
 

@@ -111,7 +111,7 @@ constexpr Field kSceneFields[] = {
                                 .wanted = R"(an object, "auto" or "none")",
                                 .absent = "none",
                                 .says = "Structure finer than the particles. \"auto\": amount 0.7, "
-                                        "size 1.5, where its bumps take 12 pixels or more."}),
+                                        "size 1.5, where its bumps take 16 pixels or more."}),
     field<&SceneDraft::camera>({.name = "camera",
                                 .wanted = R"(an object or "auto")",
                                 .says = "\"auto\": the whole cloud, three-quarter view."}),

@@ -88,7 +88,8 @@ static_assert(covers<Sky>(kSkyFields));
 
 // Colours of a gradient are those of a gradient without saying so.
 inline void complete_sky(void* sky, const Given& given) {
-    if (!given.has("model") && (given.has("zenith") || given.has("horizon")))
+    if (!given.has("model") && !given.has("daylight") &&
+        (given.has("zenith") || given.has("horizon")))
         static_cast<Sky*>(sky)->physical = false;
 }
 
