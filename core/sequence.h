@@ -19,8 +19,16 @@ namespace awan {
 // Seconds at frame i < sequence.frames: the first at `from`, the last at `to`; a single one at `from`.
 double frame_time(const Sequence& sequence, std::uint64_t i);
 
+// What the draft of a valid scene is at one time of that sequence, any, without one: with the clouds and the camera of
+// that time.
+SceneDraft still_of(const SceneDraft& draft, const Sequence& sequence, double time);
+
+// What the clouds fill at its first, middle and last time. threads >= 1. Errors: of generate().
+Result<Bounds> bounds_of_sequence(const SceneDraft& draft, const Sequence& sequence, int threads,
+                                  const Deadline& deadline);
+
 // What is chosen automatically and yet must not change from frame to frame. It is chosen from three frames, the
-// first, the middle and the last: the camera holds the clouds of all three; an effect is on if one of them calls for
+// first, the middle and the last: a camera without keys holds the clouds of all three; an effect is on if one of them calls for
 // it; the detail's scale is the largest. Light is not settled: it is made anew for every frame whose matter moved.
 //
 // The rung, where an error is asked for, is one whose error is measured: of the three frames the one that is forecast
@@ -35,9 +43,10 @@ struct Settled {
     std::string reason;
     // Paths a pixel, where rung truth is settled.
     std::optional<std::uint32_t> samples;
-    // None: nothing was planned (a look). Stands where the clouds are at the time `from`.
+    // None: nothing was planned (a look). Stands where the clouds are at the time `sequence.from`.
     std::optional<DetailFigures> detail;
-    double from = 0;
+    // The scene's: where the camera is at each time.
+    Sequence sequence;
 };
 
 // kForecast: nothing is measured, the rung is the one that is expected.

@@ -106,6 +106,10 @@ struct Survey {
 Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int threads,
                       const Deadline& deadline);
 
+// How far before `target`, along the view, an eye has every corner of the box in the picture, with a little room around
+// it; the view's own eye does not matter.
+double distance_that_holds(const View& view, const Bounds& bounds, const glm::dvec3& target);
+
 // The camera of a scene; "auto" looks at the bounds from a three-quarter view and holds all of
 // them.
 View resolve_view(const Camera& camera, const ImageSettings& image, const Bounds& bounds);
