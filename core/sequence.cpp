@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/generate/generate.h"
+#include "core/plan/island_settings.h"
 #include "core/planning.h"
 #include "core/scene/validate.h"
 
@@ -20,6 +21,26 @@ Scene valid(SceneDraft draft) {
 
 Bounds joined(const Bounds& a, const Bounds& b) {
     return {glm::min(a.min, b.min), glm::max(a.max, b.max)};
+}
+
+// Of a sequence with camera keys.
+Camera moved_camera(const SceneDraft& draft, const Sequence& sequence, double time) {
+    const glm::dvec3 up = draft.camera.automatic ? Camera{}.up : draft.camera.up;
+    return camera_at(sequence.camera, sequence.linear_camera, up, time);
+}
+
+// So many tell what all frames see: a turn in steps of 6 degrees.
+constexpr std::uint64_t kMostViews = 60;
+
+std::vector<View> views_of(const SceneDraft& draft, const Sequence& sequence) {
+    std::vector<View> views;
+    const std::uint64_t count = std::min(sequence.frames, kMostViews);
+    for (std::uint64_t k = 0; k < count; ++k) {
+        const std::uint64_t frame = count < 2 ? 0 : k * (sequence.frames - 1) / (count - 1);
+        const Camera camera = moved_camera(draft, sequence, frame_time(sequence, frame));
+        views.push_back(resolve_view(camera, draft.image, {}));
+    }
+    return views;
 }
 
 // The first, the middle and the last.
@@ -181,9 +202,15 @@ SceneDraft still_of(const SceneDraft& draft, const Sequence& sequence, double ti
     still.sequence.reset();
     still.time = sequence.clouds_stand ? sequence.from : time;
     if (sequence.camera.empty()) return still;
-    const glm::dvec3 up = draft.camera.automatic ? Camera{}.up : draft.camera.up;
-    still.camera = camera_at(sequence.camera, sequence.linear_camera, up, time);
+    still.camera = moved_camera(draft, sequence, time);
     return still;
+}
+
+bool clouds_stand(const SceneDraft& scene) {
+    if (scene.sequence->clouds_stand) return true;
+    return std::all_of(scene.clouds.begin(), scene.clouds.end(), [](const Cloud& cloud) {
+        return !is_procedural(cloud) && cloud.velocity == glm::dvec3(0);
+    });
 }
 
 Result<Bounds> bounds_of_sequence(const SceneDraft& draft, const Sequence& sequence, int threads,
@@ -204,6 +231,8 @@ Result<Settled> settle(const Scene& scene, Settling how, const ClimbTools& tools
     Settled settled;
     settled.draft = *scene;
     settled.sequence = *scene->sequence;
+    if (!settled.sequence.camera.empty() && clouds_stand(*scene))
+        settled.views = views_of(*scene, settled.sequence);
     SceneDraft& draft = settled.draft;
     draft.sequence.reset();
     if (draft.camera.automatic && settled.sequence.camera.empty()) {
@@ -238,7 +267,7 @@ Result<Settled> settle(const Scene& scene, Settling how, const ClimbTools& tools
 
 Frame frame_at(const Settled& settled, double time) {
     Frame frame{valid(still_of(settled.draft, settled.sequence, time)), settled.detail,
-                settled.samples};
+                settled.samples, settled.views};
     // The detail's bumps move with the first cloud.
     if (frame.detail && !settled.draft.clouds.empty())
         frame.detail->origin +=
@@ -249,7 +278,11 @@ Frame frame_at(const Settled& settled, double time) {
 Result<Planned> plan_frame(const Frame& frame, int threads, const Deadline& deadline,
                            const MachineSpeed& speed) {
     auto planned = plan_still(frame.scene, threads, deadline, speed, frame.detail);
-    if (planned.ok() && frame.samples)
+    if (!planned.ok()) return planned;
+    planned->survey.seen_from = frame.views;
+    TransportSettings& transport = planned->plan.transport;
+    if (!transport.islands.empty()) transport.islands = island_cells(transport, planned->survey);
+    if (frame.samples)
         plan_samples(planned->plan, *frame.samples, frame.scene, planned->survey, threads, speed);
     return planned;
 }

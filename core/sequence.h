@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/deadline.h"
 #include "core/climb.h"
@@ -13,6 +14,7 @@
 #include "core/plan/forecast.h"
 #include "core/planning.h"
 #include "core/scene/scene.h"
+#include "core/survey/survey.h"
 
 namespace awan {
 
@@ -22,6 +24,10 @@ double frame_time(const Sequence& sequence, std::uint64_t i);
 // What the draft of a valid scene is at one time of that sequence, any, without one: with the clouds and the camera of
 // that time.
 SceneDraft still_of(const SceneDraft& draft, const Sequence& sequence, double time);
+
+// Whether the clouds of all its frames are the same, so that light that one frame made is the next one's too. scene: one
+// with a sequence.
+bool clouds_stand(const SceneDraft& scene);
 
 // What the clouds fill at its first, middle and last time. threads >= 1. Errors: of generate().
 Result<Bounds> bounds_of_sequence(const SceneDraft& draft, const Sequence& sequence, int threads,
@@ -47,6 +53,9 @@ struct Settled {
     std::optional<DetailFigures> detail;
     // The scene's: where the camera is at each time.
     Sequence sequence;
+    // What a camera with keys sees of matter that stands, as far as some dozen frames tell: one light serves all of
+    // them (Survey::seen_from). EMPTY: each frame has its own.
+    std::vector<View> views;
 };
 
 // kForecast: nothing is measured, the rung is the one that is expected.
@@ -62,6 +71,7 @@ struct Frame {
     Scene scene;
     std::optional<DetailFigures> detail;
     std::optional<std::uint32_t> samples;
+    std::vector<View> views;
 };
 // time: seconds, any of the sequence.
 Frame frame_at(const Settled& settled, double time);

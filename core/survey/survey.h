@@ -61,6 +61,8 @@ struct Survey {
     std::size_t particles = 0;
     Bounds bounds;
     View view;
+    // Further views that the light is to serve, those of a camera that moves. EMPTY: it serves this picture alone.
+    std::vector<View> seen_from;
     DensityVolume volume;
     Islands islands;  // empty for a single cloud
     // Integral of extinction over space, unit^2.

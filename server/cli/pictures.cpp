@@ -149,14 +149,6 @@ Status end_films(std::vector<Film>& films, const std::vector<std::uint64_t>& fra
     return std::nullopt;
 }
 
-// Whether the frames' matter is the same, so that light that one made is the next one's too.
-bool matter_stands(const SceneDraft& scene) {
-    if (scene.sequence->clouds_stand) return true;
-    return std::all_of(scene.clouds.begin(), scene.clouds.end(), [](const Cloud& cloud) {
-        return !is_procedural(cloud) && cloud.velocity == glm::dvec3(0);
-    });
-}
-
 }  // namespace
 
 Result<Rendered> render_picture(const Scene& scene, Result<Planned> planned, Work& work) {
@@ -222,7 +214,7 @@ Result<FramesMade> render_frames(const Scene& scene, std::vector<std::uint64_t> 
         if (films->empty()) frames = missing_frames(scene, frames, work);
         if (frames.empty()) return made;
     }
-    if (matter_stands(*scene)) work.lights.emplace(kLightCacheBytes);
+    if (clouds_stand(*scene)) work.lights.emplace(kLightCacheBytes);
     work.progress.say("settling the sequence");
     const auto start = Deadline::Clock::now();
     auto settled =
