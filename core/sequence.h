@@ -25,17 +25,17 @@ double frame_time(const Sequence& sequence, std::uint64_t i);
 // that time.
 SceneDraft still_of(const SceneDraft& draft, const Sequence& sequence, double time);
 
-// Whether the clouds of all its frames are the same, so that light that one frame made is the next one's too. scene: one
-// with a sequence.
+// Whether the clouds of all its frames are the same, so that light that one frame made is the next one's too. scene:
+// one with a sequence.
 bool clouds_stand(const SceneDraft& scene);
 
 // What the clouds fill at its first, middle and last time. threads >= 1. Errors: of generate().
 Result<Bounds> bounds_of_sequence(const SceneDraft& draft, const Sequence& sequence, int threads,
                                   const Deadline& deadline);
 
-// What is chosen automatically and yet must not change from frame to frame. It is chosen from three frames, the
-// first, the middle and the last: a camera without keys holds the clouds of all three; an effect is on if one of them calls for
-// it; the detail's scale is the largest. Light is not settled: it is made anew for every frame whose matter moved.
+// What is chosen automatically and yet must not change from frame to frame. It is chosen from three frames, the first,
+// the middle and the last: a camera without keys holds the clouds of all three; an effect is on if one of them calls
+// for it; the detail's scale is the largest. Light is not settled: it is made anew for every frame whose matter moved.
 //
 // The rung, where an error is asked for, is one whose error is measured: of the three frames the one that is forecast
 // to be the hardest climbs (core/climb.h) until the error holds, and all frames are of the rung where it ends, paths

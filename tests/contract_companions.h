@@ -70,8 +70,8 @@ inline const Companion kCompanions[] = {
      }},
     {"Sequence", "interpolation", "there are keys to go between",
      [](json&, json& sequence) {
-         sequence["camera"] = json::parse(
-             R"([{"time": 0, "eye": [0, 0, 9], "target": [0, 0, 0]}, {"time": 1, "eye": [9, 0, 0], "target": [0, 0, 0]}])");
+         sequence["camera"] = json::parse(R"([{"time": 0, "eye": [0, 0, 9], "target": [0, 0, 0]},
+                                              {"time": 1, "eye": [9, 0, 0], "target": [0, 0, 0]}])");
      }},
     {"CameraKey", "", "the target differs from the eye",
      [](json&, json& key) {

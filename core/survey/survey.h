@@ -61,8 +61,6 @@ struct Survey {
     std::size_t particles = 0;
     Bounds bounds;
     View view;
-    // Further views that the light is to serve, those of a camera that moves. EMPTY: it serves this picture alone.
-    std::vector<View> seen_from;
     DensityVolume volume;
     Islands islands;  // empty for a single cloud
     // Integral of extinction over space, unit^2.
@@ -99,6 +97,8 @@ struct Survey {
     double model_error = 0;  // ParticleSet::error
     GroundView ground;
     HazeFigures haze;
+    // Further views that the light is to serve, those of a camera that moves. EMPTY: it serves this picture alone.
+    std::vector<View> seen_from;
 };
 
 // Optical depths are sampled on a raster of 64 x 64 lines over the cloud or the picture, and on the lines through

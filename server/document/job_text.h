@@ -8,8 +8,8 @@
 
 namespace awan {
 
-// {"kind": "render" | "accuracy" | "sequence" | "fly", "scene": {...}, "format": "..."}, and of a flight "path", "mode",
-// "frames" and "rung". Views of the text they were read from.
+// {"kind": "render" | "accuracy" | "sequence" | "fly", "scene": {...}, "format": "..."}, and of a flight "path",
+// "mode", "frames" and "rung". Views of the text they were read from.
 struct JobText {
     std::string_view kind;
     // The scene's document, as it stands; "/scene" is before every pointer in it.

@@ -81,8 +81,8 @@ Response submit_job(Service::State& state, const Request& request);
 Response tell_job(Service::State& state, const Request& request);
 Response answer_job_work(Service::State& state, const JobWork& work, const Request& request);
 
-// The frames of a sequence, or of a flight, as an animation, "webp" or "apng", as pictures in an archive, "zip", or as a
-// sheet and its layout in one, "flipbook"; of a flight also only its report, "json", which is in its archive too
+// The frames of a sequence, or of a flight, as an animation, "webp" or "apng", as pictures in an archive, "zip", or as
+// a sheet and its layout in one, "flipbook"; of a flight also only its report, "json", which is in its archive too
 // (sequence_job.cpp).
 Response answer_sequence(Service::State& state, const Request& request, const JobWork& work);
 
