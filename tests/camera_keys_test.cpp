@@ -366,6 +366,34 @@ TEST(Flight, AWayThroughBeginsAndEndsWithTheWholeCloudInThePicture) {
     }
 }
 
+// Also of clouds whose grids are as fine as they are large in the picture.
+TEST(Flight, OneLightServesAllFrames) {
+    SceneDraft draft = cloud();
+    draft.image.width = 16;
+    draft.image.height = 12;
+    draft.top_level_cubes = false;
+    draft.clouds.push_back(draft.clouds[0]);
+    draft.clouds[1].translate = {90, 0, 20};
+    draft.clouds[1].scale = 0.3;
+    FlightWish wish;
+    wish.frames = 5;
+    wish.path = FlightPath::kThrough;
+    const Scene scene = flight(draft, wish);
+    LightCache lights(64 << 20);
+    const auto settled = settle(scene, Settling::kMeasured, {&lights, 1}, {});
+    ASSERT_TRUE(settled.ok());
+    for (std::uint64_t i = 0; i < 5; ++i) {
+        const Frame frame = frame_at(*settled, frame_time(*scene->sequence, i));
+        auto planned = plan_frame(frame, 1, {}, {});
+        ASSERT_TRUE(planned.ok());
+        EXPECT_EQ(planned->survey.islands.list.size(), 2U);
+        const auto rendered =
+            render_planned(frame.scene, *std::move(planned), {nullptr, 1, &lights, {}, {}}, {});
+        ASSERT_TRUE(rendered.ok());
+        EXPECT_EQ(rendered->light_was_kept, i > 0) << i;
+    }
+}
+
 TEST(Flight, ThinMediumAndThickAreOpticalDepths) {
     const double depths[] = {1, 6, 30};
     for (int i = 0; i < 3; ++i) {

@@ -17,7 +17,7 @@ struct Sequence {
     double to = 1;
     std::uint64_t frames = 1;
     // Where the camera is at each time, in place of the scene's eye, target and fov. EMPTY: it stands.
-    std::vector<CameraKey> camera;
+    std::vector<CameraKey> camera{};
     // Straight between them, else along a curve.
     bool linear_camera = false;
     // The clouds of all frames are those of `from`: only the camera moves.
