@@ -267,7 +267,7 @@ Result<Settled> settle(const Scene& scene, Settling how, const ClimbTools& tools
 
 Frame frame_at(const Settled& settled, double time) {
     Frame frame{valid(still_of(settled.draft, settled.sequence, time)), settled.detail,
-                settled.samples, settled.views};
+                settled.samples, settled.views, settled.is_unmeasured};
     // The detail's bumps move with the first cloud.
     if (frame.detail && !settled.draft.clouds.empty())
         frame.detail->origin +=
@@ -280,6 +280,7 @@ Result<Planned> plan_frame(const Frame& frame, int threads, const Deadline& dead
     auto planned = plan_still(frame.scene, threads, deadline, speed, frame.detail);
     if (!planned.ok()) return planned;
     planned->survey.seen_from = frame.views;
+    planned->is_unmeasured = frame.is_unmeasured;
     TransportSettings& transport = planned->plan.transport;
     if (!transport.islands.empty()) transport.islands = island_cells(transport, planned->survey);
     if (frame.samples)

@@ -56,6 +56,9 @@ struct Settled {
     // What a camera with keys sees of matter that stands, as far as some dozen frames tell: one light serves all of
     // them (Survey::seen_from). EMPTY: each frame has its own.
     std::vector<View> views;
+    // The frames' errors are not wanted (Planned::is_unmeasured); the rung's is measured all the same where one is asked
+    // for.
+    bool is_unmeasured = false;
 };
 
 // kForecast: nothing is measured, the rung is the one that is expected.
@@ -72,6 +75,7 @@ struct Frame {
     std::optional<DetailFigures> detail;
     std::optional<std::uint32_t> samples;
     std::vector<View> views;
+    bool is_unmeasured = false;
 };
 // time: seconds, any of the sequence.
 Frame frame_at(const Settled& settled, double time);

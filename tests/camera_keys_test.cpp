@@ -385,9 +385,10 @@ TEST(Flight, OneLightServesAllFrames) {
     wish.path = FlightPath::kThrough;
     const Scene scene = flight(draft, wish);
     LightCache lights(64 << 20);
-    const auto settled = settle(scene, Settling::kMeasured, {&lights, 1}, {});
+    auto settled = settle(scene, Settling::kMeasured, {&lights, 1}, {});
     ASSERT_TRUE(settled.ok());
     for (std::uint64_t i = 0; i < 5; ++i) {
+        settled->is_unmeasured = i > 1;
         const Frame frame = frame_at(*settled, frame_time(*scene->sequence, i));
         auto planned = plan_frame(frame, 1, {}, {});
         ASSERT_TRUE(planned.ok());
@@ -396,6 +397,9 @@ TEST(Flight, OneLightServesAllFrames) {
             render_planned(frame.scene, *std::move(planned), {nullptr, 1, &lights, {}, {}}, {});
         ASSERT_TRUE(rendered.ok());
         EXPECT_EQ(rendered->light_was_kept, i > 0) << i;
+        // Where nobody wants to know, no time is spent on measuring.
+        EXPECT_EQ(std::isnan(rendered->stated_error), i > 1);
+        EXPECT_EQ(rendered->times.measure_ms > 0, i <= 1);
     }
 }
 

@@ -221,6 +221,8 @@ Result<FramesMade> render_frames(const Scene& scene, std::vector<std::uint64_t> 
         settle(scene, Settling::kMeasured,
                {work.lights ? &*work.lights : nullptr, work.command.threads}, work.deadline);
     if (!settled) return settled.error();
+    // A flight's report says how fast it was.
+    settled->is_unmeasured = work.flown != nullptr;
     made.settle_ms = ms_since(start);
     for (const std::uint64_t frame : frames) {
         work.prefix = "frame " + std::to_string(made.count + 1) + " of " +

@@ -27,12 +27,12 @@ struct JobWork {
     std::string id, kind;
     // The result's, of a sequence or a flight.
     std::string format;
-    // Of a flight.
-    FlightWish flight;
     // Of the answer that is its result: its path, headers and body; deadline and progress are the job's.
     Request request;
     // The client's, with a digest of what came with it; "": none.
     std::string idempotency_key, digest;
+    // Of a flight.
+    FlightWish flight{};
 };
 
 struct JobView {

@@ -217,8 +217,9 @@ Response answer_sequence(Service::State& state, const Request& request, const Jo
     if (!lease) return no_memory(state, request);
     const bool flies = work.kind == "fly";
     FlightReport report = flight_report_of(work, **scene, state);
-    const auto settled = settle_job(state, request, work, scene);
+    auto settled = settle_job(state, request, work, scene);
     if (!settled) return fail(settled.error(), request);
+    settled->is_unmeasured = flies;
     report.settle_seconds = ms_since(start) / 1000;
     const Sequence& sequence = *(*scene)->sequence;
     report.frames_asked = sequence.frames;
