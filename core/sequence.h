@@ -56,8 +56,8 @@ struct Settled {
     // What a camera with keys sees of matter that stands, as far as some dozen frames tell: one light serves all of
     // them (Survey::seen_from). EMPTY: each frame has its own.
     std::vector<View> views;
-    // The frames' errors are not wanted (Planned::is_unmeasured); the rung's is measured all the same where one is asked
-    // for.
+    // The frames' errors are not wanted (Planned::is_unmeasured); the rung's is measured all the same where one is
+    // asked for.
     bool is_unmeasured = false;
 };
 
