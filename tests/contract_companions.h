@@ -69,6 +69,20 @@ inline const Companion kCompanions[] = {
      [](json&, json& camera) {
          camera["target"] = {1, 1, 2};
      }},
+    {"Sequence", "camera", "times rise, and a target is not its eye",
+     [](json&, json& sequence) {
+         int time = 0;
+         for (json& key : sequence["camera"]) key.update({{"time", ++time}, {"target", {2, 1, 1}}});
+     }},
+    {"Sequence", "interpolation", "there are keys to go between",
+     [](json&, json& sequence) {
+         sequence["camera"] = json::parse(R"([{"time": 0, "eye": [0, 0, 9], "target": [0, 0, 0]},
+                                              {"time": 1, "eye": [9, 0, 0], "target": [0, 0, 0]}])");
+     }},
+    {"CameraKey", "", "the target differs from the eye",
+     [](json&, json& key) {
+         key["target"] = {2, 1, 1};
+     }},
     // --- clouds
     {"Cloud", "velocity", "where it stands at the scene's time is what counts",
      [](json& document, json&) { document["time"] = 1; }},

@@ -80,7 +80,10 @@ const char* const kDocuments[] = {
                      "threshold_edge": 0.7, "range": 0.3}],
      "drift": [0.4, 0.1, 0.2], "density": 0.9, "resolution": 30}}
 ],
-"fill": "printed", "seed": 5, "density": 0.25, "time": 1.5, "sequence": {"from": -4, "to": 12, "frames": 9},
+"fill": "printed", "seed": 5, "density": 0.25, "time": 1.5, "sequence": {
+  "from": -4, "to": 12, "frames": 9, "interpolation": "linear", "clouds": "move",
+  "camera": [{"time": -4, "eye": [1, 2, 90], "target": [0, 1, 2], "fov": 35},
+             {"time": 12, "eye": [60, 2, 70], "target": [0, 1, 3], "fov": 25}]},
 "medium": {"albedo": 0.95, "g": 0.7, "phase": "cornette-shanks"},
 "sun": {"elevation": 30, "azimuth": 40, "color": [0.9, 0.8, 0.7], "intensity": 8},
 "sky": {"model": "gradient", "zenith": [0.1, 0.2, 0.3], "horizon": [0.4, 0.5, 0.6], "intensity": 0.9},
@@ -144,6 +147,8 @@ const char* const kWords[] = {"uniform",
                               "horizontal",
                               "vertical",
                               "combined",
+                              "move",
+                              "stand",
                               "clean",
                               "physical",
                               "gradient",
@@ -176,7 +181,7 @@ const std::map<std::string, std::string> kSaysNothing = {
 // Beginnings of what light does not depend on: the light of a cloud is the same for every picture of it.
 const char* const kPictureOnly[] = {"/camera", "/image",    "/haze",   "/accuracy",
                                     "/look",   "/sequence", "/effects"};
-const char* const kLightToo[] = {"/effects/sun_color"};
+const char* const kLightToo[] = {"/effects/sun_color", "/sequence/clouds"};
 
 bool begins(const std::string& path, const char* with) {
     const std::string beginning = with;

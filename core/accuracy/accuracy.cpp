@@ -15,6 +15,7 @@
 #include "core/formats/image_file.h"
 #include "core/scene/rungs.h"
 #include "core/scene/validate.h"
+#include "core/sequence.h"
 
 namespace awan {
 namespace {
@@ -182,9 +183,7 @@ Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOption
                      "a look has no error to measure; must be \"physical\""};
     if (!scene->sequence) return measure_still(scene, options, render, progress, deadline);
     // Of a sequence one picture is measured, that of the scene's time.
-    SceneDraft draft = *scene;
-    draft.sequence.reset();
-    const auto still = validate(std::move(draft));
+    const auto still = validate(still_of(*scene, *scene->sequence, scene->time));
     if (!still) return still.error();
     return measure_still(*still, options, render, progress, deadline);
 }

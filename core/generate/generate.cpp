@@ -161,12 +161,12 @@ Status run_models(const Scene& scene, int threads, const Deadline& deadline, boo
             for (const Cube& cube : cloud.cubes) total += cube.particles;
             continue;
         }
-        const Motion motion = motion_of(cloud, scene->time);
+        const Motion motion = motion_of(cloud, clouds_time(*scene));
         ModelRequest request;
         request.key = keyed(seed_of(*scene, cloud), k);
         request.place = k;
         request.density = density_of(*scene, cloud).value_or(kDefaultDensity);
-        request.time = scene->time;
+        request.time = clouds_time(*scene);
         request.threads = threads;
         request.coarse = coarse;
         const Camera& camera = scene->camera;
@@ -219,9 +219,9 @@ Result<ParticleSet> generate(const Scene& scene, int threads, const Deadline& de
             return;
         }
         if (pieces[i].cube != nullptr) {
-            fill_piece(pieces[i], scene->time, set);
+            fill_piece(pieces[i], clouds_time(*scene), set);
         } else {
-            copy_piece(pieces[i], scene->time, set);
+            copy_piece(pieces[i], clouds_time(*scene), set);
         }
     });
     if (auto error = deadline.over()) return *error;

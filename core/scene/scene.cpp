@@ -142,7 +142,7 @@ constexpr Field kSceneFields[] = {
          .wanted = R"(an object or "none")",
          .absent = "none",
          .says = "The times that belong together. An automatic camera then holds the clouds at all "
-                 "of them, and rung, "
+                 "of them, unless `camera` moves it, and rung, "
                  "effects and detail are settled for all; a render is still of one time, `time`."}),
 };
 static_assert(covers<SceneDraft>(kSceneFields));
@@ -172,6 +172,10 @@ std::optional<Effect> effect_from_name(std::string_view name) {
     for (int i = 0; i < kEffectCount; ++i)
         if (name == effect_name(static_cast<Effect>(i))) return static_cast<Effect>(i);
     return std::nullopt;
+}
+
+double clouds_time(const SceneDraft& scene) {
+    return scene.sequence && scene.sequence->clouds_stand ? scene.sequence->from : scene.time;
 }
 
 std::optional<double> density_of(const SceneDraft& scene, const Cloud& cloud) {

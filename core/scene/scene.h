@@ -91,6 +91,9 @@ class Scene {
 // Unit vector towards the sun. Elevation 90 is exactly (0, 1, 0).
 glm::dvec3 sun_direction(const Sun& sun);
 
+// Seconds of which the clouds are: the scene's time, or where they stand while the camera moves, the sequence's first.
+double clouds_time(const SceneDraft& scene);
+
 // What holds for a cloud: its own, else the scene's, else the default. No density: automatic.
 std::optional<double> density_of(const SceneDraft& scene, const Cloud& cloud);
 Fill fill_of(const SceneDraft& scene, const Cloud& cloud);

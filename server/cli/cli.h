@@ -52,6 +52,30 @@ struct RenderCommand {
 };
 int run_render(const RenderCommand& command);
 
+// A flight around clouds or through them (core/flight_path.h).
+struct FlyCommand {
+    // One or more, which become one; `input` has what takes the place of values in the first, and no path.
+    std::vector<std::string> scenes;
+    SceneInput input;
+    // "", a word of kFlightPathWords, or a file of camera keys.
+    std::string path;
+    // "", or a word of kThicknessWords.
+    std::string mode;
+    std::optional<std::uint64_t> frames;
+    std::optional<int> width, height;
+    double frames_per_second = 12;
+    std::optional<std::string> rung;
+    // Until when it flies; 0: to its end.
+    double timeout_seconds = 0;
+    // A .json or a .txt, or "".
+    std::string report;
+    // Numbered pictures, animations, and the flight's document, a .json. EMPTY: it is flown for the report alone.
+    std::vector<std::string> outputs;
+    int threads = 1;
+    DeviceChoice device = DeviceChoice::kAuto;
+};
+int run_fly(const FlyCommand& command);
+
 struct AccuracyCommand {
     std::vector<std::string> scenes;
     std::vector<std::string> outputs;
