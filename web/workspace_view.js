@@ -10,6 +10,8 @@ import { TransformControls } from "three/addons/controls/TransformControls.js";
 import { createSprites } from "./workspace_sprites.js";
 
 const kRing = 40; // pieces of a ring
+const kPlainWires = 30; // items; more are drawn fainter, but never fainter than this
+const kFaintest = 0.12;
 const COLOURS = {
   plain: new Color(0x2f7fd6), selected: new Color(0xf0a020), active: new Color(0xff1f1f), // the active cube is red, as in Rekawan
 };
@@ -54,20 +56,23 @@ function createWires() {
     object: lines,
     show(items) {
       const points = items.reduce((sum, { round }) => sum + (round ? BALL : BOX).length, 0);
-      const [positions, colours] = [new Float32Array(3 * points), new Float32Array(3 * points)];
+      const [positions, colours] = [new Float32Array(3 * points), new Float32Array(4 * points)];
       let at = 0;
+      // Many wires hide the cloud: the more there are, the fainter those that are not selected.
+      const faint = Math.max(kFaintest, Math.min(1, kPlainWires / items.length));
       for (const item of items) {
         const colour = item.active ? COLOURS.active : item.selected ? COLOURS.selected : COLOURS.plain;
         for (const point of item.round ? BALL : BOX) {
-          put(item, point, positions, at);
-          colour.toArray(colours, at);
-          at += 3;
+          put(item, point, positions, 3 * at);
+          colour.toArray(colours, 4 * at);
+          colours[4 * at + 3] = item.active || item.selected ? 1 : faint;
+          at += 1;
         }
       }
       lines.geometry.dispose();
       lines.geometry = new BufferGeometry();
       lines.geometry.setAttribute("position", new BufferAttribute(positions, 3).setUsage(DynamicDrawUsage));
-      lines.geometry.setAttribute("color", new BufferAttribute(colours, 3).setUsage(DynamicDrawUsage));
+      lines.geometry.setAttribute("color", new BufferAttribute(colours, 4).setUsage(DynamicDrawUsage));
     },
   };
 }
@@ -272,6 +277,11 @@ export function createView(canvas, told) {
       }
       grid.position.set(Math.round(center[0] / cell) * cell, min[1], Math.round(center[2] / cell) * cell);
       layOut();
+      draw();
+    },
+    // Nobody takes hold of anything in a flight.
+    flies(yes) {
+      for (const one of [wires.object, axes, dome.group, gizmo.getHelper()]) one.visible = !yes;
       draw();
     },
     items(list) {
