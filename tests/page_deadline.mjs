@@ -1,6 +1,6 @@
 // page_deadline.mjs ORIGIN SCRATCH: the page of a server with little time, and of one that cannot be reached: what fails is
 // said, what is on the screen is not passed off for another thing, and the page goes on by itself. Started by page_test.sh
-// with a deadline of a second.
+// with a deadline of a few seconds.
 
 import assert from "node:assert/strict";
 

@@ -60,7 +60,7 @@ AWAN_PAGE_GL=1 use page_workspace.mjs
 rm -rf "$scratch/profile"
 AWAN_PAGE_GL=1 use page_flight.mjs
 rm -rf "$scratch/profile"
-use page_deadline.mjs --deadline 1
+use page_deadline.mjs --deadline 4
 echo 0123456789abcdef >"$scratch/token"
 arguments=0123456789abcdef
 use page_token.mjs --token-file "$scratch/token"
