@@ -6,6 +6,8 @@ import { el } from "./dom.js";
 const kMargin = 0.08; // of the range, at either end
 const kFewestMarks = 3;
 
+const SIDES = [["after", "high"], ["after", "low"], ["before", "high"], ["before", "low"]]; // of a point, where its name may stand
+
 const svg = (tag, attributes) => {
   const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
@@ -51,6 +53,31 @@ export function createPlot({ choose, timeText, errorText }) {
     one.style.setProperty("bottom", `${(100 * y).toFixed(2)}%`);
     return one;
   };
+  // Names stand where they hide no other and no point, as far as that can be.
+  function settle() {
+    const area = element.querySelector(".area");
+    if (!area) return;
+    const frame = area.getBoundingClientRect();
+    const dots = points.map((point) => point.getBoundingClientRect());
+    const placed = [];
+    const over = (a, b) => Math.max(0, Math.min(a.right, b.right) - Math.max(a.left, b.left)) * Math.max(0, Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top));
+    for (const point of points) {
+      const tries = SIDES.map((side) => {
+        point.classList.remove(...SIDES.flat());
+        point.classList.add(...side);
+        const box = point.firstChild.getBoundingClientRect();
+        const outside = Math.max(0, frame.left - box.left) + Math.max(0, box.right - frame.right);
+        const hidden = [...placed, ...dots.filter((_dot, i) => points[i] !== point)].reduce((sum, other) => sum + over(box, other), 0);
+        return { side, box, cost: hidden + 100 * outside };
+      });
+      const chosen = tries.reduce((a, b) => (b.cost < a.cost ? b : a));
+      point.classList.remove(...SIDES.flat());
+      point.classList.add(...chosen.side);
+      placed.push(chosen.box);
+    }
+  }
+  new ResizeObserver(settle).observe(element);
+
   return {
     element,
     // rungs: [{ rung, time_ms, error }], measured; here: the name of the chosen one.
@@ -67,10 +94,9 @@ export function createPlot({ choose, timeText, errorText }) {
       for (const mark of across.marks) lines.append(svg("line", { x1: 100 * across.at(mark), x2: 100 * across.at(mark), y1: 0, y2: 100 }));
       for (const mark of up.marks) lines.append(svg("line", { y1: 100 - 100 * up.at(mark), y2: 100 - 100 * up.at(mark), x1: 0, x2: 100 }));
       lines.append(svg("polyline", { points: front }));
-      points = [...shown].sort((a, b) => a.time_ms - b.time_ms).map(({ rung, time_ms: ms, error }, i) => {
+      points = [...shown].sort((a, b) => a.time_ms - b.time_ms).map(({ rung, time_ms: ms, error }) => {
         const text = `${rung}: ${errorText(error)} error in ${timeText(ms)}`;
-        const side = across.at(ms) > 0.7 ? "before" : "";
-        return put(el("button", { type: "button", class: `point ${side} ${i % 2 ? "low" : ""}`, title: text, "aria-label": text, "data-rung": rung, onclick: () => choose(rung) },
+        return put(el("button", { type: "button", class: "point", title: text, "aria-label": text, "data-rung": rung, onclick: () => choose(rung) },
           el("span", { "aria-hidden": "true" }, rung)), across.at(ms), up.at(error));
       });
       element.replaceChildren(
@@ -79,6 +105,7 @@ export function createPlot({ choose, timeText, errorText }) {
         el("div", { class: "marks across", "aria-hidden": "true" }, ...across.marks.map((mark) => put(el("span", {}, timeText(mark)), across.at(mark), 0))),
         el("p", { class: "why", "aria-hidden": "true" }, "Error against the traced truth, upwards; time of a picture, to the right. The line: no other is both faster and truer."));
       this.mark(here);
+      settle();
     },
     mark(here) {
       for (const point of points) point.setAttribute("aria-pressed", String(point.dataset.rung === here));
