@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 
-import { axe, context, download, group, look, patience, renders, open, runTests, settled } from "./page_browser.mjs";
+import { axe, context, download, group, look, patience, renders, runTests, settled, watchControls } from "./page_browser.mjs";
 import { forwardOf, moved, poseOf, targetOf, turnedBy } from "../web/flight_motion.js";
 import { lengthOf, pathOf, textOf, thinned, viewAt } from "../web/flight_path.js";
 
@@ -109,6 +109,8 @@ const hold = async (page, key, ms) => {
   await page.keyboard.up(key);
 };
 
+let unused = null; // () -> the controls of the bar that no test has used
+
 const tests = {
   "moves the eye as the keys say": moves,
   "keeps paths, and finds the way between their keys": paths,
@@ -117,6 +119,7 @@ const tests = {
     await group(page, "JSON").locator("summary").click();
     await page.waitForFunction(() => document.querySelector('[data-mode="translate"]')?.offsetParent != null);
     const before = await look(page);
+    unused = await watchControls(page, "#flight-bar");
     await takeOff(page);
     assert.equal(await page.getByRole("toolbar", { name: "Workspace" }).isVisible(), false);
     assert.equal(await page.evaluate(() => document.activeElement.id), "stage");
@@ -225,7 +228,9 @@ const tests = {
   },
 
   async "leaves by Escape, and all of it is one step back"(page) {
-    await page.locator("#stage").focus();
+    await button(page, "Leave").click();
+    assert.equal(await isFlying(page), false);
+    await takeOff(page);
     await page.keyboard.press("Escape");
     assert.equal(await isFlying(page), false);
     assert.equal(await page.evaluate(() => document.activeElement.id), "stage");
@@ -261,6 +266,25 @@ const tests = {
     await page.click("#undo");
     await settled(page);
     assert.deepEqual(await json(page), SCENE);
+  },
+
+  async "moves by buttons, for fingers"(page) {
+    await takeOff(page);
+    for (const name of ["Left", "Forward", "Back", "Right"]) {
+      const before = (await json(page)).camera;
+      await page.evaluate((label) => {
+        const one = document.querySelector(`#flight-bar [aria-label="${label}"]`);
+        one.setPointerCapture = () => {};
+        one.dispatchEvent(new PointerEvent("pointerdown", { bubbles: true, pointerId: 1 }));
+        setTimeout(() => one.dispatchEvent(new PointerEvent("pointerup", { bubbles: true, pointerId: 1 })), 150);
+      }, name);
+      await rested(page, before);
+    }
+    for (const name of ["Slow", "Fast"]) await button(page, name).click();
+    assert.deepEqual(await unused(), [], "every control has been used");
+    await page.keyboard.press("Escape");
+    while (JSON.stringify(await json(page)) !== JSON.stringify(SCENE)) await page.click("#undo");
+    await settled(page);
   },
 };
 
