@@ -190,6 +190,11 @@ const tests = {
     await bar(page).getByLabel("Thickness of the cloud").selectOption("");
     for (let i = 0; i < 100 * patience && renders.at(-1).scene.density !== 0.5; i += 1) await page.waitForTimeout(100);
     await settled(page);
+    const { camera } = await json(page);
+    await bar(page).getByLabel("Thickness of the cloud").focus();
+    await hold(page, "w", 200); // as it is chosen, one flies on
+    await rested(page, camera);
+    assert.equal(await bar(page).getByLabel("Thickness of the cloud").inputValue(), "");
   },
 
   async "records a path, saves it and flies it again"(page) {
@@ -210,9 +215,12 @@ const tests = {
     assert.equal(path.path, "linear");
     assert.ok(path.camera.length >= 2 && path.camera[0].time === 0 && path.camera.at(-1).time > 0.7, JSON.stringify(path));
     near(path.camera.at(-1).eye, camera.eye, 0.2, "it ends where the flight does");
-    await button(page, "Replay").click();
-    await button(page, "Stop").waitFor();
-    await button(page, "Replay").waitFor({ timeout: patience * 30_000 });
+    for (const reducedMotion of ["reduce", "no-preference"]) { // in steps of a second, and evenly
+      await page.emulateMedia({ reducedMotion });
+      await button(page, "Replay").click();
+      await button(page, "Stop").waitFor();
+      await button(page, "Replay").waitFor({ timeout: patience * 30_000 });
+    }
     // Its last key, unless the eye came to rest there before.
     await page.waitForFunction((end) => {
       const { eye } = JSON.parse(document.querySelector("#json").value).camera;
@@ -223,8 +231,11 @@ const tests = {
 
   async "has nothing that axe-core objects to"(page) {
     await page.evaluate(axe);
-    const wrong = await page.evaluate(async () => (await window.axe.run(document, { resultTypes: ["violations"] })).violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`));
-    assert.deepEqual(wrong, []);
+    for (const colorScheme of ["dark", "light"]) {
+      await page.emulateMedia({ colorScheme });
+      const wrong = await page.evaluate(async () => (await window.axe.run(document, { resultTypes: ["violations"] })).violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`));
+      assert.deepEqual(wrong, [], colorScheme);
+    }
   },
 
   async "leaves by Escape, and all of it is one step back"(page) {

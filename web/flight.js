@@ -301,7 +301,8 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
       leave();
       return;
     }
-    if (isOwnOf(event.target)) return;
+    // A choice of the bar keeps its arrows, but nobody has to leave it to fly on.
+    if (isOwnOf(event.target) && !(event.target.closest("#flight-bar select") && "wasd".includes(written))) return;
     const word = HOLD[written] ?? HOLD[event.code];
     const gear = SPEED[written] ?? SPEED[event.code];
     if (word) hold(word, true);
