@@ -59,13 +59,16 @@ function paths() {
     near(lengthOf(path), 10, 1e-9, "its length");
     const read = JSON.parse(textOf(path));
     assert.deepEqual(read, path, "the file says it all");
-    assert.deepEqual(Object.keys(read), ["path", "camera"]);
+    assert.deepEqual(Object.keys(read), ["from", "to", "frames", "interpolation", "clouds", "camera"]);
+    assert.deepEqual([read.from, read.to, read.frames], [0, 10, 121]);
     assert.deepEqual(Object.keys(read.camera[0]), ["time", "eye", "target", "fov"]);
     for (const key of path.camera) assert.deepEqual(viewAt(path, key.time).eye, key.eye, `${kind}: at its keys`);
     for (const { time, eye } of keys) near(viewAt(path, time - 5).eye, eye, 0.06, `${kind} at ${time}`);
     assert.deepEqual(viewAt(path, -1).eye, path.camera[0].eye);
     assert.deepEqual(viewAt(path, 99).eye, path.camera.at(-1).eye);
   }
+  const later = pathOf("smooth", few, 7);
+  assert.deepEqual([later.from, later.to, later.camera[0].time], [7, 17, 7], "of clouds at another second");
   // Smooth: no corner at a key, however uneven the keys; along a line, evenly, where it is even from key to key; and rest is rest.
   const uneven = pathOf("smooth", [0, 1, 1.5, 4, 5].map((time) => ({ time, eye: [time ** 2, 0, 0], target: [0, 0, 0], fov: 40 + time })));
   const speed = (time, step) => (viewAt(uneven, time + step).eye[0] - viewAt(uneven, time).eye[0]) / step;
@@ -212,7 +215,7 @@ const tests = {
     const { name, bytes } = await download(page, () => button(page, "Save the path").click());
     assert.match(name, /\.path\.json$/);
     const path = JSON.parse(bytes);
-    assert.equal(path.path, "linear");
+    assert.equal(path.interpolation, "linear");
     assert.ok(path.camera.length >= 2 && path.camera[0].time === 0 && path.camera.at(-1).time > 0.7, JSON.stringify(path));
     near(path.camera.at(-1).eye, camera.eye, 0.2, "it ends where the flight does");
     for (const reducedMotion of ["reduce", "no-preference"]) { // in steps of a second, and evenly

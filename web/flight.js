@@ -132,7 +132,7 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
     if (still.matches) time = Math.floor((time * 1000) / kStillMs) * (kStillMs / 1000);
     if (time === replay.shown) return;
     replay.shown = time;
-    const { eye: place, target, fov } = viewAt({ ...path, path: kind }, time);
+    const { eye: place, target, fov } = viewAt(path, path.from + time);
     pose = poseOf(place, target);
     lens = { ...lens, fov };
     dirty = true;
@@ -187,7 +187,7 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
     if (!recording) return;
     const { keys } = recording;
     recording = null;
-    if (keys.length >= 2) path = pathOf(kind, thinned(keys, kNear * cloud.radius));
+    if (keys.length >= 2) path = pathOf(kind, thinned(keys, kNear * cloud.radius), Number(atOrDefault(store.scene, "/time")) || 0);
     show();
   }
   const actions = {
@@ -223,7 +223,7 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
     },
     kind(next) {
       kind = next;
-      if (path) path = { ...path, path: kind };
+      if (path) path = { ...path, interpolation: kind };
       show();
     },
     save() {

@@ -1,6 +1,8 @@
-// The path of a camera: keys in time, and where it is between them. As a file it is what `awan fly --path` reads:
+// The path of a camera: keys in time, and where it is between them. It is what a document says under `sequence`, and as a
+// file what `awan fly --path` reads:
 //
-//   { "path": "linear" | "smooth", "camera": [{ "time": seconds, "eye": [x, y, z], "target": [x, y, z], "fov": degrees }, ...] }
+//   { "from": seconds, "to": seconds, "frames": count, "interpolation": "smooth" | "linear", "clouds": "stand",
+//     "camera": [{ "time": seconds, "eye": [x, y, z], "target": [x, y, z], "fov": degrees }, ...] }
 
 export const KINDS = ["smooth", "linear"];
 
@@ -31,7 +33,7 @@ function curved(before, from, to, after, seconds, share) {
 }
 
 // { eye, target, fov } at a time; before the first and after the last key, theirs.
-export function viewAt({ path, camera: keys }, time) {
+export function viewAt({ interpolation, camera: keys }, time) {
   const last = keys.length - 1;
   if (time <= keys[0].time) return viewOf(keys[0]);
   if (time >= keys[last].time) return viewOf(keys[last]);
@@ -42,7 +44,7 @@ export function viewAt({ path, camera: keys }, time) {
   const seconds = [i > 0 ? keys[i].time - keys[i - 1].time : own, own, i + 2 <= last ? keys[i + 2].time - keys[i + 1].time : own];
   const between = (get) => {
     const [from, to] = [get(keys[i]), get(keys[i + 1])];
-    if (path === "linear") return from.map((x, axis) => x + share * (to[axis] - x));
+    if (interpolation === "linear") return from.map((x, axis) => x + share * (to[axis] - x));
     return curved(i > 0 ? get(keys[i - 1]) : null, from, to, i + 2 <= last ? get(keys[i + 2]) : null, seconds, share);
   };
   const lenses = [keys[i].fov, keys[i + 1].fov];
@@ -54,7 +56,7 @@ export function viewAt({ path, camera: keys }, time) {
 }
 const viewOf = ({ eye, target, fov }) => ({ eye: [...eye], target: [...target], fov });
 
-export const lengthOf = ({ camera: keys }) => keys[keys.length - 1].time - keys[0].time;
+export const lengthOf = ({ from, to }) => to - from;
 
 // The fewest of many keys that straight lines between them come within `near` of all others, eye and target alike
 // (Ramer 1972, Douglas and Peucker 1973, in time instead of along the line).
@@ -65,7 +67,7 @@ export function thinned(keys, near) {
     const [from, to] = open.pop();
     let [worst, at] = [near, -1];
     for (let i = from + 1; i < to; i += 1) {
-      const { eye, target } = viewAt({ path: "linear", camera: [keys[from], keys[to]] }, keys[i].time);
+      const { eye, target } = viewAt({ interpolation: "linear", camera: [keys[from], keys[to]] }, keys[i].time);
       const off = Math.max(...["eye", "target"].map((member) =>
         Math.hypot(...keys[i][member].map((x, axis) => x - (member === "eye" ? eye : target)[axis]))));
       if (off > worst) [worst, at] = [off, i];
@@ -80,13 +82,17 @@ export function thinned(keys, near) {
 const short = (x) => Number(x.toPrecision(7)) + 0; // + 0: no "-0" in files
 const shortened = ({ time, eye, target, fov }) => ({ time: Number(time.toFixed(3)), eye: eye.map(short), target: target.map(short), fov: short(fov) });
 
-// A path of these keys, from second 0.
-export function pathOf(kind, keys) {
-  return { path: kind, camera: keys.map((key) => shortened({ ...key, time: key.time - keys[0].time })) };
+const kFramesPerSecond = 12; // as `awan fly` has them where nothing else is said
+
+// A path of these keys, from the second at which the clouds are seen; they stand while the camera flies.
+export function pathOf(interpolation, keys, from = 0) {
+  const camera = keys.map((key) => shortened({ ...key, time: from + key.time - keys[0].time }));
+  const to = camera[camera.length - 1].time;
+  return { from: camera[0].time, to, frames: Math.max(2, Math.round((to - from) * kFramesPerSecond) + 1), interpolation, clouds: "stand", camera };
 }
 
 // The file: a key a line.
-export function textOf({ path, camera }) {
-  const lines = camera.map((key) => `    ${JSON.stringify(key)}`);
-  return `{\n  "path": ${JSON.stringify(path)},\n  "camera": [\n${lines.join(",\n")}\n  ]\n}\n`;
+export function textOf({ camera, ...rest }) {
+  const members = Object.entries(rest).map(([name, value]) => `  ${JSON.stringify(name)}: ${JSON.stringify(value)},\n`);
+  return `{\n${members.join("")}  "camera": [\n${camera.map((key) => `    ${JSON.stringify(key)}`).join(",\n")}\n  ]\n}\n`;
 }
