@@ -5,6 +5,7 @@ import assert from "node:assert/strict";
 
 import { axe, context, download, group, look, patience, renders, runTests, settled, watchControls } from "./page_browser.mjs";
 import { forwardOf, moved, poseOf, targetOf, turnedBy } from "../web/flight_motion.js";
+import { denser, gainOf, sparser } from "../web/workspace_particles.js";
 import { lengthOf, pathOf, textOf, thinned, viewAt } from "../web/flight_path.js";
 
 const near = (a, b, within, what) => {
@@ -79,6 +80,34 @@ function paths() {
   near(viewAt(resting, 1.5).eye, [1, 0, 0], 1e-12, "at rest");
 }
 
+function particles() {
+  const count = 1000;
+  const list = (width, f) => Float32Array.from({ length: width * count }, (_none, i) => f(i));
+  const set = { count, places: list(3, (i) => i), radii: list(1, () => 2), densities: list(1, (i) => 1 + (i % 2)), covers: list(1, () => 0.5) };
+  const massOf = ({ radii, densities }) => radii.reduce((sum, r, i) => sum + densities[i] * r ** 3, 0);
+  const few = sparser(set, 300);
+  assert.equal(few.count, 250);
+  near(massOf(few) / massOf(set), 1, 0.35, "mass stays, but for which of them are left");
+  assert.deepEqual([...few.places.slice(3, 6)], [12, 13, 14], "every fourth");
+  assert.equal(sparser(set, count), set);
+  const thick = denser(set, 2);
+  near(massOf(thick) / massOf(set), 2, 1e-6, "twice the matter");
+  assert.ok(thick.covers[0] > 1 - Math.exp(-Math.sqrt(2 * Math.PI)) - 1e-6);
+
+  // Brightness is compared where sprites cover a pixel, upside down as they come.
+  const [width, height] = [4, 8];
+  const sprites = new Uint8Array(4 * width * height), picture = new Uint8Array(4 * width * height);
+  for (let y = 0; y < height; y += 1) {
+    for (let x = 0; x < width; x += 1) {
+      const isCloud = y < 4; // the upper half of the picture
+      picture.set(isCloud ? [150, 120, 90, 255] : [10, 20, 200, 255], 4 * (y * width + x));
+      if (isCloud) sprites.set([100, 100, 100, 255], 4 * ((height - 1 - y) * width + x));
+    }
+  }
+  near(gainOf(sprites, picture, width, height), [1.5, 1.2, 0.9], 1e-9, "brighter and redder");
+  assert.equal(gainOf(new Uint8Array(4 * width * height), picture, width, height), null, "without a cloud nothing is known");
+}
+
 // --- in the browser ---
 
 const kDistance = 20;
@@ -117,6 +146,7 @@ let unused = null; // () -> the controls of the bar that no test has used
 const tests = {
   "moves the eye as the keys say": moves,
   "keeps paths, and finds the way between their keys": paths,
+  "makes particles fewer, denser and as bright as a picture": particles,
 
   async "takes off, moves with particles, and sharpens where it rests"(page) {
     await group(page, "JSON").locator("summary").click();
@@ -128,7 +158,7 @@ const tests = {
     assert.equal(await page.evaluate(() => document.activeElement.id), "stage");
     await page.keyboard.down("w");
     await page.waitForSelector("#stage.sprites");
-    await page.waitForFunction(() => /^\d+ × \d+ · \d+\.\d s · [\d.]+ frames\/s · 120 particles, light estimated$/.test(document.querySelector("#flight-figures").textContent));
+    await page.waitForFunction(() => /^\d+ × \d+ · \d+\.\d s · [\d.]+ frames\/s · 120 particles, their light estimated$/.test(document.querySelector("#flight-figures").textContent));
     await page.keyboard.up("w");
     const { eye, target, fov } = await rested(page, SCENE.camera);
     assert.ok(eye[2] < kDistance, `at ${eye}`);

@@ -43,7 +43,9 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
   let cloud = null; // { center, radius }
   let way = "through";
   let speed = 2;
-  let held = new Set();
+  const held = new Set();
+  const fresh = new Set(); // of these, what no frame has seen
+  const ending = new Set(); // of these, what is let go of already: it moves for one frame all the same
   let key = null; // of undo
   let mine = null; // the scene that the flight has made
   let lastMove = 0;
@@ -151,6 +153,9 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
     else if (held.size) {
       pose = moved(pose, held, seconds, { way, speed, cloud });
       dirty = true;
+      fresh.clear();
+      for (const word of ending) held.delete(word);
+      ending.clear();
     }
     record(now);
     if (dirty) {
@@ -245,8 +250,14 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
   function hold(word, down) {
     if (down) {
       stop();
+      if (!held.has(word)) fresh.add(word);
       held.add(word);
-    } else held.delete(word);
+      ending.delete(word);
+    } else if (fresh.has(word)) ending.add(word);
+    else held.delete(word);
+  }
+  function letGo() {
+    for (const words of [held, fresh, ending]) words.clear();
   }
 
   // --- on and off ---
@@ -258,7 +269,8 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
     cloud = sizeOf(bounds());
     pose = poseOf(place, target);
     lens = { fov, up, aspect };
-    [held, key, mine, rested, dirty] = [new Set(), null, store.scene, true, false];
+    letGo();
+    [key, mine, rested, dirty] = [null, store.scene, true, false];
     [replay, recording] = [null, null];
     thickness = { name: "", factor: 1 };
     begun = last = performance.now();
@@ -280,7 +292,7 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
     if (kept && !rested) rest();
     on = false;
     replay = null;
-    held.clear();
+    letGo();
     stage.classList.remove("flying");
     view().flies(false);
     sprites().flies(false);
@@ -312,11 +324,12 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
     event.stopImmediatePropagation();
   }, { capture: true });
   addEventListener("keyup", (event) => {
-    if (on) held.delete(HOLD[event.key.toLowerCase()] ?? HOLD[event.code]);
+    const word = HOLD[event.key.toLowerCase()] ?? HOLD[event.code];
+    if (on && word) hold(word, false);
   }, { capture: true });
-  addEventListener("blur", () => held.clear());
-  document.addEventListener("visibilitychange", () => held.clear());
-  document.addEventListener("focusin", (event) => { if (isOwnOf(event.target)) held.clear(); });
+  addEventListener("blur", letGo);
+  document.addEventListener("visibilitychange", letGo);
+  document.addEventListener("focusin", (event) => { if (isOwnOf(event.target)) letGo(); });
 
   let grip = null; // { id, x, y } of the pointer that looks around
   const taken = (event) => {

@@ -60,12 +60,12 @@ export function createFlightBar(actions) {
       // Not `disabled`: they stay reachable.
       for (const one of [replay, download]) one.setAttribute("aria-disabled", String(!hasPath));
     },
-    // The size of the window, the time, the rate: Pakawan's, and how many sprites, whose light is the page's own guess
-    // (workspace_particles.js) until the picture of the service comes.
+    // The size of the window, the time, the rate: Pakawan's, and how many sprites. Where their light falls is the page's own
+    // guess, how bright it is comes from the last picture of the service (workspace_particles.js).
     figures({ width, height, seconds, rate, sprites, recorded }) {
       line.textContent = [
         `${width} × ${height}`, `${seconds.toFixed(1)} s`, rate > 0 ? `${rate.toFixed(rate < 10 ? 1 : 0)} frames/s` : "at rest",
-        sprites > 0 ? `${sprites.toLocaleString("en")} particles, light estimated` : null, recorded === null ? null : `recording ${recorded.toFixed(1)} s`,
+        sprites > 0 ? `${sprites.toLocaleString("en")} particles, their light estimated` : null, recorded === null ? null : `recording ${recorded.toFixed(1)} s`,
       ].filter(Boolean).join(" · ");
     },
   };

@@ -97,3 +97,28 @@ export function litFrom({ count, places, radii, densities }, towards) {
   }
   return light;
 }
+
+const kCovered = 0.8; // of a pixel, before its colour says something of the cloud
+const kFewest = 12; // such pixels
+const kLeast = 0.4, kMost = 2.5; // times
+
+// How much brighter a picture of the service has the cloud than sprites have it, [red, green, blue]; null where it cannot
+// be told. Both of one size, RGBA bytes; sprites premultiplied, with their lowest row first.
+export function gainOf(sprites, picture, width, height) {
+  const [theirs, ours] = [[0, 0, 0], [0, 0, 0]];
+  let count = 0;
+  for (let y = 0; y < height; y += 1) {
+    for (let x = 0; x < width; x += 1) {
+      const from = 4 * ((height - 1 - y) * width + x);
+      const alpha = sprites[from + 3] / 255;
+      if (alpha < kCovered) continue;
+      count += 1;
+      for (let c = 0; c < 3; c += 1) {
+        ours[c] += sprites[from + c] / alpha;
+        theirs[c] += picture[4 * (y * width + x) + c];
+      }
+    }
+  }
+  if (count < kFewest) return null;
+  return theirs.map((sum, c) => Math.min(kMost, Math.max(kLeast, sum / Math.max(1, ours[c]))));
+}

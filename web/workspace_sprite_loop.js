@@ -3,7 +3,7 @@
 
 import * as api from "./api.js";
 import { compactJson } from "./json_text.js";
-import { denser, litFrom, readPly, sparser } from "./workspace_particles.js";
+import { denser, gainOf, litFrom, readPly, sparser } from "./workspace_particles.js";
 
 const kMost = 100_000; // sprites; more would not be drawn in time
 const kFadeMs = 220;
@@ -11,6 +11,7 @@ const kRestMs = 350;
 const kSlowFrameMs = 60; // where frames take longer, the pictures of the service are as quick
 const kFramesWatched = 12;
 const kTriedAgainMs = 30_000;
+const kSeenWide = 64, kSeenHigh = 40; // pixels that brightness is compared at
 const ELSEWHERE = new Set(["camera", "image", "sun", "sky", "ground", "haze", "accuracy", "effects", "sequence", "look", "display"]);
 
 // view(): of workspace_view.js, or null. scene() -> the document; sun() -> unit vector to it.
@@ -44,6 +45,16 @@ export function createSpriteLoop({ view, scene, sun }) {
       if (share < 1) fading = requestAnimationFrame(step);
     };
     step(begun);
+  }
+  // The light of the service, as far as its picture tells: how bright, and of what colour, it has the same cloud.
+  function learn() {
+    const picture = document.getElementById("picture");
+    if (!isReady() || !picture.naturalWidth || !same(known.matter, matterOf(scene()))) return;
+    const pen = Object.assign(document.createElement("canvas"), { width: kSeenWide, height: kSeenHigh }).getContext("2d", { willReadFrequently: true });
+    pen.drawImage(picture, 0, 0, kSeenWide, kSeenHigh);
+    const { data } = pen.getImageData(0, 0, kSeenWide, kSeenHigh);
+    const gain = gainOf(view().spritesSeen(kSeenWide, kSeenHigh), data, kSeenWide, kSeenHigh);
+    if (gain) view().spritesGain(gain);
   }
   const isReady = () => known !== null && known.set !== null && (flying || performance.now() >= slowUntil) && view() !== null;
   function light() {
@@ -134,6 +145,7 @@ export function createSpriteLoop({ view, scene, sun }) {
       if (moving && performance.now() - lastMove < kRestMs) return;
       moving = false;
       if (opacity > 0) fade(0);
+      learn();
     },
   };
 }

@@ -4,7 +4,7 @@
 
 import {
   BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, GridHelper, Group, LineBasicMaterial, LineSegments, Mesh,
-  MeshBasicMaterial, Object3D, PerspectiveCamera, Scene, SphereGeometry, Vector3, WebGLRenderer,
+  MeshBasicMaterial, Object3D, PerspectiveCamera, Scene, SphereGeometry, Vector3, WebGLRenderer, WebGLRenderTarget,
 } from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
 import { createSprites } from "./workspace_sprites.js";
@@ -129,6 +129,7 @@ export function createView(canvas, told) {
   const sprites = createSprites();
   let grid = null;
   let items = [];
+  let gain = [1, 1, 1]; // of the sprites' light
   let home = { center: [0, 0, 0], radius: 5 }; // what is looked at: the grid lies under it, the dome stands around it
   const handle = new Object3D();
   const gizmo = new TransformControls(camera, canvas);
@@ -336,9 +337,34 @@ export function createView(canvas, told) {
       sprites.show(set, light);
       draw();
     },
+    // The sprites alone as the camera sees them, in their own light: RGBA bytes, premultiplied, the lowest row first.
+    spritesSeen(width, height) {
+      const target = new WebGLRenderTarget(width, height);
+      const shown = scene.children.map((child) => [child, child.visible]);
+      const { opacity } = sprites;
+      for (const [child] of shown) child.visible = child === sprites.object;
+      sprites.setOpacity(1);
+      sprites.gain([1, 1, 1]);
+      renderer.setRenderTarget(target);
+      renderer.clear();
+      renderer.render(scene, camera);
+      const bytes = new Uint8Array(4 * width * height);
+      renderer.readRenderTargetPixels(target, 0, 0, width, height, bytes);
+      renderer.setRenderTarget(null);
+      target.dispose();
+      for (const [child, visible] of shown) child.visible = visible;
+      sprites.setOpacity(opacity);
+      sprites.gain(gain);
+      return bytes;
+    },
+    spritesGain(value) {
+      gain = value;
+      sprites.gain(value);
+      draw();
+    },
     spritesAt(opacity) {
       sprites.object.visible = opacity > 0;
-      sprites.opacity(opacity);
+      sprites.setOpacity(opacity);
       draw();
     },
   };
