@@ -40,7 +40,7 @@ export function createFlightBar(actions) {
     together("Path", {}, record, replay, kind, download));
   const line = el("p", { id: "flight-figures", hidden: true });
   const help = el("span", { class: "hint", id: "flight-help" },
-    "W S A D: forward, back, left, right. Arrow keys or drag: look and turn. 1 2 3: speed. Esc: leave.");
+    "W S A D: forward, back, left, right. Arrow keys or drag: look and turn. 1 2 3: speed. Esc: leave. On the way, light is estimated.");
   byId("stage-help").after(help);
   byId("stage").append(line);
 
@@ -65,7 +65,7 @@ export function createFlightBar(actions) {
     figures({ width, height, seconds, rate, sprites, recorded }) {
       line.textContent = [
         `${width} × ${height}`, `${seconds.toFixed(1)} s`, rate > 0 ? `${rate.toFixed(rate < 10 ? 1 : 0)} frames/s` : "at rest",
-        sprites > 0 ? `${sprites.toLocaleString("en")} particles, their light estimated` : null, recorded === null ? null : `recording ${recorded.toFixed(1)} s`,
+        sprites > 0 ? `${sprites.toLocaleString("en")} particles` : null, recorded === null ? null : `recording ${recorded.toFixed(1)} s`,
       ].filter(Boolean).join(" · ");
     },
   };

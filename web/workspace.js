@@ -328,7 +328,7 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, seen, fa
     state = "on";
     view.resize();
     refresh();
-    sprites.changed(false);
+    sprites.begin();
   }
   function remember() {
     try {

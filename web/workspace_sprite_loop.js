@@ -25,6 +25,7 @@ export function createSpriteLoop({ view, scene, sun }) {
   let fading = 0;
   let slowUntil = 0; // no sprites before
   let frames = [];
+  let isShown = false; // the picture on the screen is of the latest state
   let flying = false; // whoever flies has nothing else to see by: sprites are shown however slowly
   let thickness = 1; // times the matter of the document
   const stage = document.getElementById("stage");
@@ -77,6 +78,7 @@ export function createSpriteLoop({ view, scene, sun }) {
       const set = readPly(await blob.arrayBuffer());
       known = { matter, set: sparser(set, kMost) };
       light();
+      if (isShown) learn();
       if (moving && isReady() && opacity === 0) fade(1);
     } catch {
       // The picture says what is wrong.
@@ -110,6 +112,7 @@ export function createSpriteLoop({ view, scene, sun }) {
   return {
     // The document has changed; `moves`: something is being dragged.
     changed(moves) {
+      isShown = false;
       if (!view()) return;
       const begins = moves && !moving;
       moving = moves;
@@ -122,6 +125,8 @@ export function createSpriteLoop({ view, scene, sun }) {
       if (known?.set && view()) light();
     },
     letGo() { moving = false; },
+    // There is something to draw with.
+    begin: ask,
     // A flight begins or ends; of a cloud that is so many times as thick as the document's.
     flies(yes, times = 1) {
       flying = yes;
@@ -134,6 +139,7 @@ export function createSpriteLoop({ view, scene, sun }) {
     },
     // The eye of a flight moves. False when there are no particles to show.
     moves() {
+      isShown = false;
       moving = true;
       lastMove = performance.now();
       if (isReady() && opacity === 0) fade(1);
@@ -144,6 +150,7 @@ export function createSpriteLoop({ view, scene, sun }) {
     settled() {
       if (moving && performance.now() - lastMove < kRestMs) return;
       moving = false;
+      isShown = true;
       if (opacity > 0) fade(0);
       learn();
     },
