@@ -344,6 +344,8 @@ const tests = {
     assert.match(await page.textContent("#time"), /ms of .* m?s/);
 
     // Begun, cancelled, begun anew: only the last comes.
+    const calls = []; // of jobs
+    page.on("request", (request) => { if (/\/v1\/jobs/.test(request.url())) calls.push(request.method()); });
     const button = page.getByRole("button", { name: "What does accuracy cost?" });
     await button.click();
     await page.waitForSelector('#sweep[open][aria-busy="true"]');
@@ -351,13 +353,46 @@ const tests = {
     await page.getByRole("button", { name: "Cancel" }).click();
     await page.waitForSelector("#sweep:not([open])", { state: "attached" });
     assert.equal(await page.textContent("#alert"), "", "to cancel is no error");
+    for (let i = 0; i < 50 && calls.at(-1) !== "DELETE"; i += 1) await page.waitForTimeout(100);
+    assert.equal(calls.at(-1), "DELETE", "the service is told");
+    const ticks = () => page.$$eval(".ladder .measured", (all) => all.length);
+    assert.equal(await ticks(), 0);
     await scene((document) => ({ ...document, image: { width: 16, height: 12 } }));
-    await page.waitForTimeout(300); // until the service has seen that nobody waits for the first
     await button.click();
+    await page.waitForSelector('#sweep[aria-busy="false"]', { timeout: patience * 120_000 });
+    const points = page.locator(".accuracy-plot .point");
+    assert.ok(await points.count() >= 4, "a point for every rung");
+    // A point is where its figures are, and chooses its rung.
+    const places = await points.evaluateAll((all) => all.map((one) => {
+      const { left, top, width } = one.getBoundingClientRect();
+      return { name: one.getAttribute("aria-label"), x: left + width / 2, y: top };
+    }));
+    const figures = places.map(({ name }) => Number(/: ([\d.e+]+) %/.exec(name)[1]));
+    places.forEach((a, i) => places.forEach((b, k) => {
+      if (figures[i] > 1.2 * figures[k]) assert.ok(a.y < b.y, `${a.name} is above ${b.name}`);
+      if (i < k) assert.ok(a.x <= b.x + 0.01, `${a.name} is left of ${b.name}`);
+    }));
+    await points.filter({ hasText: "transport-16" }).click();
+    assert.equal(await points.filter({ hasText: "transport-16" }).getAttribute("aria-pressed"), "true");
+    await page.getByRole("button", { name: "With the picture of every rung" }).click();
     await page.waitForFunction(() => document.querySelector("#sweep-plot").naturalWidth === 1120, null, { timeout: patience * 60_000 });
     await page.waitForSelector('#sweep[aria-busy="false"]');
     await page.keyboard.press("Escape");
     await page.waitForSelector("#sweep:not([open])", { state: "attached" });
+    await settled(page);
+    assert.deepEqual(renders.at(-1).scene.accuracy, { rung: "transport-16" });
+    // What was measured stands at the track, as long as the document is the same but for its accuracy.
+    assert.ok(await ticks() >= 8);
+    assert.match(await page.getAttribute(".ladder input", "aria-valuetext"), /^transport-16: measured /);
+    await scene((document) => ({ ...document, seed: 99 }));
+    assert.equal(await ticks(), 0);
+    await page.click("#undo");
+    await settled(page);
+    assert.ok(await ticks() >= 8, "and again, when it is");
+    await button.click(); // it is known
+    await page.waitForSelector('#sweep[open][aria-busy="false"]');
+    assert.ok(await points.count() >= 4);
+    await page.getByRole("button", { name: "Close", exact: true }).click();
     await choose(page, "cumulus");
   },
 
