@@ -107,7 +107,7 @@ std::vector<std::uint64_t> missing_frames(const Scene& scene,
     return missing;
 }
 
-// One frame, drawn and written to its files and into the all.
+// One frame, drawn and written to its files and into what moves.
 Status make_frame(const Settled& settled, const Sequence& sequence, std::uint64_t frame,
                   std::vector<MovingPicture>& all, Work& work) {
     const auto start = Deadline::Clock::now();
