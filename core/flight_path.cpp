@@ -188,11 +188,13 @@ std::vector<CameraKey> through(const SceneDraft& draft, const Bounds& bounds,
 
 // As thick as `wanted` where the scene as it stands is `measured`: depth is proportional to density, and of spheres
 // that have a visual range to its inverse.
-void thicken(SceneDraft& draft, double wanted, double measured) {
+// densities: of the clouds as they stand, 1/unit.
+void thicken(SceneDraft& draft, const std::vector<double>& densities, double wanted,
+             double measured) {
     const double factor = wanted / measured;
-    draft.density = factor * draft.density.value_or(kDefaultDensity);
-    for (Cloud& cloud : draft.clouds) {
-        if (cloud.density) *cloud.density *= factor;
+    for (std::size_t k = 0; k < draft.clouds.size(); ++k) {
+        Cloud& cloud = draft.clouds[k];
+        cloud.density = factor * densities[k];
         if (!cloud.spheres || !cloud.spheres->visual_range) continue;
         SpheresCloud spheres = *cloud.spheres;
         *spheres.visual_range /= factor;
@@ -275,7 +277,7 @@ Result<Scene> flight_of(const SceneDraft& draft, const FlightWish& wish, int thr
         if (!(middle->optical_depth_zenith > 0))
             return Error{ErrorCode::kInvalidScene, "",
                          "has no matter that could be made thin or thick"};
-        thicken(flight, kThicknessDepths[static_cast<int>(*wish.thickness)],
+        thicken(flight, middle->cloud_density, kThicknessDepths[static_cast<int>(*wish.thickness)],
                 middle->optical_depth_zenith);
     }
     if (path != FlightPath::kKeys)

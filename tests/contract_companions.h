@@ -51,8 +51,6 @@ inline const Companion kCompanions[] = {
          document.erase("cubes");
          document["clouds"] = json::parse(R"([{"model": "ellipsoids", "ellipsoids": {}}])");
      }},
-    {"Sky", "turbidity", "colours a physical sky and a sun of colour \"auto\"",
-     [](json& document, json&) { document["sun"]["color"] = "auto"; }},
     {"Camera", "", "the target differs from the eye",
      [](json&, json& camera) {
          camera["target"] = {2, 1, 1};

@@ -57,7 +57,7 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
   let path = null;
   let kind = "smooth";
   let replay = null; // { begun, shown }
-  let thickness = { name: "", factor: 1 };
+  let thickness = { name: "", factor: 1, densities: [] };
   let asked = 0; // of thicknesses: the last counts
 
   const lookOf = () => ({ eye: pose.eye, target: targetOf(pose, cloud), fov: lens.fov });
@@ -67,16 +67,13 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
   // The document as the flight shows it: as thick as was chosen.
   function seen(scene) {
     if (!on || !thickness.name) return scene;
-    return thickened(scene, densityOf(scene), 1, thickness.factor, fieldAt("/density").most);
+    return thickened(scene, thickness.densities, thickness.factor, fieldAt("/density").most);
   }
-  const densityOf = (scene) => {
-    const density = atOrDefault(scene, "/density");
-    return typeof density === "number" ? density : fieldAt("/density").standard;
-  };
   async function thicken(chosen) {
     asked += 1;
     const turn = asked;
     let factor = 1;
+    let densities = [];
     if (chosen) {
       const [, depth] = THICKNESS.find(([word]) => word === chosen);
       const { survey } = await api.plan(store.text);
@@ -84,8 +81,9 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
       const measured = survey?.optical_depth?.zenith;
       if (!(measured > 0)) throw new Error("There is no matter to make thicker.");
       factor = depth / measured;
+      densities = survey.density;
     }
-    thickness = { name: chosen, factor };
+    thickness = { name: chosen, factor, densities };
     sprites().flies(true, factor);
     dirty = true;
     show();

@@ -169,8 +169,7 @@ function quickened(scene) {
   if (atOrDefault(scene, "/look") !== "physical" || isQuick(scene.accuracy ?? {})) return scene; // a look has no error
   // Lumps hardly show at the size of a coarse picture, and take half of its time; without them it can be lit as the whole
   // picture is, instead of with a glow alone.
-  const { detail: _lumps, ...smooth } = scene;
-  return { ...smooth, accuracy: kQuick };
+  return { ...scene, detail: "none", accuracy: kQuick };
 }
 function textFor({ reduction, quick }) {
   const seen = workspace.seen(store.scene);

@@ -35,7 +35,7 @@ Outside outside_under(const SceneDraft& scene, std::shared_ptr<const AirSky> air
     if (sky.physical) {
         dome.clear = clear_sky(outside.to_sun, sky.turbidity);
         // The model's luminance is relative to the sun's.
-        dome.intensity = sky.intensity * scene.sun.intensity;
+        dome.intensity = sky.intensity * scene.sun.intensity * (air ? 1 : kPreethamShare);
         dome.shines = dome.intensity > 0 && (air ? air->shines : dome.clear.dimmed > 0);
         dome.air = std::move(air);
     } else {

@@ -12,10 +12,12 @@ namespace awan {
 enum class Daylight { kScattered, kPreetham };
 inline constexpr const char* kDaylightWords[] = {"scattered", "preetham"};
 
-// The defaults. Clear skies of Preetham et al. 1999 are 1.8 times as bright as measured ones (IES: 14 klx on the ground
-// at 45 degrees, the model 25).
+// Of the radiance of Preetham et al. 1999 that a sky by them has: their clear skies are 1.8 times as bright as measured
+// ones (IES: 14 klx on the ground at 45 degrees, the model 25).
+inline constexpr double kPreethamShare = 0.55;
+
+// The defaults.
 inline constexpr double kPhysicalSkyIntensity = 1;
-inline constexpr double kPreethamSkyIntensity = 0.55;
 inline constexpr double kGradientSkyIntensity = 1.7;
 inline constexpr const char* kSkyModelWords[] = {"gradient", "physical"};
 
@@ -42,8 +44,7 @@ inline constexpr auto kSkyIsGradient = [](const void* sky) {
 
 // By what the rest of a sky says.
 inline double usual_sky_intensity(const Sky& sky) {
-    if (!sky.physical) return kGradientSkyIntensity;
-    return sky.daylight == Daylight::kPreetham ? kPreethamSkyIntensity : kPhysicalSkyIntensity;
+    return sky.physical ? kPhysicalSkyIntensity : kGradientSkyIntensity;
 }
 
 inline constexpr Field kSkyFields[] = {
@@ -79,8 +80,8 @@ inline constexpr Field kSkyFields[] = {
         {.name = "intensity",
          .wanted = "a number >= 0",
          .range = from_to(0, limits::kMaxIntensity),
-         .says = "Multiplies the colours; of a physical sky (default 1, of preetham 0.55) "
-                 "the sun's intensity.",
+         .says = "Multiplies the colours; of a physical sky (default 1) the "
+                 "sun's intensity.",
          .usual =
              [](const void* sky) { return usual_sky_intensity(*static_cast<const Sky*>(sky)); }}),
 };
