@@ -347,7 +347,8 @@ TEST(Scene, EqualScenesHaveEqualFingerprintsHoweverWritten) {
     EXPECT_EQ(plain.find_first_not_of("0123456789abcdef"), std::string::npos);
     for (const std::string& same :
          {scene_with(R"("seed": 1.0)"), scene_with(R"("camera": "auto")"),
-          scene_with(R"("density": "auto", "detail": "auto", "sky": "physical", "fill": "cumulus")"),
+          scene_with(
+              R"("density": "auto", "detail": "auto", "sky": "physical", "fill": "cumulus")"),
           scene_with(R"("effects": {"detail": "auto"})"), scene_with(R"("sun": {"azimuth": 470})"),
           std::string(R"({"clouds": [{"cubes": [)") + kCube + "]}]}",
           std::string(R"({"seed": 5, "clouds": [{"seed": 1, "cubes": [)") + kCube + "]}]}"})
