@@ -23,7 +23,7 @@ stop() {
 }
 trap 'stop; rm -rf "$scratch"' EXIT
 
-patience=540
+patience=900
 deadline=4 # of the server that has little time
 [ -z "${AWAN_SANITIZED:-}" ] || { patience=1700; deadline=40; }
 
