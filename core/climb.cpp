@@ -148,7 +148,7 @@ double stated_error(double difference, const Climb& climb) {
     if (climb.planned.particles.detail != nullptr) {
         const double into_sun = std::max(survey.sun_cosine, 0.0);
         floor =
-            std::hypot(floor, climb.scene->detail->amount *
+            std::hypot(floor, climb.scene->detail.value_or(Detail{}).amount *
                                   (kDetailError + kDeepDetailError * std::min(depth / kDeep, 1.0) +
                                    kBacklitDetailError * into_sun * into_sun));
     }
@@ -355,10 +355,12 @@ Result<Climbed> climb(const Scene& scene, const Planned& planned, const ClimbToo
         return reached;
     }
     Pictures pictures;
+    if (by_name && planned.is_unmeasured) reached.stated = std::numeric_limits<double>::quiet_NaN();
     for (const int cells : nested_cells(most)) {
         if (Status failed = step(*begun, cells, deadline, reached)) return *failed;
         // Grids that are only on the way are too coarse to show.
-        if (reached.rung == nullptr || (by_name && cells != most)) continue;
+        if (reached.rung == nullptr || (by_name && (cells != most || planned.is_unmeasured)))
+            continue;
         if (Status failed = measure(*begun, cells, pictures, reached)) return *failed;
         if (holds(reached.stated, scene)) break;
     }

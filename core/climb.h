@@ -20,7 +20,8 @@ struct ClimbTools {
 struct Climbed {
     SharedLight light;
     const Rung* rung = nullptr;  // the transport rung of the light; null: it has no grid
-    // Its picture's error, as PictureError::nrmse. NaN: the time that was asked for was too short to measure it.
+    // Its picture's error, as PictureError::nrmse. NaN: the time that was asked for was too short to measure it, or
+    // nobody wants it (Planned::is_unmeasured).
     double stated = 0;
     bool was_kept = true;  // all of it came from the cache
     double light_ms = 0, measure_ms = 0;

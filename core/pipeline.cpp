@@ -138,7 +138,8 @@ bool is_time_to_measure(const Scene& scene, const Planned& planned, const StageT
 Status measure_or_climb(const Scene& scene, Planned& planned, const Tools& tools,
                         const Deadline& deadline, Rendered& rendered) {
     if (planned.particles.size() == 0 || !(planned.survey.total_mass > 0)) return std::nullopt;
-    if (!is_time_to_measure(scene, planned, rendered.times)) {
+    const bool unwanted = planned.rung_is_settled && planned.is_unmeasured;
+    if (unwanted || !is_time_to_measure(scene, planned, rendered.times)) {
         rendered.stated_error = std::numeric_limits<double>::quiet_NaN();
         return std::nullopt;
     }

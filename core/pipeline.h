@@ -24,8 +24,8 @@ struct Rendered {
     // The rung that the picture is of: the plan's, or where that did not keep to the scene's wish, another.
     const Rung* rung = nullptr;
     // Its error, measured while it was made (core/climb.h), as PictureError::nrmse. NaN: it was not measured, as the
-    // time that the scene asks for is too short, and plan.predicted.error is all that is known; or there is none (a
-    // look).
+    // time that the scene asks for is too short or nobody wants it, and plan.predicted.error is all that is known; or
+    // there is none (a look).
     double stated_error = 0;
 };
 

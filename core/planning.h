@@ -29,6 +29,9 @@ struct Planned {
     // The picture is of the planned rung, whatever its error: the scene names it, or it is settled for all frames of a
     // sequence.
     bool rung_is_settled = false;
+    // Nobody wants to know the error of a picture whose rung is settled: none is stated. Measuring it takes longer than
+    // drawing a small picture by light that was kept.
+    bool is_unmeasured = false;
 };
 
 // Plans a picture of the scene at its own time; a sequence that it may have is not looked at. detail: the figures from

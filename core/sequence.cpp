@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/generate/generate.h"
+#include "core/plan/island_settings.h"
 #include "core/planning.h"
 #include "core/scene/validate.h"
 
@@ -22,6 +23,26 @@ Bounds joined(const Bounds& a, const Bounds& b) {
     return {glm::min(a.min, b.min), glm::max(a.max, b.max)};
 }
 
+// Of a sequence with camera keys.
+Camera moved_camera(const SceneDraft& draft, const Sequence& sequence, double time) {
+    const glm::dvec3 up = draft.camera.automatic ? Camera{}.up : draft.camera.up;
+    return camera_at(sequence.camera, sequence.linear_camera, up, time);
+}
+
+// So many tell what all frames see: a turn in steps of 6 degrees.
+constexpr std::uint64_t kMostViews = 60;
+
+std::vector<View> views_of(const SceneDraft& draft, const Sequence& sequence) {
+    std::vector<View> views;
+    const std::uint64_t count = std::min(sequence.frames, kMostViews);
+    for (std::uint64_t k = 0; k < count; ++k) {
+        const std::uint64_t frame = count < 2 ? 0 : k * (sequence.frames - 1) / (count - 1);
+        const Camera camera = moved_camera(draft, sequence, frame_time(sequence, frame));
+        views.push_back(resolve_view(camera, draft.image, {}));
+    }
+    return views;
+}
+
 // The first, the middle and the last.
 using Times = std::array<double, 3>;
 Times three_times(const Sequence& sequence) {
@@ -29,19 +50,11 @@ Times three_times(const Sequence& sequence) {
 }
 
 // Where the automatic camera stands to hold the clouds at all of the times.
-Result<Camera> hold_all(const SceneDraft& draft, const Times& times, int threads,
+Result<Camera> hold_all(const SceneDraft& draft, const Sequence& sequence, int threads,
                         const Deadline& deadline) {
-    std::optional<Bounds> bounds;
-    for (const double time : times) {
-        SceneDraft frame = draft;
-        frame.time = time;
-        auto particles = generate(valid(std::move(frame)), threads, deadline, true);
-        if (!particles.ok()) return particles.error();
-        if (particles->size() == 0) continue;
-        const Bounds own = bounds_of(*particles);
-        bounds = bounds ? joined(*bounds, own) : own;
-    }
-    const View view = resolve_view(draft.camera, draft.image, bounds.value_or(Bounds{}));
+    const auto bounds = bounds_of_sequence(draft, sequence, threads, deadline);
+    if (!bounds.ok()) return bounds.error();
+    const View view = resolve_view(draft.camera, draft.image, *bounds);
     Camera camera;
     camera.automatic = false;
     camera.eye = view.eye;
@@ -60,13 +73,14 @@ struct FramePlan {
     bool empty = false;
 };
 
-// As every machine plans it. error: that paths would have to keep to, if any.
-Result<FramePlan> plan_frame_for_all(const Scene& scene, const std::optional<double>& error,
-                                     int threads, const Deadline& deadline) {
+// As every machine plans it. time: in the sequence. error: that paths would have to keep to, if any.
+Result<FramePlan> plan_frame_for_all(const Scene& scene, double time,
+                                     const std::optional<double>& error, int threads,
+                                     const Deadline& deadline) {
     auto planned = plan_still(scene, threads, deadline, {}, {});
     if (!planned.ok()) return planned.error();
     const Survey& survey = planned->survey;
-    FramePlan frame{scene->time, plan(scene, survey, kCalibratedThreads, {}), survey.detail,
+    FramePlan frame{time, plan(scene, survey, kCalibratedThreads, {}), survey.detail,
                     planned->particles.size() == 0 || !(survey.total_mass > 0)};
     if (error)
         plan_samples(frame.plan, samples_for(*error, scene, survey), scene, survey,
@@ -183,16 +197,46 @@ double frame_time(const Sequence& sequence, std::uint64_t i) {
     return sequence.from + share * (sequence.to - sequence.from);
 }
 
+SceneDraft still_of(const SceneDraft& draft, const Sequence& sequence, double time) {
+    SceneDraft still = draft;
+    still.sequence.reset();
+    still.time = sequence.clouds_stand ? sequence.from : time;
+    if (sequence.camera.empty()) return still;
+    still.camera = moved_camera(draft, sequence, time);
+    return still;
+}
+
+bool clouds_stand(const SceneDraft& scene) {
+    if (scene.sequence->clouds_stand) return true;
+    return std::all_of(scene.clouds.begin(), scene.clouds.end(), [](const Cloud& cloud) {
+        return !is_procedural(cloud) && cloud.velocity == glm::dvec3(0);
+    });
+}
+
+Result<Bounds> bounds_of_sequence(const SceneDraft& draft, const Sequence& sequence, int threads,
+                                  const Deadline& deadline) {
+    std::optional<Bounds> bounds;
+    for (const double time : three_times(sequence)) {
+        auto particles = generate(valid(still_of(draft, sequence, time)), threads, deadline, true);
+        if (!particles.ok()) return particles.error();
+        if (particles->size() == 0) continue;
+        const Bounds own = bounds_of(*particles);
+        bounds = bounds ? joined(*bounds, own) : own;
+    }
+    return bounds.value_or(Bounds{});
+}
+
 Result<Settled> settle(const Scene& scene, Settling how, const ClimbTools& tools,
                        const Deadline& deadline) {
     Settled settled;
     settled.draft = *scene;
-    settled.from = scene->sequence->from;
+    settled.sequence = *scene->sequence;
+    if (!settled.sequence.camera.empty() && clouds_stand(*scene))
+        settled.views = views_of(*scene, settled.sequence);
     SceneDraft& draft = settled.draft;
     draft.sequence.reset();
-    const Times times = three_times(*scene->sequence);
-    if (draft.camera.automatic) {
-        auto camera = hold_all(draft, times, tools.threads, deadline);
+    if (draft.camera.automatic && settled.sequence.camera.empty()) {
+        auto camera = hold_all(draft, settled.sequence, tools.threads, deadline);
         if (!camera.ok()) return camera.error();
         const Camera own = std::exchange(draft.camera, *camera);
         // It would stand beyond the limits.
@@ -205,11 +249,11 @@ Result<Settled> settle(const Scene& scene, Settling how, const ClimbTools& tools
     if (for_error) error = draft.accuracy.error.value_or(kDefaultError);
     std::vector<FramePlan> plans;
     SceneDraft with_effects = draft;
-    for (const double time : times) {
-        SceneDraft frame = draft;
-        frame.time = time;
+    for (const double time : three_times(settled.sequence)) {
+        SceneDraft frame = still_of(draft, settled.sequence, time);
         if (error) frame.accuracy = {{}, {}, rung_of(RungId::kTransport16).name};
-        auto planned = plan_frame_for_all(valid(std::move(frame)), error, tools.threads, deadline);
+        auto planned =
+            plan_frame_for_all(valid(std::move(frame)), time, error, tools.threads, deadline);
         if (!planned.ok()) return planned.error();
         settle_effects_and_detail(planned->plan, planned->detail, with_effects, settled.detail);
         plans.push_back(*std::move(planned));
@@ -222,19 +266,24 @@ Result<Settled> settle(const Scene& scene, Settling how, const ClimbTools& tools
 }
 
 Frame frame_at(const Settled& settled, double time) {
-    SceneDraft draft = settled.draft;
-    draft.time = time;
-    Frame frame{valid(std::move(draft)), settled.detail, settled.samples};
+    Frame frame{valid(still_of(settled.draft, settled.sequence, time)), settled.detail,
+                settled.samples, settled.views, settled.is_unmeasured};
     // The detail's bumps move with the first cloud.
     if (frame.detail && !settled.draft.clouds.empty())
-        frame.detail->origin += (time - settled.from) * settled.draft.clouds[0].velocity;
+        frame.detail->origin +=
+            (frame.scene->time - settled.sequence.from) * settled.draft.clouds[0].velocity;
     return frame;
 }
 
 Result<Planned> plan_frame(const Frame& frame, int threads, const Deadline& deadline,
                            const MachineSpeed& speed) {
     auto planned = plan_still(frame.scene, threads, deadline, speed, frame.detail);
-    if (planned.ok() && frame.samples)
+    if (!planned.ok()) return planned;
+    planned->survey.seen_from = frame.views;
+    planned->is_unmeasured = frame.is_unmeasured;
+    TransportSettings& transport = planned->plan.transport;
+    if (!transport.islands.empty()) transport.islands = island_cells(transport, planned->survey);
+    if (frame.samples)
         plan_samples(planned->plan, *frame.samples, frame.scene, planned->survey, threads, speed);
     return planned;
 }

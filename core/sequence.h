@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/deadline.h"
 #include "core/climb.h"
@@ -13,15 +14,28 @@
 #include "core/plan/forecast.h"
 #include "core/planning.h"
 #include "core/scene/scene.h"
+#include "core/survey/survey.h"
 
 namespace awan {
 
 // Seconds at frame i < sequence.frames: the first at `from`, the last at `to`; a single one at `from`.
 double frame_time(const Sequence& sequence, std::uint64_t i);
 
-// What is chosen automatically and yet must not change from frame to frame. It is chosen from three frames, the
-// first, the middle and the last: the camera holds the clouds of all three; an effect is on if one of them calls for
-// it; the detail's scale is the largest. Light is not settled: it is made anew for every frame whose matter moved.
+// What the draft of a valid scene is at one time of that sequence, any, without one: with the clouds and the camera of
+// that time.
+SceneDraft still_of(const SceneDraft& draft, const Sequence& sequence, double time);
+
+// Whether the clouds of all its frames are the same, so that light that one frame made is the next one's too. scene:
+// one with a sequence.
+bool clouds_stand(const SceneDraft& scene);
+
+// What the clouds fill at its first, middle and last time. threads >= 1. Errors: of generate().
+Result<Bounds> bounds_of_sequence(const SceneDraft& draft, const Sequence& sequence, int threads,
+                                  const Deadline& deadline);
+
+// What is chosen automatically and yet must not change from frame to frame. It is chosen from three frames, the first,
+// the middle and the last: a camera without keys holds the clouds of all three; an effect is on if one of them calls
+// for it; the detail's scale is the largest. Light is not settled: it is made anew for every frame whose matter moved.
 //
 // The rung, where an error is asked for, is one whose error is measured: of the three frames the one that is forecast
 // to be the hardest climbs (core/climb.h) until the error holds, and all frames are of the rung where it ends, paths
@@ -35,9 +49,16 @@ struct Settled {
     std::string reason;
     // Paths a pixel, where rung truth is settled.
     std::optional<std::uint32_t> samples;
-    // None: nothing was planned (a look). Stands where the clouds are at the time `from`.
+    // None: nothing was planned (a look). Stands where the clouds are at the time `sequence.from`.
     std::optional<DetailFigures> detail;
-    double from = 0;
+    // The scene's: where the camera is at each time.
+    Sequence sequence;
+    // What a camera with keys sees of matter that stands, as far as some dozen frames tell: one light serves all of
+    // them (Survey::seen_from). EMPTY: each frame has its own.
+    std::vector<View> views;
+    // The frames' errors are not wanted (Planned::is_unmeasured); the rung's is measured all the same where one is
+    // asked for.
+    bool is_unmeasured = false;
 };
 
 // kForecast: nothing is measured, the rung is the one that is expected.
@@ -53,6 +74,8 @@ struct Frame {
     Scene scene;
     std::optional<DetailFigures> detail;
     std::optional<std::uint32_t> samples;
+    std::vector<View> views;
+    bool is_unmeasured = false;
 };
 // time: seconds, any of the sequence.
 Frame frame_at(const Settled& settled, double time);

@@ -41,7 +41,7 @@ inline AccuracyReport fake_report(const std::vector<FakeRung>& rungs, int width 
     AccuracyReport report;
     report.width = 800;
     report.height = 600;
-    report.exposure = -3;
+    report.film.exposure = -3;
     report.reference.width = width;
     report.reference.height = height;
     report.reference.samples = 1024;

@@ -111,7 +111,7 @@ TEST(Accuracy, MeasuresThePictureOfTheScenesTime) {
 }
 
 TEST(Accuracy, ALookHasNoErrorToMeasure) {
-    SceneDraft draft;
+    SceneDraft draft = test::plain_draft();
     draft.top_level_cubes = false;
     draft.look = Look::kGardner;
     FakeRungs fake;
@@ -300,7 +300,7 @@ TEST(Accuracy, RefusesUnknownRungs) {
 
 TEST(AccuracyPictures, LieOverTheSky) {
     SceneDraft draft = thin_ball();
-    draft.sky = Sky{};
+    draft.sky = test::plain_draft().sky;
     draft.sky.intensity = 2;
     const Scene scene = valid(draft);
     Image image;

@@ -112,7 +112,7 @@ Result<std::string> rendered(const std::string& text, bool exr) {
     if (!scene) return scene.error();
     auto picture = render_scene(*scene, {}, {});
     if (!picture) return picture.error();
-    return exr ? encode_exr(picture->image, Precision::kFloat) : encode_png(picture->image, 0);
+    return exr ? encode_exr(picture->image, Precision::kFloat) : encode_png(picture->image, {});
 }
 
 TEST(Allocation, ParsingPlanningRenderingAndPng) {

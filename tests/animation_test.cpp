@@ -67,8 +67,8 @@ TEST(Apng, HoldsEveryFramesPixelsAsTheyWere) {
     std::vector<std::string> pixels;
     for (const float level : {0.1f, 0.4f, 0.9f}) {
         const Image image = picture(33, 17, level, false);
-        pixels.push_back(pixels_of(chunks_of(*encode_png(image, 0))));
-        ASSERT_FALSE(animation->add(image, 0).has_value());
+        pixels.push_back(pixels_of(chunks_of(*encode_png(image, {}))));
+        ASSERT_FALSE(animation->add(image, {}).has_value());
     }
     auto file = animation->end();
     ASSERT_TRUE(file.ok());
@@ -101,10 +101,10 @@ TEST(Apng, HoldsEveryFramesPixelsAsTheyWere) {
 TEST(Apng, RefusesFramesOfAnotherSizeAndWhatIsNoPng) {
     ApngWriter writer(40, 2);
     EXPECT_TRUE(writer.add("GIF89a").has_value());
-    ASSERT_FALSE(writer.add(*encode_png(picture(8, 8, 1, true), 0)).has_value());
-    EXPECT_TRUE(writer.add(*encode_png(picture(9, 8, 1, true), 0)).has_value());
-    EXPECT_TRUE(writer.add(*encode_png(picture(8, 8, 1, false), 0)).has_value());
-    const std::string whole = *encode_png(picture(8, 8, 1, true), 0);
+    ASSERT_FALSE(writer.add(*encode_png(picture(8, 8, 1, true), {})).has_value());
+    EXPECT_TRUE(writer.add(*encode_png(picture(9, 8, 1, true), {})).has_value());
+    EXPECT_TRUE(writer.add(*encode_png(picture(8, 8, 1, false), {})).has_value());
+    const std::string whole = *encode_png(picture(8, 8, 1, true), {});
     EXPECT_TRUE(writer.add(whole.substr(0, whole.size() / 2)).has_value());
 }
 
@@ -113,7 +113,7 @@ TEST(Webp, HasEveryFrameForItsTime) {
     auto animation = Animation::begin(AnimationFormat::kWebp, 10, 4);
     ASSERT_TRUE(animation.ok());
     for (const float level : {0.1f, 0.3f, 0.6f, 0.9f})
-        ASSERT_FALSE(animation->add(picture(40, 30, level, true), 0).has_value());
+        ASSERT_FALSE(animation->add(picture(40, 30, level, true), {}).has_value());
     auto file = animation->end();
     ASSERT_TRUE(file.ok());
     ASSERT_EQ(file->substr(0, 4), "RIFF");
@@ -146,7 +146,7 @@ TEST(Webp, FramesDoNotDrift) {
     auto animation = Animation::begin(AnimationFormat::kWebp, 30, 30);
     ASSERT_TRUE(animation.ok());
     for (int i = 0; i < 30; ++i)
-        ASSERT_FALSE(animation->add(picture(8, 6, 0.02F * static_cast<float>(i) + 0.1F, true), 0)
+        ASSERT_FALSE(animation->add(picture(8, 6, 0.02F * static_cast<float>(i) + 0.1F, true), {})
                          .has_value());
     const auto file = animation->end();
     ASSERT_TRUE(file.ok());

@@ -24,6 +24,12 @@ inline bool belongs(const char* row_object, const char* row_property, const std:
     return object.ends_with(row_object) && property == row_property;
 }
 
+// Whether a property decides another's default by being given at all: colours of a gradient make a sky one.
+inline bool decides_by_being_there(const std::string& object, const std::string& property) {
+    return belongs("Sky", "zenith", object, property) ||
+           belongs("Sky", "horizon", object, property);
+}
+
 inline json ones_for(const json& list) {
     return json(list.size(), 1);
 }
@@ -45,8 +51,6 @@ inline const Companion kCompanions[] = {
          document.erase("cubes");
          document["clouds"] = json::parse(R"([{"model": "ellipsoids", "ellipsoids": {}}])");
      }},
-    {"Sky", "turbidity", "colours a physical sky and a sun of colour \"auto\"",
-     [](json& document, json&) { document["sun"]["color"] = "auto"; }},
     {"Camera", "", "the target differs from the eye",
      [](json&, json& camera) {
          camera["target"] = {2, 1, 1};
@@ -62,6 +66,20 @@ inline const Companion kCompanions[] = {
     {"Camera", "up", "`up` is not along the view",
      [](json&, json& camera) {
          camera["target"] = {1, 1, 2};
+     }},
+    {"Sequence", "camera", "times rise, and a target is not its eye",
+     [](json&, json& sequence) {
+         int time = 0;
+         for (json& key : sequence["camera"]) key.update({{"time", ++time}, {"target", {2, 1, 1}}});
+     }},
+    {"Sequence", "interpolation", "there are keys to go between",
+     [](json&, json& sequence) {
+         sequence["camera"] = json::parse(R"([{"time": 0, "eye": [0, 0, 9], "target": [0, 0, 0]},
+                                              {"time": 1, "eye": [9, 0, 0], "target": [0, 0, 0]}])");
+     }},
+    {"CameraKey", "", "the target differs from the eye",
+     [](json&, json& key) {
+         key["target"] = {2, 1, 1};
      }},
     // --- clouds
     {"Cloud", "velocity", "where it stands at the scene's time is what counts",

@@ -55,13 +55,13 @@ void add_depths(std::vector<Row>& rows) {
 void add_surroundings(std::vector<Row>& rows) {
     for (const double intensity : {0.0, 0.001, 0.02, 0.3, 1.7, 20.0}) {
         SceneDraft draft = cloud(0.1);
-        draft.sky = {};
+        draft.sky = test::plain_draft().sky;
         draft.sky.intensity = intensity;
         rows.push_back({"sky_light " + std::to_string(intensity), Effect::kSkyLight, draft});
     }
     for (const double albedo : {0.0, 0.001, 0.03, 0.2, 0.8}) {
         SceneDraft draft = cloud(0.1);
-        draft.sky = {};
+        draft.sky = test::plain_draft().sky;
         draft.ground = Ground{-8, glm::dvec3(albedo)};
         rows.push_back({"ground_light " + std::to_string(albedo), Effect::kGroundLight, draft});
         draft.image.background = Background::kSky;
@@ -86,7 +86,7 @@ void add_surroundings(std::vector<Row>& rows) {
     rows.push_back({"sun_color, given", Effect::kSunColor, given});
     for (const double extinction : {0.0, 1e-5, 1e-3, 0.01, 0.05}) {
         SceneDraft draft = cloud(0.1);
-        draft.sky = {};
+        draft.sky = test::plain_draft().sky;
         draft.haze = Haze{extinction, -8, 4, glm::dvec3(1), 0.6};
         draft.ground = Ground{-8, glm::dvec3(0.2)};
         draft.image.background = Background::kSky;

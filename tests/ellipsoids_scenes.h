@@ -9,7 +9,7 @@
 namespace awan::test {
 
 inline SceneDraft scene_of(EllipsoidsCloud model) {
-    SceneDraft draft;
+    SceneDraft draft = plain_draft();
     draft.top_level_cubes = false;
     Cloud cloud;
     cloud.model = CloudModel::kEllipsoids;

@@ -215,7 +215,7 @@ TEST(GardnerPicture, RandomCloudsAreFiniteAndTheSameForAllThreads) {
         Whereabouts where;
         where.size = dice.log_between(1e-3, 1e5);
         where.middle = dice.chance(0.3) ? dice.any_vector(1e8) : glm::dvec3(0);
-        SceneDraft draft;
+        SceneDraft draft = test::plain_draft();
         draft.top_level_cubes = false;
         draft.look = Look::kGardner;
         for (int k = 1 + dice.below(2); k > 0; --k)

@@ -217,7 +217,7 @@ TEST(Generate, CubesAreScaledWithTheirParticles) {
 
 // What is made finer than a particle may be is made as wide as one may be, and keeps its mass.
 TEST(Generate, WhatIsTooFineKeepsItsMass) {
-    SceneDraft draft;
+    SceneDraft draft = test::plain_draft();
     draft.top_level_cubes = false;
     draft.clouds.emplace_back();
     draft.clouds[0].model = CloudModel::kSpheres;

@@ -36,7 +36,7 @@ using implicit::sample;
 using implicit::take_means;
 
 Scene scene_of(Cloud cloud, double time = 0) {
-    SceneDraft draft;
+    SceneDraft draft = test::plain_draft();
     draft.top_level_cubes = false;
     draft.clouds.push_back(std::move(cloud));
     draft.time = time;
@@ -131,7 +131,7 @@ TEST(ImplicitParticles, CoarseOnesAreFewAndLieWhereTheOthersDo) {
 
 // A lit picture of it, in which the grid of light is as fine as all of the cloud.
 Image picture_of(const ImplicitCloud& implicit, double density, std::uint64_t seed) {
-    SceneDraft draft;
+    SceneDraft draft = test::plain_draft();
     draft.top_level_cubes = false;
     draft.seed = seed;
     Cloud& cloud = draft.clouds.emplace_back();

@@ -26,6 +26,7 @@ ORDER = [
     ["core/planning"],
     ["core/climb"],
     ["core/sequence"],
+    ["core/flight_path"],
     ["core/pipeline"],
     ["core/accuracy"],
     ["server/document"],

@@ -51,7 +51,7 @@ SceneDraft nine_clouds() {
         add_cloud(list, {9.0 * (i % 3 - 1) + i / 3, 0.8 * (i % 2), 10.0 * (i / 3 - 1)},
                   1.2 + 0.25 * (i * 4 % 9), 12, 100 + static_cast<unsigned>(i));
     SceneDraft draft = field_of(list);
-    draft.sky = Sky{};
+    draft.sky = test::plain_draft().sky;
     draft.sun.intensity = 40;
     draft.sun.elevation = 25;
     draft.sun.azimuth = 70;
@@ -130,7 +130,7 @@ TEST(Islands, TwoFarCloudsHaveTheirOwnLight) {
     add_cloud(both, {120, 0, -20}, 2, 15, 2);
     SceneDraft alone = field_of(one), pair = field_of(both);
     for (SceneDraft* draft : {&alone, &pair}) {
-        draft->sky = Sky{};
+        draft->sky = test::plain_draft().sky;
         draft->sun.elevation = 60;
         draft->camera.eye = {0, 0, 12};
         draft->image.background = Background::kTransparent;
@@ -154,6 +154,7 @@ TEST(Islands, ShadowsOfOthersAreInTheDepthFromTheSun) {
     const ParticleSet own{{stage.particles.center[0]},
                           {stage.particles.radius[0]},
                           {stage.particles.density[0]},
+                          {},
                           {},
                           {}};
     const SunDepth sun =

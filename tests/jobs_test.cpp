@@ -157,6 +157,48 @@ TEST_F(JobsTest, SequencesBecomeAnimations) {
     EXPECT_EQ(renderer.begun(), 3);
 }
 
+TEST_F(JobsTest, FlightsAreAnimationsAndReports) {
+    const auto fly = [](const std::string& more) {
+        return R"({"kind":"fly",)" + more + R"("scene":)" + std::string(kScene) + "}";
+    };
+    // The fake renderer's picture is of any scene; planned are the flight's frames.
+    const json job = submit(fly(R"("path":"through","mode":"thick","frames":3,"rung":"harris",)"));
+    ASSERT_TRUE(reaches(job, "done")) << state_of(job);
+    EXPECT_EQ(state_of(job)["kind"], "fly");
+    const Response film = get(job["result"]);
+    EXPECT_EQ(film.header("Content-Type"), "image/webp");
+    EXPECT_TRUE(film.body.starts_with("RIFF"));
+    EXPECT_EQ(renderer.begun(), 3);
+    const json told = submit(fly(R"("format":"json","frames":2,)"));
+    ASSERT_TRUE(reaches(told, "done")) << state_of(told);
+    const Response answer = get(told["result"]);
+    EXPECT_EQ(answer.header("Content-Type"), "application/json");
+    const json report = json::parse(answer.body);
+    EXPECT_EQ(report["path"], "orbit");
+    EXPECT_EQ(report["frames"], 2);
+    EXPECT_EQ(report["each"].size(), 2U);
+    EXPECT_EQ(report["each"][0]["particles"], 20);
+    EXPECT_EQ(report["each"][1]["in_view"], 20);
+    EXPECT_GT(report["fps"], 0);
+    const json packed = submit(fly(R"("format":"zip","frames":1,"rung":"harris",)"));
+    ASSERT_TRUE(reaches(packed, "done")) << state_of(packed);
+    const Response archive = get(packed["result"]);
+    for (const char* const name : {"frame.0000.png", "report.json", "report.txt"})
+        EXPECT_NE(archive.body.find(name), std::string::npos) << name;
+
+    expect_problem(post("/v1/jobs", fly(R"("path":"loop",)")), 422, "/path");
+    expect_problem(post("/v1/jobs", fly(R"("path":"keys",)")), 422, "/scene/sequence/camera");
+    expect_problem(post("/v1/jobs", fly(R"("mode":"solid",)")), 422, "/mode");
+    expect_problem(post("/v1/jobs", fly(R"("rung":"best",)")), 422, "/rung");
+    expect_problem(post("/v1/jobs", fly(R"("format":"png",)")), 422, "/format");
+    for (const char* const frames : {"0", "10001", "-1", "1.5", "\"3\"", "[3]", "true"})
+        expect_problem(post("/v1/jobs", fly(R"("frames":)" + std::string(frames) + ",")), 422,
+                       "/frames");
+    const std::string render =
+        R"({"kind":"render","mode":"thin","scene":)" + std::string(kScene) + "}";
+    expect_problem(post("/v1/jobs", render), 422, "/mode");
+}
+
 TEST_F(JobsTest, FailuresAreResultsToo) {
     ServiceOptions options = with_fake({});
     options.on_processor = [](const Scene&, Planned, int, const Progress&,

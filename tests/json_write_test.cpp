@@ -198,6 +198,7 @@ TEST(ParticlesJson, AMillionParticlesAreWrittenAndReadInSeconds) {
 TEST(PlanToJson, IsFiniteJsonWithTheFieldsThatScriptsRead) {
     Survey survey;
     survey.particles = 3;
+    survey.cloud_density = {0.5, 7};
     survey.bounds = {{-1, -2, -3}, {1, 2, 3}};
     survey.volume.cells = {4, 5, 6};
     survey.volume.cell = 0.5;
@@ -218,6 +219,7 @@ TEST(PlanToJson, IsFiniteJsonWithTheFieldsThatScriptsRead) {
     const json answer = json::parse(plan_to_json(survey, plan));
     const json& figures = answer["survey"];
     EXPECT_EQ(figures["particles"], 3);
+    EXPECT_EQ(figures["density"], json({0.5, 7}));
     EXPECT_EQ(figures["bounds"], json({{"min", {-1, -2, -3}}, {"max", {1, 2, 3}}}));
     EXPECT_EQ(figures["optical_depth"], json({{"sun", 1.5}, {"zenith", nullptr}, {"eye", 0}}));
     EXPECT_EQ(figures["projected_px"], json({{"min", 2}, {"max", nullptr}}));

@@ -58,7 +58,7 @@ TEST(KeptLight, IsThatOfTheSwitchesOfThePicture) {
     }
     SceneDraft plain = lit();
     plain.sun.auto_color = false;
-    plain.sky = Sky{};
+    plain.sky = test::plain_draft().sky;
     expect_own_light(plain, lights, "another sun and sky");
     for (const Effect effect : {Effect::kSunColor, Effect::kSkyLight}) {
         SceneDraft draft = plain;

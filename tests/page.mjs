@@ -109,7 +109,8 @@ const tests = {
     const coarse = renders.slice(from).filter(({ scene }) => scene.image.width < before.width);
     assert.deepEqual(coarse.filter(({ state }) => state !== "done"), [], "no coarse picture is cancelled");
     assert.deepEqual(coarse[0].scene.accuracy, { time_ms: 120 });
-    assert.ok(coarse.every(({ scene }) => scene.detail === undefined), "lumps hardly show, and cost half of the time");
+    const quick = coarse.filter(({ scene }) => scene.accuracy?.time_ms === 120);
+    assert.ok(quick.every(({ scene }) => scene.detail === "none"), "lumps hardly show, and cost half of the time");
     const after = await look(page);
     assert.equal(after.width, before.width);
     assert.notEqual(after.hash, before.hash);
@@ -135,19 +136,17 @@ const tests = {
 
   async "sets daylight, ground, haze and detail, and takes them back"(page) {
     const sent = () => renders[renders.length - 1].scene;
-    const before = sent();
     const sun = group(page, "Sun"), sky = group(page, "Sky");
     const automatic = sun.getByLabel("Colour from its elevation"), model = sky.getByLabel("Model");
     const { hash } = await look(page);
-    await automatic.check();
+    assert.equal(await model.inputValue(), "physical");
+    assert.equal(await automatic.isChecked(), true);
     assert.equal(await sun.getByLabel("Colour", { exact: true }).isVisible(), false);
-    await model.selectOption("physical");
     assert.equal(await sky.getByLabel("Zenith").isVisible(), false);
-    assert.equal(await sky.getByLabel("Intensity, number").inputValue(), "0.55");
+    assert.equal(await sky.getByLabel("Intensity, number").inputValue(), "1");
     await sky.getByLabel("Turbidity, number").fill("5");
     await settled(page);
-    assert.equal(sent().sun.color, "auto");
-    assert.deepEqual(sent().sky, { model: "physical", turbidity: 5 });
+    assert.deepEqual(sent().sky, { turbidity: 5 });
     assert.notEqual((await look(page)).hash, hash);
     await model.selectOption("gradient");
     await automatic.uncheck();
@@ -165,14 +164,17 @@ const tests = {
     }
     await settled(page);
     const { ground, haze, detail, sky: gradient, sun: light } = sent();
-    assert.deepEqual(gradient, { ...before.sky, turbidity: 5 }, "the gradient is as it was, in the same air");
-    assert.deepEqual(light.color, before.sun?.color);
+    assert.deepEqual(gradient, { model: "gradient", turbidity: 5 }, "in the same air");
+    assert.deepEqual(light.color, [1, 1, 1]);
     assert.deepEqual([ground.height, haze.extinction, detail.amount], [-9, 0.02, 0.25]);
     assert.ok(haze.scale_height > 0);
     for (const box of switches) await box.uncheck();
     for (const title of ["Ground", "Haze", "Detail"]) await group(page, title).locator("summary").click();
     await settled(page);
-    assert.deepEqual([sent().ground, sent().haze, sent().detail], [undefined, undefined, undefined]);
+    assert.deepEqual([sent().ground, sent().haze, sent().detail], [undefined, undefined, "none"]);
+    await model.selectOption("physical");
+    await automatic.check();
+    await settled(page);
     assert.equal(await page.textContent("#alert"), "");
   },
 
@@ -344,6 +346,8 @@ const tests = {
     assert.match(await page.textContent("#time"), /ms of .* m?s/);
 
     // Begun, cancelled, begun anew: only the last comes.
+    const calls = []; // of jobs
+    page.on("request", (request) => { if (/\/v1\/jobs/.test(request.url())) calls.push(request.method()); });
     const button = page.getByRole("button", { name: "What does accuracy cost?" });
     await button.click();
     await page.waitForSelector('#sweep[open][aria-busy="true"]');
@@ -351,13 +355,46 @@ const tests = {
     await page.getByRole("button", { name: "Cancel" }).click();
     await page.waitForSelector("#sweep:not([open])", { state: "attached" });
     assert.equal(await page.textContent("#alert"), "", "to cancel is no error");
+    for (let i = 0; i < 50 && calls.at(-1) !== "DELETE"; i += 1) await page.waitForTimeout(100);
+    assert.equal(calls.at(-1), "DELETE", "the service is told");
+    const ticks = () => page.$$eval(".ladder .measured", (all) => all.length);
+    assert.equal(await ticks(), 0);
     await scene((document) => ({ ...document, image: { width: 16, height: 12 } }));
-    await page.waitForTimeout(300); // until the service has seen that nobody waits for the first
     await button.click();
+    await page.waitForSelector('#sweep[aria-busy="false"]', { timeout: patience * 120_000 });
+    const points = page.locator(".accuracy-plot .point");
+    assert.ok(await points.count() >= 4, "a point for every rung");
+    // A point is where its figures are, and chooses its rung.
+    const places = await points.evaluateAll((all) => all.map((one) => {
+      const { left, top, width } = one.getBoundingClientRect();
+      return { name: one.getAttribute("aria-label"), x: left + width / 2, y: top };
+    }));
+    const figures = places.map(({ name }) => Number(/: ([\d.e+]+) %/.exec(name)[1]));
+    places.forEach((a, i) => places.forEach((b, k) => {
+      if (figures[i] > 1.2 * figures[k]) assert.ok(a.y < b.y, `${a.name} is above ${b.name}`);
+      if (i < k) assert.ok(a.x <= b.x + 0.01, `${a.name} is left of ${b.name}`);
+    }));
+    await points.filter({ hasText: "transport-16" }).click();
+    assert.equal(await points.filter({ hasText: "transport-16" }).getAttribute("aria-pressed"), "true");
+    await page.getByRole("button", { name: "With the picture of every rung" }).click();
     await page.waitForFunction(() => document.querySelector("#sweep-plot").naturalWidth === 1120, null, { timeout: patience * 60_000 });
     await page.waitForSelector('#sweep[aria-busy="false"]');
     await page.keyboard.press("Escape");
     await page.waitForSelector("#sweep:not([open])", { state: "attached" });
+    await settled(page);
+    assert.deepEqual(renders.at(-1).scene.accuracy, { rung: "transport-16" });
+    // What was measured stands at the track, as long as the document is the same but for its accuracy.
+    assert.ok(await ticks() >= 8);
+    assert.match(await page.getAttribute(".ladder input", "aria-valuetext"), /^transport-16: measured /);
+    await scene((document) => ({ ...document, seed: 99 }));
+    assert.equal(await ticks(), 0);
+    await page.click("#undo");
+    await settled(page);
+    assert.ok(await ticks() >= 8, "and again, when it is");
+    await button.click(); // it is known
+    await page.waitForSelector('#sweep[open][aria-busy="false"]');
+    assert.ok(await points.count() >= 4);
+    await page.getByRole("button", { name: "Close", exact: true }).click();
     await choose(page, "cumulus");
   },
 

@@ -176,6 +176,21 @@ export async function download(page, click) {
   return { name: file.suggestedFilename(), bytes: fs.readFileSync(await file.path()) };
 }
 
+// The buttons and choices within `selector` that nobody has used since; by what they are called, or by their key.
+export async function watchControls(page, selector) {
+  await page.evaluate((within) => {
+    window.usedControls = new Set();
+    const used = (event) => {
+      const control = event.target.closest?.("button, select, input");
+      if (control?.closest(within)) window.usedControls.add(control);
+    };
+    for (const type of ["click", "change", "input", "pointerdown"]) document.addEventListener(type, used, { capture: true });
+  }, selector);
+  return () => page.evaluate((within) => [...document.querySelectorAll(within)].flatMap((part) => [...part.querySelectorAll("button, select, input")])
+    .filter((control) => !window.usedControls.has(control))
+    .map((control) => control.getAttribute("aria-label") || control.labels?.[0]?.textContent || control.textContent), selector);
+}
+
 // Runs tests by name, one after the other on one page at `address`, up to the first that fails. True when all passed.
 export async function runTests(tests, address) {
   try {

@@ -121,7 +121,7 @@ const near = (a, b) => a === b || (typeof a === "number" && Math.abs(a - b) <= 0
 
 // What a control shows where the document is silent.
 function isShown({ pointer, shown, standard }) {
-  if (pointer === "/image/exposure") return standard === "auto"; // the automatic one has a box of its own
+  if (["/image/exposure", "/density"].includes(pointer)) return standard === "auto"; // the automatic one has a box of its own
   if (standard === null) return shown.every((one) => typeof one !== "number" || Number.isNaN(one)); // in words, if at all
   const wanted = [standard].flat();
   const asByte = /color|zenith|horizon/.test(pointer);

@@ -59,6 +59,18 @@ try {
 
   // --- axe-core and screenshots ---
   const page = await open("/#cumulus");
+  // A measurement as the service gives it, at once; the first look at the job finds it half done.
+  let looks = 0;
+  await page.route("**/v1/jobs", (route) => route.fulfill({ status: 202, headers: { Location: "/v1/jobs/1" }, json: {} }));
+  await page.route("**/v1/jobs/1", (route) => {
+    looks += 1;
+    return route.fulfill({ json: { id: "1", state: looks % 8 ? "running" : "done", progress: (looks % 8) / 8 } });
+  });
+  await page.route("**/v1/jobs/1/result", (route) => route.fulfill({ json: {
+    rungs: [["harris", 30, 0.9], ["additive", 34, 7.5], ["single", 60, 0.93], ["transport-16", 41, 0.028], ["transport-24", 43, 0.013],
+      ["transport-48", 42, 0.0076], ["transport-32", 70, 0.012]].map(([rung, ms, error]) => ({ rung, time_ms: ms, error })),
+    left_out: [{ rung: "transport-64", reason: "it was not done in the 2 s that were left" }],
+  } }));
   for (const scheme of ["light", "dark"]) {
     await page.emulateMedia({ colorScheme: scheme, reducedMotion: "reduce" });
     await page.setViewportSize({ width: 1440, height: 900 });
@@ -70,6 +82,23 @@ try {
     await page.waitForSelector("#drafts[open]");
     await shot(page, `drafts-${scheme}`);
     await clean(page, `the drafts, ${scheme}`);
+    await page.keyboard.press("Escape");
+    await page.getByRole("button", { name: "What does accuracy cost?" }).click();
+    await page.waitForSelector("#sweep[open] progress:not([hidden])");
+    await clean(page, `accuracy being measured, ${scheme}`);
+    await page.waitForSelector('#sweep[aria-busy="false"]');
+    await shot(page, `accuracy-${scheme}`);
+    await clean(page, `what accuracy costs, ${scheme}`);
+    await page.setViewportSize({ width: 390, height: 844 });
+    await shot(page, `accuracy-phone-${scheme}`);
+    await clean(page, `what accuracy costs, on a phone, ${scheme}`);
+    await page.setViewportSize({ width: 1440, height: 900 });
+    // Names of points hide no other.
+    const over = await page.$$eval(".accuracy-plot .point span", (all) => {
+      const boxes = all.map((one) => one.getBoundingClientRect());
+      return boxes.flatMap((a, i) => boxes.slice(0, i).filter((b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom)).length;
+    });
+    assert.equal(over, 0, "names over names");
     await page.keyboard.press("Escape");
     await group(page, "Sun").getByLabel("Elevation, °").fill("200");
     await page.waitForSelector("#alert:not(:empty)");

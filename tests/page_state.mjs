@@ -14,6 +14,12 @@ const button = (page, name) => page.getByRole("button", { name, exact: true });
 const kept = (page) => page.waitForTimeout(500);
 
 const tests = {
+  async "says that it cannot fly where nothing can be drawn"(page) {
+    await button(page, "Fly").click();
+    await noteSays(page, "Flying needs WebGL");
+    assert.equal(await page.$eval("#stage", (stage) => stage.classList.contains("flying")), false);
+  },
+
   async "keeps undo across a reload"(page) {
     await choose(page, "cumulus");
     for (const degrees of ["11", "12", "13"]) {

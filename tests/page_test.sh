@@ -23,8 +23,9 @@ stop() {
 }
 trap 'stop; rm -rf "$scratch"' EXIT
 
-patience=540
-[ -z "${AWAN_SANITIZED:-}" ] || patience=1700
+patience=900
+deadline=4 # of the server that has little time
+[ -z "${AWAN_SANITIZED:-}" ] || { patience=1700; deadline=40; }
 
 # use SCRIPT ARGUMENTS...: a server with these flags, and the script in $arguments against it.
 use() {
@@ -57,6 +58,10 @@ use page_form.mjs
 rm -rf "$scratch/profile"
 use page_looks.mjs
 AWAN_PAGE_GL=1 use page_workspace.mjs
+rm -rf "$scratch/profile"
+AWAN_PAGE_GL=1 use page_flight.mjs
+rm -rf "$scratch/profile"
+use page_deadline.mjs --deadline $deadline
 echo 0123456789abcdef >"$scratch/token"
 arguments=0123456789abcdef
 use page_token.mjs --token-file "$scratch/token"

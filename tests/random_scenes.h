@@ -14,6 +14,7 @@
 
 #include "core/scene/limits.h"
 #include "core/scene/scene.h"
+#include "tests/scenes.h"
 
 namespace awan::test {
 
@@ -174,7 +175,7 @@ inline void random_camera(Dice& dice, const Whereabouts& where, const SceneDraft
 
 // A furnace has no sun and a sky of radiance 1 all round: nothing in it may be brighter than 1.
 struct RandomScene {
-    SceneDraft draft;
+    SceneDraft draft = test::plain_draft();
     bool furnace = false;
 };
 

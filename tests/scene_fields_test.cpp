@@ -80,7 +80,10 @@ const char* const kDocuments[] = {
                      "threshold_edge": 0.7, "range": 0.3}],
      "drift": [0.4, 0.1, 0.2], "density": 0.9, "resolution": 30}}
 ],
-"fill": "printed", "seed": 5, "density": 0.25, "time": 1.5, "sequence": {"from": -4, "to": 12, "frames": 9},
+"fill": "printed", "seed": 5, "density": 0.25, "time": 1.5, "sequence": {
+  "from": -4, "to": 12, "frames": 9, "interpolation": "linear", "clouds": "move",
+  "camera": [{"time": -4, "eye": [1, 2, 90], "target": [0, 1, 2], "fov": 35},
+             {"time": 12, "eye": [60, 2, 70], "target": [0, 1, 3], "fov": 25}]},
 "medium": {"albedo": 0.95, "g": 0.7, "phase": "cornette-shanks"},
 "sun": {"elevation": 30, "azimuth": 40, "color": [0.9, 0.8, 0.7], "intensity": 8},
 "sky": {"model": "gradient", "zenith": [0.1, 0.2, 0.3], "horizon": [0.4, 0.5, 0.6], "intensity": 0.9},
@@ -89,7 +92,7 @@ const char* const kDocuments[] = {
 "detail": {"amount": 0.6, "size": 1.25},
 "camera": {"eye": [1, 2, 90], "target": [0, 1, 2], "up": [0.1, 1, 0.05], "fov": 35},
 "image": {"width": 320, "height": 200, "format": "exr", "background": "transparent", "exposure": 0.5,
-          "precision": "float"},
+          "precision": "float", "tone": "reinhard"},
 "effects": {"self_shadow": true, "multiple_scattering": false, "view_extinction": true, "sky_light": false,
             "ground_light": true, "ground_shadow": false, "sun_color": true, "aerial_perspective": false,
             "light_shafts": true, "detail": false, "interior": false, "texture": false},
@@ -98,7 +101,7 @@ const char* const kDocuments[] = {
     R"({
 "cubes": [{"particles": 40, "size": [3, 1, 2], "center": [1, 2, 3], "radius": 1.5, "density": 2}],
 "sun": {"direction": [0.3, 0.5, 0.4], "color": "auto"},
-"sky": {"model": "physical", "turbidity": 3, "intensity": 0.7},
+"sky": {"model": "physical", "daylight": "preetham", "turbidity": 3, "intensity": 0.7},
 "ground": {"albedo": 0.4}, "haze": {"extinction": 0.01, "scale_height": 20, "albedo": 0.8},
 "image": {"exposure": "auto"}, "accuracy": {"time_ms": 200}
 })",
@@ -144,9 +147,15 @@ const char* const kWords[] = {"uniform",
                               "horizontal",
                               "vertical",
                               "combined",
+                              "move",
+                              "stand",
                               "clean",
                               "physical",
                               "gradient",
+                              "scattered",
+                              "preetham",
+                              "neutral",
+                              "reinhard",
                               "ostroushko",
                               "transport-32"};
 
@@ -172,7 +181,7 @@ const std::map<std::string, std::string> kSaysNothing = {
 // Beginnings of what light does not depend on: the light of a cloud is the same for every picture of it.
 const char* const kPictureOnly[] = {"/camera", "/image",    "/haze",   "/accuracy",
                                     "/look",   "/sequence", "/effects"};
-const char* const kLightToo[] = {"/effects/sun_color"};
+const char* const kLightToo[] = {"/effects/sun_color", "/sequence/clouds"};
 
 bool begins(const std::string& path, const char* with) {
     const std::string beginning = with;

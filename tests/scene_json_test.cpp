@@ -28,7 +28,9 @@ TEST(SceneJson, TheSmallestDocumentHasEveryDefault) {
     EXPECT_EQ(cube.radius, 2.1);
     EXPECT_EQ(cube.density, 1);
     EXPECT_EQ(draft.seed, 1u);
-    EXPECT_EQ(draft.fill, Fill::kUniform);
+    EXPECT_EQ(draft.fill, Fill::kCumulus);
+    EXPECT_TRUE(draft.sky.physical && draft.sun.auto_color);
+    EXPECT_TRUE(draft.detail && draft.detail->automatic);
     EXPECT_FALSE(draft.density);
     EXPECT_TRUE(draft.camera.automatic);
     EXPECT_EQ(draft.image.width, standard.image.width);
@@ -107,7 +109,7 @@ TEST(SceneJson, ReadsAPhysicalSkyHazeGroundAndDetail) {
     EXPECT_TRUE(word.sky.physical);
     EXPECT_FALSE(word.sky.none);
     EXPECT_EQ(word.sky.intensity, kPhysicalSkyIntensity);
-    EXPECT_EQ(word.sky.turbidity, 3);
+    EXPECT_EQ(word.sky.turbidity, 2);
     EXPECT_TRUE(word.sun.auto_color);
     const SceneDraft full = draft_of(scene_with(
         R"("sky": {"model": "physical", "turbidity": 5, "intensity": 0.5},
@@ -117,7 +119,8 @@ TEST(SceneJson, ReadsAPhysicalSkyHazeGroundAndDetail) {
     EXPECT_TRUE(full.sky.physical);
     EXPECT_EQ(full.sky.turbidity, 5);
     EXPECT_EQ(full.sky.intensity, 0.5);
-    EXPECT_FALSE(full.sun.auto_color);
+    EXPECT_TRUE(full.sun.auto_color);
+    EXPECT_FALSE(full.detail->automatic);
     ASSERT_TRUE(full.ground && full.haze && full.detail);
     EXPECT_EQ(full.ground->height, -2);
     EXPECT_EQ(full.ground->albedo, glm::dvec3(0.1, 0.2, 0.3));
@@ -135,7 +138,18 @@ TEST(SceneJson, ReadsAPhysicalSkyHazeGroundAndDetail) {
         EXPECT_EQ(draft_of(scene_with(std::string("\"sky\": ") + sky)).sky.intensity,
                   kPhysicalSkyIntensity);
     EXPECT_EQ(draft_of(scene_with(R"("sky": {"model": "gradient"})")).sky.intensity,
-              Sky{}.intensity);
+              kGradientSkyIntensity);
+    // Colours of a gradient make it one, whatever the order.
+    for (const char* const colors :
+         {R"("sky": {"zenith": [0, 0, 1]})", R"("sky": {"intensity": 2, "horizon": [1, 1, 1]})"})
+        EXPECT_FALSE(draft_of(scene_with(colors)).sky.physical) << colors;
+    EXPECT_EQ(draft_of(scene_with(R"("sky": {"zenith": [0, 0, 1]})")).sky.intensity,
+              kGradientSkyIntensity);
+    EXPECT_TRUE(draft_of(scene_with(R"("sky": {"turbidity": 5})")).sky.physical);
+    EXPECT_TRUE(draft_of(scene_with(R"("detail": "auto")")).detail->automatic);
+    EXPECT_FALSE(draft_of(scene_with(R"("detail": "none")")).detail);
+    EXPECT_FALSE(draft_of(scene_with(R"("density": "auto")")).density);
+    EXPECT_FALSE(draft_of(scene_with(R"("sun": {"color": [1, 1, 1]})")).sun.auto_color);
     // A number stands for a grey albedo.
     EXPECT_EQ(draft_of(scene_with(R"("haze": {"extinction": 1, "scale_height": 1, "albedo": 0.5})"))
                   .haze->albedo,

@@ -23,6 +23,20 @@ inline Scene valid(SceneDraft draft) {
     return *std::move(scene);
 }
 
+// A scene in the plainest light, for what does not test what a document gets by itself: boxes filled evenly at a fixed
+// density, without detail, under a gradient and a sun of its own colour.
+inline SceneDraft plain_draft() {
+    SceneDraft draft;
+    draft.fill = Fill::kUniform;
+    draft.density = kDefaultDensity;
+    draft.detail = std::nullopt;
+    draft.sun.auto_color = false;
+    draft.sun.azimuth = 60;
+    draft.sky.physical = false;
+    draft.sky.intensity = kGradientSkyIntensity;
+    return draft;
+}
+
 struct Ball {
     glm::dvec3 center{0};
     double radius = 1;  // 2 s
@@ -35,7 +49,7 @@ struct Ball {
 // Ready particles, a black sky, a sun of irradiance 1 overhead-right, the eye on the +z axis
 // looking at the origin.
 inline SceneDraft balls(const std::vector<Ball>& list) {
-    SceneDraft draft;
+    SceneDraft draft = plain_draft();
     draft.top_level_cubes = false;
     Cloud cloud;
     cloud.model = CloudModel::kParticles;
@@ -61,7 +75,7 @@ inline SceneDraft balls(const std::vector<Ball>& list) {
 }
 
 inline SceneDraft table_4_4() {
-    SceneDraft draft;
+    SceneDraft draft = plain_draft();
     draft.clouds.push_back({});
     draft.clouds[0].cubes = {
         {200, {7.39642, 1.07048, 2.89284}, {-3.4, -3.3, -0.600002}, 2.1, 1, {}},

@@ -212,7 +212,7 @@ TEST_F(ServiceTest, AcceptChoosesTheImageAndElseTheDocument) {
 
 TEST_F(ServiceTest, TagsNameTheAnswerAndNotItsSpelling) {
     const std::string respelled =
-        R"({ "seed": 7.0, "accuracy": { "rung" : "harris" }, "image": {"height": 8, "width": 16}, "fill": "uniform",)"
+        R"({ "seed": 7.0, "accuracy": { "rung" : "harris" }, "image": {"height": 8, "width": 16}, "fill": "cumulus",)"
         R"("cubes":[{"radius":5e-1,"size":[2,1,2],"particles":20,"center":[0,0,0]}]})";
     std::set<std::string> tags;
     for (const char* path : {"/v1/particles", "/v1/render", "/v1/plan"}) {

@@ -347,8 +347,9 @@ TEST(Scene, EqualScenesHaveEqualFingerprintsHoweverWritten) {
     EXPECT_EQ(plain.find_first_not_of("0123456789abcdef"), std::string::npos);
     for (const std::string& same :
          {scene_with(R"("seed": 1.0)"), scene_with(R"("camera": "auto")"),
-          scene_with("\"density\": " + std::to_string(kDefaultDensity)),
-          scene_with(R"("effects": {"detail": "auto"})"), scene_with(R"("sun": {"azimuth": 420})"),
+          scene_with(
+              R"("density": "auto", "detail": "auto", "sky": "physical", "fill": "cumulus")"),
+          scene_with(R"("effects": {"detail": "auto"})"), scene_with(R"("sun": {"azimuth": 470})"),
           std::string(R"({"clouds": [{"cubes": [)") + kCube + "]}]}",
           std::string(R"({"seed": 5, "clouds": [{"seed": 1, "cubes": [)") + kCube + "]}]}"})
         EXPECT_EQ(print(same) == plain, same.find("\"seed\": 5") == std::string::npos) << same;
@@ -397,12 +398,17 @@ TEST(Scene, ScenesThatDifferInOneValueHaveDifferentFingerprints) {
           R"("sky": {"zenith": [0, 0, 1]})",
           R"("sky": {"horizon": [0, 0, 1]})",
           R"("sky": {"intensity": 2})",
-          R"("sky": "physical")",
+          R"("sky": "gradient")",
           R"("sky": {"model": "physical", "turbidity": 4})",
-          R"("sky": {"model": "physical", "intensity": 2})",
-          R"("sun": {"color": "auto"})",
-          R"("sun": {"color": "auto"}, "sky": {"turbidity": 4})",
-          R"("sun": {"color": "auto"}, "effects": {"sun_color": false})",
+          R"("sky": {"daylight": "preetham"})",
+          R"("sky": {"model": "gradient", "intensity": 2})",
+          R"("sun": {"color": [0.5, 1, 1]})",
+          R"("sky": "gradient", "sun": {"color": [0.5, 1, 1]})",
+          R"("sky": {"model": "gradient", "turbidity": 4})",
+          R"("effects": {"sun_color": false})",
+          R"("detail": "none")",
+          R"("fill": "stratus")",
+          R"("density": 0.2)",
           R"("ground": {})",
           R"("ground": {"height": 1})",
           R"("ground": {"albedo": 0.5})",

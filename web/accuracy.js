@@ -1,12 +1,12 @@
 // How accurate the picture shall be: the choice, what is predicted of it, and what accuracy costs
 // this scene, measured on request.
 
-import * as api from "./api.js";
 import { group, select, slider } from "./controls.js";
 import { at } from "./document.js";
-import { byId, el, plain } from "./dom.js";
-import { createLadder } from "./ladder.js";
+import { el, plain } from "./dom.js";
+import { createLadder, errorText, timeText } from "./ladder.js";
 import { fieldAt, scaled, standardAt } from "./schema.js";
+import { createSweep } from "./sweep.js";
 
 const WAYS = [
   ["error", "largest error"],
@@ -18,63 +18,6 @@ const FIRST = { error: standardAt({}, "/accuracy/error"), time_ms: 500, rung: "h
 
 export const percent = (error) => `${plain(100 * error, 2)} %`;
 export const duration = (ms) => (ms >= 1000 ? `${plain(ms / 1000, 2)} s` : `${plain(ms, 2)} ms`);
-
-const isDark = () => window.matchMedia("(prefers-color-scheme: dark)").matches;
-
-// The plot of what accuracy costs, in a dialog that can be closed while it is made.
-function createSweep(store, failed) {
-  const dialog = byId("sweep");
-  const image = byId("sweep-plot");
-  const busy = byId("sweep-busy");
-  let flight = null;
-  let url = null;
-
-  function forget() {
-    flight?.abort();
-    flight = null;
-    image.hidden = true;
-    image.removeAttribute("src");
-    if (url) URL.revokeObjectURL(url);
-    url = null;
-  }
-  async function begin() {
-    forget();
-    const mine = new AbortController();
-    flight = mine;
-    const started = performance.now();
-    const tick = () => {
-      busy.textContent = `Tracing the truth and timing every rung: ${Math.round((performance.now() - started) / 1000)} s, usually under 30 s.`;
-    };
-    tick();
-    const clock = setInterval(tick, 1000);
-    busy.hidden = false;
-    dialog.setAttribute("aria-busy", "true");
-    byId("sweep-close").textContent = "Cancel";
-    dialog.showModal();
-    try {
-      const blob = await api.accuracyPlot(store.text, { dark: isDark(), signal: mine.signal });
-      url = URL.createObjectURL(blob);
-      image.src = url;
-      await image.decode().catch(() => {});
-      image.hidden = false;
-      busy.hidden = true;
-    } catch (error) {
-      if (mine.signal.aborted) return; // closed, or begun anew
-      dialog.close();
-      failed(error);
-    } finally {
-      clearInterval(clock);
-      if (flight === mine) {
-        flight = null;
-        dialog.setAttribute("aria-busy", "false");
-        byId("sweep-close").textContent = "Close";
-      }
-    }
-  }
-  byId("sweep-close").addEventListener("click", () => dialog.close());
-  dialog.addEventListener("close", forget); // by Escape, too
-  return { begin };
-}
 
 export function createAccuracyPanel(store, { failed, open }) {
   const way = () => WAYS.map(([name]) => name).find((name) => at(store.scene, `/accuracy/${name}`) !== undefined) ?? "error";
@@ -105,7 +48,12 @@ export function createAccuracyPanel(store, { failed, open }) {
   const rungs = fields.rung.element.querySelector("select");
   const predicted = el("p", { class: "why", id: "predicted" });
   const simulates = el("p", { class: "why" });
-  const sweep = createSweep(store, failed);
+  let planned = ""; // the rung of the last plan
+  const here = () => (way() === "rung" ? value("rung") : planned);
+  const sweep = createSweep(store, {
+    choose: (name) => choose("rung", name), rung: here, failed, timeText, errorText,
+    measured: () => ladder.measured(sweep.figures),
+  });
   const ask = el("button", { type: "button", id: "ask-accuracy", onclick: sweep.begin }, "What does accuracy cost?");
 
   // A rung that a document names is there before the first plan, and if there is none of that name.
@@ -122,7 +70,9 @@ export function createAccuracyPanel(store, { failed, open }) {
     refresh() {
       offer(known);
       by.refresh();
+      ladder.measured(sweep.figures);
       if (way() === "rung") ladder.show(value("rung"));
+      sweep.refresh();
       for (const [name, field] of Object.entries(fields)) {
         field.element.hidden = name !== way();
         field.refresh();
@@ -132,10 +82,12 @@ export function createAccuracyPanel(store, { failed, open }) {
     forget() {
       predicted.textContent = simulates.textContent = "";
       ladder.offer([], "");
+      sweep.forget();
     },
     // The answer of /v1/plan.
     plan({ rung, rung_reason: reason, predicted: expected, rungs: all }) {
       known = (all ?? []).map((one) => one.rung);
+      planned = rung ?? "";
       ladder.offer(all ?? [], rung);
       const said = [];
       if (typeof expected?.error === "number") said.push(`error ${percent(expected.error)}`);

@@ -6,17 +6,9 @@ import { whyNoLayout } from "./document.js";
 import { byId, el } from "./dom.js";
 import { documentOf } from "./opening.js";
 import { placeName } from "./problems.js";
+import { save } from "./saving.js";
 import { linkTo } from "./share.js";
 import { hasToken } from "./token.js";
-
-function save(blob, name) {
-  const url = URL.createObjectURL(blob);
-  const link = el("a", { href: url, download: name });
-  document.body.append(link);
-  link.click();
-  link.remove();
-  setTimeout(() => URL.revokeObjectURL(url), 60_000); // large files are still being written
-}
 
 // Browsers give pages the clipboard only over https or from localhost; the old way works everywhere.
 export async function copy(text) {

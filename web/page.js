@@ -103,9 +103,12 @@ const stage = createStage({
     return time.canMove;
   },
 });
-const workspace = createWorkspace(store, choice, { bounds, letGo: () => loop.letGo(), chosen: refreshControls, failed: fail, note: say });
+const fileName = () => store.preset || store.work.title.replace(/[^\w-]+/g, "-").toLowerCase() || "cloud";
+const workspace = createWorkspace(store, choice, {
+  bounds, letGo: () => loop.letGo(), chosen: refreshControls, seen: () => loop.changed({ moving: false }), failed: fail, note: say, name: fileName,
+});
 const files = createFiles(store, {
-  name: () => store.preset || store.work.title.replace(/[^\w-]+/g, "-").toLowerCase() || "cloud",
+  name: fileName,
   picture: () => wholePicture,
   failed: fail, note: say,
 });
@@ -166,17 +169,17 @@ function quickened(scene) {
   if (atOrDefault(scene, "/look") !== "physical" || isQuick(scene.accuracy ?? {})) return scene; // a look has no error
   // Lumps hardly show at the size of a coarse picture, and take half of its time; without them it can be lit as the whole
   // picture is, instead of with a glow alone.
-  const { detail: _lumps, ...smooth } = scene;
-  return { ...smooth, accuracy: kQuick };
+  return { ...scene, detail: "none", accuracy: kQuick };
 }
 function textFor({ reduction, quick }) {
-  if (reduction === 1 && !quick) return store.text;
-  const scene = quick ? coarser(quickened(store.scene), reduction) : store.scene;
+  const seen = workspace.seen(store.scene);
+  if (reduction === 1 && !quick && seen === store.scene) return store.text;
+  const scene = quick ? coarser(quickened(seen), reduction) : seen;
   const side = (member) => Math.max(1, Math.round(atOrDefault(scene, `/image/${member}`) / reduction));
   return compactJson(withAt(withAt(scene, "/image/width", side("width")), "/image/height", side("height")));
 }
 
-const MARKS = { "": "", coarse: "coarse, being refined", earlier: "of an earlier state" };
+const MARKS = { "": "", coarse: "coarse, being refined", unrefined: "coarse: the whole picture failed", earlier: "of an earlier state" };
 
 const loop = createRenderLoop({
   async render(how, signal) {
@@ -184,10 +187,11 @@ const loop = createRenderLoop({
     const width = atOrDefault(store.scene, "/image/width");
     const height = atOrDefault(store.scene, "/image/height");
     const transparent = atOrDefault(store.scene, "/image/background") === "transparent";
+    const isOwn = workspace.seen(store.scene) === store.scene; // a flight shows other thicknesses
     const picture = await api.render(textFor(how), { signal });
-    return { ...picture, width, height, reduction, transparent };
+    return { ...picture, width, height, reduction, transparent, isOwn };
   },
-  async shown({ blob, figures: said, width, height, reduction, transparent }, { whole }) {
+  async shown({ blob, figures: said, width, height, reduction, transparent, isOwn }, { whole }) {
     stage.shape(width, height, transparent);
     const count = said.particles === null ? "" : ` of ${said.particles} particles`;
     await stage.show(blob, `Cloud${count}, ${width} by ${height} pixels`);
@@ -196,7 +200,7 @@ const loop = createRenderLoop({
     showProblem();
     tokenField.done();
     rung = said.rung ?? "";
-    wholePicture = whole && blob.type === "image/png" ? blob : null;
+    wholePicture = whole && isOwn && blob.type === "image/png" ? blob : null;
     if (whole) askPlan();
     time.shown();
   },

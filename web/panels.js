@@ -9,6 +9,8 @@ import { detailPanel, groundPanel, hazePanel } from "./surroundings.js";
 
 const turn = (degrees) => ((degrees % 360) + 360) % 360;
 const kFirstExposure = -3; // what it begins with when it is no longer automatic
+const kFirstDensity = 1;
+const kFirstColor = [1, 1, 1];
 const SIZES = ["640 × 360", "960 × 600", "1280 × 720", "1920 × 1080", "3840 × 2160", "1024 × 1024"];
 
 export const shownIf = (shown, { element, refresh }) => ({
@@ -40,20 +42,19 @@ function sunPanel(store) {
       }, { key: "/sun/direction", ...options });
     },
   });
-  let kept; // its colour before that was left to the elevation
+  let kept = kFirstColor; // its colour before that was left to the elevation
   const fields = [
     slider(store, { label: "Elevation", pointer: "/sun/elevation", min: -10, step: 0.5, ...angle("elevation") }),
     slider(store, { label: "Azimuth", pointer: "/sun/azimuth", min: 0, max: 360, step: 1, ...angle("azimuth") }),
     slider(store, { label: "Intensity", pointer: "/sun/intensity", min: 0.5, max: 400, log: true }),
     checkbox({
-      label: "Colour from its elevation", pointer: "/sun/automatic-color", get: () => at(store.scene, "/sun/color") === "auto",
+      label: "Colour from its elevation", pointer: "/sun/automatic-color", get: () => atOrDefault(store.scene, "/sun/color") === "auto",
       set: (on) => {
-        const color = at(store.scene, "/sun/color");
-        if (on) kept = color;
-        store.set("/sun/color", on ? "auto" : kept);
+        if (on) kept = at(store.scene, "/sun/color");
+        store.set("/sun/color", on ? undefined : kept);
       },
     }),
-    shownIf(() => at(store.scene, "/sun/color") !== "auto", colour(store, { label: "Colour", pointer: "/sun/color" })),
+    shownIf(() => atOrDefault(store.scene, "/sun/color") !== "auto", colour(store, { label: "Colour", pointer: "/sun/color" })),
   ];
   return { title: "Sun", pointer: "/sun", fields };
 }
@@ -108,7 +109,8 @@ function skyPanel(store) {
     if (value === "physical") return { model: "physical" };
     return value !== null && typeof value === "object" ? value : {};
   };
-  const model = () => sky().model ?? fieldAt("/sky/model").standard;
+  // Colours of a gradient make it one.
+  const model = () => sky().model ?? ("zenith" in sky() || "horizon" in sky() ? "gradient" : fieldAt("/sky/model").standard);
   const own = (member) => ({
     get: () => sky()[member] ?? standardAt(store.scene, `/sky/${member}`),
     set: (value, options) => store.update((scene) => ({ ...scene, sky: { ...sky(), [member]: value } }),
@@ -132,7 +134,7 @@ function skyPanel(store) {
         other[model()] = sky();
         const { turbidity: _old, ...before } = other[chosen] ?? {};
         store.set("/sky", {
-          ...before, ...(turbidity === undefined ? {} : { turbidity }), ...(chosen === "physical" ? { model: chosen } : {}),
+          ...before, ...(turbidity === undefined ? {} : { turbidity }), ...(chosen === fieldAt("/sky/model").standard ? {} : { model: chosen }),
         });
       },
     }),
@@ -145,8 +147,15 @@ function skyPanel(store) {
 }
 
 function matterPanel(store) {
+  const density = () => atOrDefault(store.scene, "/density");
   const fields = [
-    slider(store, { label: "Density", pointer: "/density", min: 0.001, max: 100, log: true }),
+    checkbox({
+      label: "Automatic density", pointer: "/automatic-density", get: () => density() === "auto",
+      set: (on) => store.set("/density", on ? undefined : kFirstDensity),
+    }),
+    slider(store, {
+      label: "Density", pointer: "/density", min: 0.001, max: 100, log: true, get: () => (density() === "auto" ? kFirstDensity : density()),
+    }),
     slider(store, { label: "Albedo", pointer: "/medium/albedo", min: 0.5, step: 0.001 }),
     slider(store, { label: "Forward g", pointer: "/medium/g", min: -0.9, max: 0.98, step: 0.01 }),
     select(store, {
@@ -155,7 +164,10 @@ function matterPanel(store) {
     }),
     shownIf(() => cloudsOf(store.scene).some(({ cloud }) => modelOf(cloud) === "cubes"), select(store, {
       label: "Filling", pointer: () => "/fill",
-      titles: { uniform: "uniform", gardner: "gardner: with phase shift", printed: "printed: as in the source" },
+      titles: {
+        uniform: "uniform", gardner: "gardner: with phase shift", printed: "printed: as in the source",
+        cumulus: "cumulus: domes on a base", stratus: "stratus: a round layer",
+      },
     })),
     seedField(store, { another: true }),
   ];

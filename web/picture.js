@@ -22,7 +22,7 @@ const kLongWholeMs = 1200; // what is expected to take longer is shown at half i
 // shown(picture, { whole }) -> promise, failed(problem).
 // busy(true) from the first change until the whole picture of the latest state is shown or has failed.
 // marked(how): what the picture on the screen is: "" of the latest state and whole, "coarse" of it, "earlier" of a state
-// before, and there will be none of the latest.
+// before, and there will be none of the latest; "unrefined": coarse, and what was to follow has failed.
 export function createRenderLoop({ render, shown, failed, busy, marked }) {
   let version = 0; // of the state
   let onScreen = { version: -1, step: "" };
@@ -46,7 +46,7 @@ export function createRenderLoop({ render, shown, failed, busy, marked }) {
   }
 
   function mark() {
-    if (onScreen.version === version) marked(onScreen.step === "whole" ? "" : "coarse");
+    if (onScreen.version === version) marked(onScreen.step === "whole" ? "" : failedVersion === version ? "unrefined" : "coarse");
     else if (failedVersion === version) marked("earlier");
   }
 

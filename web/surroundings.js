@@ -4,31 +4,33 @@ import { checkbox, slider } from "./controls.js";
 import { at } from "./document.js";
 import { fieldAt, standardAt } from "./schema.js";
 
-// `fresh`: what it is when it is first switched on, beside the defaults of `named`. Its fields write whole objects, so that what is required is there.
-function optional(store, { title, pointer, label, fresh = {}, named = [], sliders }) {
+// `fresh`: what it is when it is first switched on. Its fields write whole objects, so that what is required is there.
+// What is there by itself ("auto") is switched off by the word "none".
+function optional(store, { title, pointer, label, fresh = {}, sliders }) {
   const now = () => {
     const value = at(store.scene, pointer);
     return value !== null && typeof value === "object" ? value : null;
   };
-  const standards = named.map((member) => [member, fieldAt(`${pointer}/${member}`).standard]);
-  let kept = { ...fresh, ...Object.fromEntries(standards) }; // what it was before it was switched off
+  const byItself = fieldAt(pointer).standard === "auto";
+  let kept = byItself ? undefined : fresh; // what it was before it was switched off
+  const isOn = () => now() !== null || (byItself && at(store.scene, pointer) !== "none");
   const fields = [
     checkbox({
-      label, pointer, get: () => now() !== null,
+      label, pointer, get: isOn,
       set: (on) => {
         if (!on) kept = now() ?? kept;
-        store.set(pointer, on ? kept : undefined);
+        store.set(pointer, on ? kept : byItself ? "none" : undefined);
       },
     }),
     ...sliders.map(({ member, ...spec }) => slider(store, {
       ...spec, pointer: `${pointer}/${member}`,
       get: () => {
-        const value = (now() ?? kept)[member] ?? standardAt(store.scene, `${pointer}/${member}`);
+        const value = (now() ?? kept ?? {})[member] ?? standardAt(store.scene, `${pointer}/${member}`);
         // A colour is shown by its mean, and becomes grey when it is moved.
         return Array.isArray(value) ? Number(((value[0] + value[1] + value[2]) / 3).toFixed(4)) : value;
       },
       set: (value, options) => store.update(
-        (scene) => ({ ...scene, [pointer.slice(1)]: { ...(now() ?? kept), [member]: value } }),
+        (scene) => ({ ...scene, [pointer.slice(1)]: { ...(now() ?? kept ?? {}), [member]: value } }),
         { key: `${pointer}/${member}`, ...options }),
     })),
   ];
@@ -54,7 +56,7 @@ export const hazePanel = (store) => optional(store, {
 });
 
 export const detailPanel = (store) => optional(store, {
-  title: "Detail", pointer: "/detail", label: "Finer structure", named: ["amount", "size"],
+  title: "Detail", pointer: "/detail", label: "Finer structure",
   sliders: [
     { label: "Amount", member: "amount", step: 0.01 },
     { label: "Bump size", member: "size", min: 0.05, max: 4, log: true },

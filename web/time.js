@@ -50,6 +50,8 @@ async function steadyCamera(scene, signal) {
   return cameraOf(scene, orbitOf(scene, unionOf(boxes)));
 }
 
+const hasCameraKeys = (scene) => at(scene, "/sequence/camera")?.length > 0;
+
 // show(): a picture of the time that playedScene() has. failed(problem), copy(text), note(text).
 export function createTime(store, { show, failed, copy, note }) {
   let playing = null; // { time, clock, camera, preparing }
@@ -98,7 +100,7 @@ export function createTime(store, { show, failed, copy, note }) {
     refreshBar();
     try {
       const key = [scene.cubes, scene.clouds, scene.sequence, scene.image];
-      if (isAutomatic(scene) && key.some((part, i) => part !== steady.key[i] || !steady.camera)) {
+      if (isAutomatic(scene) && !hasCameraKeys(scene) && key.some((part, i) => part !== steady.key[i] || !steady.camera)) {
         steady = { key, camera: await steadyCamera(scene, mine.preparing.signal) };
       }
     } catch (error) {
@@ -125,10 +127,12 @@ export function createTime(store, { show, failed, copy, note }) {
     refreshBar();
     show();
   }
-  // The sequence's own planning is for its three frames; a frame that passes by needs only its own.
+  // The sequence's own planning is for its three frames; a frame that passes by needs only its own, unless the sequence
+  // moves its camera.
   // `rung`: the quickest that looks like the document's own, or null.
   function playedScene(rung) {
-    const { sequence: _left, ...scene } = store.scene;
+    const { sequence, ...rest } = store.scene;
+    const scene = hasCameraKeys(store.scene) ? { ...rest, sequence } : rest;
     const camera = isAutomatic(scene) && steady.camera ? { camera: steady.camera } : {};
     return { ...scene, ...camera, ...(rung ? { accuracy: { rung } } : {}), time: short(playing.time) };
   }

@@ -5,6 +5,7 @@
 import { cameraOf, kSteepest, orbitOf } from "./camera.js";
 import { at } from "./document.js";
 import { byId, el } from "./dom.js";
+import { createFlight } from "./flight.js";
 import { atOrDefault } from "./schema.js";
 import { added, cleared, duplicated, removed, transformed } from "./workspace_edit.js";
 import { around, isTriple, itemsOf } from "./workspace_items.js";
@@ -27,8 +28,9 @@ function hasWebGL() {
   }
 }
 
-// bounds() -> of all clouds, or null. letGo(): the pointer has been. chosen(): another cloud is being edited.
-export function createWorkspace(store, choice, { bounds, letGo, chosen, failed, note }) {
+// bounds() -> of all clouds, or null. letGo(): the pointer has been. chosen(): another cloud is being edited. seen(): what is
+// to be seen of the document is another thing. name() -> stem of file names.
+export function createWorkspace(store, choice, { bounds, letGo, chosen, seen, failed, note, name }) {
   const stage = byId("stage");
   let view = null;
   let loading = null;
@@ -178,6 +180,17 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, failed, 
     return [Math.cos(e) * Math.sin(a), Math.sin(e), Math.cos(e) * Math.cos(a)];
   }
 
+  // --- flying: it has pointer and keys before the workspace ---
+
+  const flight = createFlight(store, {
+    view: () => view, eye: eyeOf, bounds, sprites: () => sprites, changed: seen, failed, note, name, refresh: () => refresh(),
+  });
+  async function fly() {
+    if (state === "off" || state === "waiting") await toggle();
+    if (state === "on") flight.enter();
+    else note("Flying needs WebGL, which this browser does not have: arrow keys and wheel move the camera.");
+  }
+
   // --- the pointer: before the stage has it, which turns the camera with what is left ---
 
   const canvas = el("canvas", { id: "workspace", "aria-hidden": "true" });
@@ -284,9 +297,9 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, failed, 
     step = next;
     refresh();
   }
-  const toolbar = createToolbar({ actions, setMode, toggleBox, setStep, toggle });
+  const toolbar = createToolbar({ actions, setMode, toggleBox, setStep, toggle, fly });
   const panel = createPanel(store, { actions, select, ids, items: () => items, selection: () => selection, active, failed, note });
-  stage.after(toolbar.element);
+  stage.after(toolbar.element, flight.bar.element);
 
   const sprites = createSpriteLoop({ view: () => (state === "on" ? view : null), scene: () => store.scene, sun: towardsSun });
 
@@ -315,7 +328,7 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, failed, 
     state = "on";
     view.resize();
     refresh();
-    sprites.changed(false);
+    sprites.begin();
   }
   function remember() {
     try {
@@ -361,7 +374,7 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, failed, 
   let litBy = "";
   function refresh() {
     readItems();
-    toolbar.refresh({ state, mode, boxTool, step, count: selection.length });
+    toolbar.refresh({ state, mode, boxTool, step, count: selection.length, flying: flight.on });
     panel.refresh();
     if (state !== "on") return;
     const chosenOnes = new Set(selection);
@@ -371,7 +384,7 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, failed, 
     const [center, half] = items.length ? around(items) : [[0, 0, 0], [5, 5, 5]];
     const measured = bounds() ?? { min: center.map((c, i) => c - half[i]), max: center.map((c, i) => c + half[i]) };
     if (!gesture) view.bounds(measured);
-    view.camera(eyeOf());
+    view.camera(flight.on ? flight.look() : eyeOf());
     view.items(drawn);
     view.sun(sunAngles());
     const item = active();
@@ -388,7 +401,7 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, failed, 
 
   return {
     elements: [panel.element],
-    refresh, letGo: sprites.letGo,
+    refresh, letGo: sprites.letGo, seen: flight.seen,
     // What the picture on the screen is of (picture.js).
     marked(how) {
       begin();

@@ -4,7 +4,7 @@ import * as api from "./api.js";
 import { group, numberInput, stepByArrows } from "./controls.js";
 import { el, freshId } from "./dom.js";
 import { documentOf } from "./opening.js";
-import { atOrDefault, fieldAt } from "./schema.js";
+import { fieldAt } from "./schema.js";
 import { around } from "./workspace_items.js";
 import { STARTERS, THICKNESS, cloudsFrom, scattered, started, thickened, withClouds, withStarter } from "./workspace_shapes.js";
 
@@ -99,8 +99,7 @@ export function createPanel(store, { actions, select, ids, items, selection, act
     if (store.scene !== scene) return; // edited meanwhile
     const measured = survey?.optical_depth?.zenith;
     if (!(measured > 0)) throw new Error("There is no matter to make thicker.");
-    const density = atOrDefault(scene, "/density");
-    store.update(() => thickened(scene, typeof density === "number" ? density : fieldAt("/density").standard, measured, depth, fieldAt("/density").most));
+    store.update(() => thickened(scene, survey.density, depth / measured, fieldAt("/density").most));
     note(`${name}: an optical depth of ${depth} straight up.`);
   }));
   const countId = freshId("count");

@@ -31,9 +31,31 @@ export function readPly(buffer) {
     [places[3 * i], places[3 * i + 1], places[3 * i + 2]] = [x(i), y(i), z(i)];
     radii[i] = radius(i);
     densities[i] = density(i);
-    covers[i] = 1 - Math.exp(-densities[i] * (radii[i] / 2) * Math.sqrt(2 * Math.PI));
+    covers[i] = coverOf(densities[i], radii[i]);
   }
   return { count, places, radii, densities, covers };
+}
+
+const coverOf = (density, radius) => 1 - Math.exp(-density * (radius / 2) * Math.sqrt(2 * Math.PI));
+
+// The same with `factor` times the matter.
+export function denser(set, factor) {
+  if (factor === 1) return set;
+  const densities = set.densities.map((density) => density * factor);
+  return { ...set, densities, covers: densities.map((density, i) => coverOf(density, set.radii[i])) };
+}
+
+// `most` of them at most, evenly from the list, each as much larger as makes up for those that are left out: mass goes
+// with the cube of the radius.
+export function sparser(set, most) {
+  const step = Math.ceil(set.count / most);
+  if (step <= 1) return set;
+  const count = Math.ceil(set.count / step);
+  const larger = Math.cbrt(step);
+  const pick = (list, width, factor) => Float32Array.from({ length: width * count }, (_none, i) =>
+    factor * list[width * step * Math.floor(i / width) + (i % width)]);
+  const [radii, densities] = [pick(set.radii, 1, larger), pick(set.densities, 1, 1)];
+  return { count, places: pick(set.places, 3, 1), radii, densities, covers: densities.map((density, i) => coverOf(density, radii[i])) };
 }
 
 const kCells = 24; // along each side of the grid
@@ -74,4 +96,29 @@ export function litFrom({ count, places, radii, densities }, towards) {
     light.set([0.26 + sun, 0.29 + sun * 0.98, 0.34 + sun * 0.94], 3 * i);
   }
   return light;
+}
+
+const kCovered = 0.8; // of a pixel, before its colour says something of the cloud
+const kFewest = 12; // such pixels
+const kLeast = 0.4, kMost = 2.5; // times
+
+// How much brighter a picture of the service has the cloud than sprites have it, [red, green, blue]; null where it cannot
+// be told. Both of one size, RGBA bytes; sprites premultiplied, with their lowest row first.
+export function gainOf(sprites, picture, width, height) {
+  const [theirs, ours] = [[0, 0, 0], [0, 0, 0]];
+  let count = 0;
+  for (let y = 0; y < height; y += 1) {
+    for (let x = 0; x < width; x += 1) {
+      const from = 4 * ((height - 1 - y) * width + x);
+      const alpha = sprites[from + 3] / 255;
+      if (alpha < kCovered) continue;
+      count += 1;
+      for (let c = 0; c < 3; c += 1) {
+        ours[c] += sprites[from + c] / alpha;
+        theirs[c] += picture[4 * (y * width + x) + c];
+      }
+    }
+  }
+  if (count < kFewest) return null;
+  return theirs.map((sum, c) => Math.min(kMost, Math.max(kLeast, sum / Math.max(1, ours[c]))));
 }

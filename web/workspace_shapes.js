@@ -69,16 +69,14 @@ export function withClouds(scene, clouds) {
 // Thin, medium, thick: optical depths straight up through the thickest place.
 export const THICKNESS = [["thin", 1], ["medium", 6], ["thick", 30]];
 
-// The scene as thick as `wanted`, where `measured` is what the service says of it as it stands (survey.optical_depth);
-// depth is proportional to density. The densities of single clouds go along. most: the largest density there may be.
-export function thickened(scene, density, measured, wanted, most) {
-  const factor = wanted / measured;
+// The scene `factor` times as thick: depth is proportional to density. densities: of its clouds as the service has them
+// (survey.density). most: the largest density there may be.
+export function thickened(scene, densities, factor, most) {
   const times = (value) => Number(Math.min(most, value * factor).toPrecision(4));
-  const next = { ...scene, density: times(density) };
-  if (Array.isArray(scene.clouds)) {
-    next.clouds = scene.clouds.map((cloud) => (typeof cloud?.density === "number" ? { ...cloud, density: times(cloud.density) } : cloud));
-  }
-  return next;
+  if (!Array.isArray(scene.clouds)) return { ...scene, density: times(densities[0]) };
+  const clouds = scene.clouds.map((cloud, k) => (
+    typeof cloud?.density === "number" || typeof scene.density !== "number" ? { ...cloud, density: times(densities[k]) } : cloud));
+  return typeof scene.density === "number" ? { ...scene, density: times(scene.density), clouds } : { ...scene, clouds };
 }
 
 // `count` twins of the items, strewn level over a disc of `reach`, from .7 to 1.3 times as large. [scene, ids].

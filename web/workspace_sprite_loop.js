@@ -3,14 +3,15 @@
 
 import * as api from "./api.js";
 import { compactJson } from "./json_text.js";
-import { litFrom, readPly } from "./workspace_particles.js";
+import { denser, gainOf, litFrom, readPly, sparser } from "./workspace_particles.js";
 
-const kMost = 100_000; // particles; more would not be drawn in time
+const kMost = 100_000; // sprites; more would not be drawn in time
 const kFadeMs = 220;
 const kRestMs = 350;
 const kSlowFrameMs = 60; // where frames take longer, the pictures of the service are as quick
 const kFramesWatched = 12;
 const kTriedAgainMs = 30_000;
+const kSeenWide = 64, kSeenHigh = 40; // pixels that brightness is compared at
 const ELSEWHERE = new Set(["camera", "image", "sun", "sky", "ground", "haze", "accuracy", "effects", "sequence", "look", "display"]);
 
 // view(): of workspace_view.js, or null. scene() -> the document; sun() -> unit vector to it.
@@ -24,7 +25,11 @@ export function createSpriteLoop({ view, scene, sun }) {
   let fading = 0;
   let slowUntil = 0; // no sprites before
   let frames = [];
+  let isShown = false; // the picture on the screen is of the latest state
+  let flying = false; // whoever flies has nothing else to see by: sprites are shown however slowly
+  let thickness = 1; // times the matter of the document
   const stage = document.getElementById("stage");
+  const still = window.matchMedia("(prefers-reduced-motion: reduce)");
 
   const matterOf = (document) => Object.entries(document).filter(([name]) => !ELSEWHERE.has(name));
   const same = (a, b) => a.length === b.length && a.every(([name, value], i) => b[i][0] === name && b[i][1] === value);
@@ -34,7 +39,7 @@ export function createSpriteLoop({ view, scene, sun }) {
     const from = opacity;
     const begun = performance.now();
     const step = (now) => {
-      const share = to > from ? 1 : Math.min(1, (now - begun) / kFadeMs);
+      const share = to > from || still.matches ? 1 : Math.min(1, (now - begun) / kFadeMs);
       opacity = from + (to - from) * share;
       view()?.spritesAt(opacity);
       stage.classList.toggle("sprites", opacity > 0.5);
@@ -42,7 +47,21 @@ export function createSpriteLoop({ view, scene, sun }) {
     };
     step(begun);
   }
-  const isReady = () => known !== null && known.set !== null && performance.now() >= slowUntil && view() !== null;
+  // The light of the service, as far as its picture tells: how bright, and of what colour, it has the same cloud.
+  function learn() {
+    const picture = document.getElementById("picture");
+    if (!isReady() || !picture.naturalWidth || !same(known.matter, matterOf(scene()))) return;
+    const pen = Object.assign(document.createElement("canvas"), { width: kSeenWide, height: kSeenHigh }).getContext("2d", { willReadFrequently: true });
+    pen.drawImage(picture, 0, 0, kSeenWide, kSeenHigh);
+    const { data } = pen.getImageData(0, 0, kSeenWide, kSeenHigh);
+    const gain = gainOf(view().spritesSeen(kSeenWide, kSeenHigh), data, kSeenWide, kSeenHigh);
+    if (gain) view().spritesGain(gain);
+  }
+  const isReady = () => known !== null && known.set !== null && (flying || performance.now() >= slowUntil) && view() !== null;
+  function light() {
+    const set = denser(known.set, thickness);
+    view()?.particles(set, litFrom(set, sun()));
+  }
 
   async function ask() {
     const document = scene();
@@ -57,8 +76,9 @@ export function createSpriteLoop({ view, scene, sun }) {
       const { image: _image, sequence: _sequence, ...rest } = document;
       const blob = await api.particles(compactJson(rest), "application/x-ply");
       const set = readPly(await blob.arrayBuffer());
-      known = { matter, set: set.count <= kMost ? set : null };
-      if (known.set) view()?.particles(set, litFrom(set, sun()));
+      known = { matter, set: sparser(set, kMost) };
+      light();
+      if (isShown) learn();
       if (moving && isReady() && opacity === 0) fade(1);
     } catch {
       // The picture says what is wrong.
@@ -78,7 +98,7 @@ export function createSpriteLoop({ view, scene, sun }) {
       return;
     }
     frames.push(now);
-    if (frames.length > kFramesWatched) {
+    if (frames.length > kFramesWatched && !flying) {
       const isSlow = (now - frames[0]) / (frames.length - 1) > kSlowFrameMs;
       frames = [];
       if (isSlow) {
@@ -92,6 +112,7 @@ export function createSpriteLoop({ view, scene, sun }) {
   return {
     // The document has changed; `moves`: something is being dragged.
     changed(moves) {
+      isShown = false;
       if (!view()) return;
       const begins = moves && !moving;
       moving = moves;
@@ -101,14 +122,37 @@ export function createSpriteLoop({ view, scene, sun }) {
       if (begins) requestAnimationFrame(watch);
     },
     lit() {
-      if (known?.set && view()) view().particles(known.set, litFrom(known.set, sun()));
+      if (known?.set && view()) light();
     },
     letGo() { moving = false; },
+    // There is something to draw with.
+    begin: ask,
+    // A flight begins or ends; of a cloud that is so many times as thick as the document's.
+    flies(yes, times = 1) {
+      flying = yes;
+      if (times !== thickness) {
+        thickness = times;
+        this.lit();
+      }
+      if (!yes) moving = false;
+      ask();
+    },
+    // The eye of a flight moves. False when there are no particles to show.
+    moves() {
+      isShown = false;
+      moving = true;
+      lastMove = performance.now();
+      if (isReady() && opacity === 0) fade(1);
+      return isReady();
+    },
+    get count() { return known?.set?.count ?? 0; },
     // A picture of the latest state is on the screen. While the pointer is on its way, the next is about to be late again.
     settled() {
       if (moving && performance.now() - lastMove < kRestMs) return;
       moving = false;
+      isShown = true;
       if (opacity > 0) fade(0);
+      learn();
     },
   };
 }

@@ -2,7 +2,7 @@
 // along the ray through its middle, 1 - exp(-density s sqrt(2 pi)) with s half its radius, and falls off from there.
 
 import {
-  BufferAttribute, CustomBlending, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, OneFactor, OneMinusSrcAlphaFactor, ShaderMaterial,
+  BufferAttribute, CustomBlending, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, OneFactor, OneMinusSrcAlphaFactor, ShaderMaterial, Vector3,
 } from "three";
 
 const VERTEX = `
@@ -23,6 +23,7 @@ void main() {
 }`;
 const FRAGMENT = `
 uniform float opacity;
+uniform vec3 gain;
 varying vec2 at;
 varying float covers;
 varying vec3 lit;
@@ -30,12 +31,13 @@ void main() {
   float depth = -log(max(1e-4, 1.0 - covers)) * exp(-2.0 * dot(at, at));
   float alpha = (1.0 - exp(-depth)) * opacity;
   if (alpha < 0.003) discard;
-  gl_FragColor = vec4(lit * alpha, alpha);
+  gl_FragColor = vec4(min(lit * gain, 1.0) * alpha, alpha);
 }`;
 
 export function createSprites() {
   const material = new ShaderMaterial({
-    vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms: { opacity: { value: 0 } }, transparent: true, depthTest: false, depthWrite: false,
+    vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthTest: false, depthWrite: false,
+    uniforms: { opacity: { value: 0 }, gain: { value: new Vector3(1, 1, 1) } },
     blending: CustomBlending, blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor, premultipliedAlpha: true,
   });
   const mesh = new Mesh(new InstancedBufferGeometry(), material);
@@ -112,6 +114,9 @@ export function createSprites() {
       geometry.instanceCount = set.count;
       mesh.geometry = geometry;
     },
-    opacity(value) { material.uniforms.opacity.value = value; },
+    get opacity() { return material.uniforms.opacity.value; },
+    setOpacity(value) { material.uniforms.opacity.value = value; },
+    // [red, green, blue]: times the light that they were shown with.
+    gain(value) { material.uniforms.gain.value.set(...value); },
   };
 }

@@ -4,12 +4,14 @@
 
 import {
   BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, GridHelper, Group, LineBasicMaterial, LineSegments, Mesh,
-  MeshBasicMaterial, Object3D, PerspectiveCamera, Scene, SphereGeometry, Vector3, WebGLRenderer,
+  MeshBasicMaterial, Object3D, PerspectiveCamera, Scene, SphereGeometry, Vector3, WebGLRenderer, WebGLRenderTarget,
 } from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
 import { createSprites } from "./workspace_sprites.js";
 
 const kRing = 40; // pieces of a ring
+const kPlainWires = 30; // items; more are drawn fainter, but never fainter than this
+const kFaintest = 0.12;
 const COLOURS = {
   plain: new Color(0x2f7fd6), selected: new Color(0xf0a020), active: new Color(0xff1f1f), // the active cube is red, as in Rekawan
 };
@@ -54,20 +56,23 @@ function createWires() {
     object: lines,
     show(items) {
       const points = items.reduce((sum, { round }) => sum + (round ? BALL : BOX).length, 0);
-      const [positions, colours] = [new Float32Array(3 * points), new Float32Array(3 * points)];
+      const [positions, colours] = [new Float32Array(3 * points), new Float32Array(4 * points)];
       let at = 0;
+      // Many wires hide the cloud: the more there are, the fainter those that are not selected.
+      const faint = Math.max(kFaintest, Math.min(1, kPlainWires / items.length));
       for (const item of items) {
         const colour = item.active ? COLOURS.active : item.selected ? COLOURS.selected : COLOURS.plain;
         for (const point of item.round ? BALL : BOX) {
-          put(item, point, positions, at);
-          colour.toArray(colours, at);
-          at += 3;
+          put(item, point, positions, 3 * at);
+          colour.toArray(colours, 4 * at);
+          colours[4 * at + 3] = item.active || item.selected ? 1 : faint;
+          at += 1;
         }
       }
       lines.geometry.dispose();
       lines.geometry = new BufferGeometry();
       lines.geometry.setAttribute("position", new BufferAttribute(positions, 3).setUsage(DynamicDrawUsage));
-      lines.geometry.setAttribute("color", new BufferAttribute(colours, 3).setUsage(DynamicDrawUsage));
+      lines.geometry.setAttribute("color", new BufferAttribute(colours, 4).setUsage(DynamicDrawUsage));
     },
   };
 }
@@ -124,6 +129,7 @@ export function createView(canvas, told) {
   const sprites = createSprites();
   let grid = null;
   let items = [];
+  let gain = [1, 1, 1]; // of the sprites' light
   let home = { center: [0, 0, 0], radius: 5 }; // what is looked at: the grid lies under it, the dome stands around it
   const handle = new Object3D();
   const gizmo = new TransformControls(camera, canvas);
@@ -274,6 +280,11 @@ export function createView(canvas, told) {
       layOut();
       draw();
     },
+    // Nobody takes hold of anything in a flight.
+    flies(yes) {
+      for (const one of [wires.object, axes, dome.group, gizmo.getHelper()]) one.visible = !yes;
+      draw();
+    },
     items(list) {
       items = list;
       wires.show(list);
@@ -326,9 +337,34 @@ export function createView(canvas, told) {
       sprites.show(set, light);
       draw();
     },
+    // The sprites alone as the camera sees them, in their own light: RGBA bytes, premultiplied, the lowest row first.
+    spritesSeen(width, height) {
+      const target = new WebGLRenderTarget(width, height);
+      const shown = scene.children.map((child) => [child, child.visible]);
+      const { opacity } = sprites;
+      for (const [child] of shown) child.visible = child === sprites.object;
+      sprites.setOpacity(1);
+      sprites.gain([1, 1, 1]);
+      renderer.setRenderTarget(target);
+      renderer.clear();
+      renderer.render(scene, camera);
+      const bytes = new Uint8Array(4 * width * height);
+      renderer.readRenderTargetPixels(target, 0, 0, width, height, bytes);
+      renderer.setRenderTarget(null);
+      target.dispose();
+      for (const [child, visible] of shown) child.visible = visible;
+      sprites.setOpacity(opacity);
+      sprites.gain(gain);
+      return bytes;
+    },
+    spritesGain(value) {
+      gain = value;
+      sprites.gain(value);
+      draw();
+    },
     spritesAt(opacity) {
       sprites.object.visible = opacity > 0;
-      sprites.opacity(opacity);
+      sprites.setOpacity(opacity);
       draw();
     },
   };

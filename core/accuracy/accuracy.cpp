@@ -15,6 +15,7 @@
 #include "core/formats/image_file.h"
 #include "core/scene/rungs.h"
 #include "core/scene/validate.h"
+#include "core/sequence.h"
 
 namespace awan {
 namespace {
@@ -140,7 +141,7 @@ Result<AccuracyReport> measure_still(const Scene& scene, const AccuracyOptions& 
     AccuracyReport report;
     report.width = scene->image.width;
     report.height = scene->image.height;
-    report.exposure = exposure_of(scene);
+    report.film = film_of(scene);
 
     steps.begin("planning", 0);
     auto planned = plan_scene(scene, options.threads, deadline, options.speed);
@@ -154,12 +155,12 @@ Result<AccuracyReport> measure_still(const Scene& scene, const AccuracyOptions& 
     steps.expect(shape->expected_ms);
     for (const RungAhead& ahead : all) steps.expect(ahead.measuring_ms);
     const auto reference =
-        trace_reference(scene, *planned, *shape, options, report.exposure, steps, deadline);
+        trace_reference(scene, *planned, *shape, options, report.film, steps, deadline);
     if (!reference) return reference.error();
     planned->particles = {};
     report.reference = reported(*reference, scene);
 
-    const RungMeasurement with{scene, *reference, options, render, steps, report.exposure};
+    const RungMeasurement with{scene, *reference, options, render, steps, report.film};
     for (const RungAhead& ahead : all) {
         if (auto over = deadline.over()) return *over;
         steps.begin("measuring " + std::string(ahead.rung->name), ahead.measuring_ms);
@@ -182,9 +183,7 @@ Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOption
                      "a look has no error to measure; must be \"physical\""};
     if (!scene->sequence) return measure_still(scene, options, render, progress, deadline);
     // Of a sequence one picture is measured, that of the scene's time.
-    SceneDraft draft = *scene;
-    draft.sequence.reset();
-    const auto still = validate(std::move(draft));
+    const auto still = validate(still_of(*scene, *scene->sequence, scene->time));
     if (!still) return still.error();
     return measure_still(*still, options, render, progress, deadline);
 }

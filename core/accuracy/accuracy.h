@@ -51,7 +51,7 @@ struct AccuracyReport {
     // Rungs that AccuracyOptions::time_ms had no room for.
     std::vector<LeftOut> left_out;
     // Stops: what brings the pictures to the screen.
-    double exposure = 0;
+    FilmSettings film;
 };
 
 struct AccuracyOptions {

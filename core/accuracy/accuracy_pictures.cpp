@@ -16,13 +16,14 @@ Image over_sky(const Image& transparent, const Scene& scene, const View& view,
     return image;
 }
 
-std::vector<std::uint8_t> display_bytes(const Image& image, double exposure) {
-    const DisplayTable table;
-    const auto gain = static_cast<float>(std::exp2(exposure));
+std::vector<std::uint8_t> display_bytes(const Image& image, const FilmSettings& settings) {
+    const Film film(settings);
     std::vector<std::uint8_t> bytes(3 * image.pixel_count());
-    for (std::size_t i = 0; i < image.pixel_count(); ++i)
-        for (std::size_t c = 0; c < 3; ++c)
-            bytes[3 * i + c] = table.code(image.pixels[4 * i + c] * gain);
+    for (std::size_t i = 0; i < image.pixel_count(); ++i) {
+        const float* const from = image.pixels.data() + 4 * i;
+        const auto codes = film.rounded(film.gain() * glm::vec3(from[0], from[1], from[2]));
+        std::copy(codes.begin(), codes.end(), bytes.data() + 3 * i);
+    }
     return bytes;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/image.h"
+#include "core/formats/tone.h"
 #include "core/light/ground_light.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
@@ -15,9 +16,9 @@ namespace awan {
 Image over_sky(const Image& transparent, const Scene& scene, const View& view,
                const GroundLight& ground);
 
-// The samples of its PNG: 3 bytes a pixel, sRGB after exposure (stops) and the tone curve. What is
-// transparent is black.
-std::vector<std::uint8_t> display_bytes(const Image& image, double exposure);
+// The samples of its PNG: 3 bytes a pixel, sRGB after exposure and the tone curve, not
+// dithered. What is transparent is black.
+std::vector<std::uint8_t> display_bytes(const Image& image, const FilmSettings& film);
 
 // The size of a picture with the shape of `width` x `height` and a longer side of at most `side`.
 struct PictureSize {

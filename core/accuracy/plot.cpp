@@ -443,8 +443,7 @@ void Block::strip(double top) const {
         const RungCost* const rung = is_truth ? nullptr : &report_.rungs[i - 1];
         const Image& image = is_truth ? report_.reference.picture : rung->picture;
         if (image.width > 0 && image.height > 0)
-            canvas_.picture(screen_pixels(image, report_.exposure), image.width, image.height,
-                            picture);
+            canvas_.picture(screen_pixels(image, report_.film), image.width, image.height, picture);
         const double caption = picture.bottom() + 15;
         const auto line = [&](const std::string& text, double baseline, const TextStyle& style,
                               const PlotColor& color) {

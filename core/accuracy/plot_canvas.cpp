@@ -204,18 +204,17 @@ Result<std::string> PlotCanvas::png() const {
     return bytes;
 }
 
-std::vector<std::uint8_t> screen_pixels(const Image& image, double exposure) {
-    const DisplayTable table;
-    const auto gain = static_cast<float>(std::exp2(exposure));
+std::vector<std::uint8_t> screen_pixels(const Image& image, const FilmSettings& settings) {
+    const Film film(settings);
     std::vector<std::uint8_t> pixels(4 * image.pixel_count());
     for (std::size_t i = 0; i < image.pixel_count(); ++i) {
         const float* const from = image.pixels.data() + 4 * i;
         // Straight alpha for the tone curve, as in a PNG; premultiplied again for Cairo.
         const float alpha = from[3] > 0 ? std::min(from[3], 1.0F) : 0.0F;
-        const float scale = alpha > 0 ? gain / alpha : 0.0F;
+        const float scale = alpha > 0 ? film.gain() / alpha : 0.0F;
+        const auto codes = film.rounded(scale * glm::vec3(from[0], from[1], from[2]));
         for (std::size_t c = 0; c < 3; ++c)
-            pixels[4 * i + 2 - c] =
-                byte_of(static_cast<double>(alpha) * table.code(from[c] * scale) / 255.0);
+            pixels[4 * i + 2 - c] = byte_of(static_cast<double>(alpha) * codes[c] / 255.0);
         pixels[4 * i + 3] = byte_of(static_cast<double>(alpha));
     }
     return pixels;

@@ -11,6 +11,7 @@
 #include "core/accuracy/plot.h"
 #include "core/accuracy/plot_layout.h"
 #include "core/base/image.h"
+#include "core/formats/tone.h"
 
 namespace awan {
 
@@ -66,7 +67,7 @@ class PlotCanvas {
 };
 
 // Pixels for PlotCanvas::picture.
-std::vector<std::uint8_t> screen_pixels(const Image& image, double exposure);
+std::vector<std::uint8_t> screen_pixels(const Image& image, const FilmSettings& film);
 std::vector<std::uint8_t> difference_pixels(const std::vector<float>& difference, double full_scale,
                                             const PlotColors& colors);
 // The colour of a share -1..1 of the full scale.

@@ -139,8 +139,8 @@ Result<ReferenceShape> reference_shape(const Scene& scene, const Planned& planne
 }
 
 Result<Reference> trace_reference(const Scene& scene, Planned& planned, const ReferenceShape& shape,
-                                  const AccuracyOptions& options, double exposure, Steps& steps,
-                                  const Deadline& deadline) {
+                                  const AccuracyOptions& options, const FilmSettings& film,
+                                  Steps& steps, const Deadline& deadline) {
     const auto sized = reference_sized(scene, shape.size);
     if (!sized) return sized.error();
     const View view = resolve_view((*sized)->camera, (*sized)->image, planned.survey.bounds);
@@ -166,8 +166,7 @@ Result<Reference> trace_reference(const Scene& scene, Planned& planned, const Re
     reference.cpu_ms = processor_ms() - cpu_before;
     reference.truth = *std::move(truth);
     reference.mean = mean_of(reference.truth);
-    reference.shown =
-        display_bytes(over_sky(reference.mean, scene, view, reference.ground), exposure);
+    reference.shown = display_bytes(over_sky(reference.mean, scene, view, reference.ground), film);
     return reference;
 }
 

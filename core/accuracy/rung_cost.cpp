@@ -110,8 +110,7 @@ Status compare_with_reference(const RungMeasurement& with, const Rung& rung,
     cost.stated_error = rendered->stated_error;
     const Image seen = over_sky(picture, with.scene, reference.view, reference.ground);
     cost.flip =
-        flip(reference.shown, display_bytes(seen, with.exposure), picture.width, picture.height)
-            .mean;
+        flip(reference.shown, display_bytes(seen, with.film), picture.width, picture.height).mean;
     cost.difference = relative_difference(picture, reference.mean);
     cost.picture = with.scene->image.background == Background::kSky ? seen : picture;
     return std::nullopt;

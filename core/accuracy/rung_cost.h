@@ -20,7 +20,7 @@ struct RungMeasurement {
     // Told of the step that was begun last.
     const Steps& steps;
     // Stops: what brings the pictures to the screen.
-    double exposure;
+    FilmSettings film;
 };
 
 // All of RungCost but `pareto`. forecast: what was predicted of this rung; null: nothing, its figures are NaN then.

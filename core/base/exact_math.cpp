@@ -68,4 +68,15 @@ SinCos exact_sincos_degrees(double degrees) {
     }
 }
 
+double exact_exp(double x) {
+    if (!(x > -700)) return 0;
+    // x = n ln 2 + r, |r| <= ln 2 / 2; ln 2 in two parts, so that n times the first is exact.
+    const double n = std::floor(x / std::numbers::ln2 + 0.5);
+    const double r = (x - n * 0x1.62e42feep-1) - n * 0x1.a39ef35793c76p-33;
+    // Taylor's series by Horner's rule; the first term left out is below 1e-17.
+    double p = 1;
+    for (int k = 13; k > 0; --k) p = 1 + p * r / k;
+    return std::ldexp(p, static_cast<int>(n));
+}
+
 }  // namespace awan

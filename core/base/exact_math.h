@@ -1,5 +1,6 @@
-// Sines that are the same to the last bit everywhere. A library's sin may round differently from one machine to the
-// next; these are polynomials in plain IEEE double arithmetic (the compiler may not contract it, see CMakeLists.txt).
+// Sines and powers of e that are the same to the last bit everywhere. A library's may round differently from one
+// machine to the next; these are polynomials in plain IEEE double arithmetic (the compiler may not contract it, see
+// CMakeLists.txt).
 #pragma once
 
 namespace awan {
@@ -14,5 +15,8 @@ struct SinCos {
 };
 // Sine and cosine of an angle in degrees; multiples of 90 give exactly 0 and +-1. Absolute error < 1e-15.
 SinCos exact_sincos_degrees(double degrees);
+
+// e^x for x <= 0; 0 below -700. Relative error < 1e-14.
+double exact_exp(double x);
 
 }  // namespace awan

@@ -40,12 +40,12 @@ class Picture {
     ~Picture() { WebPPictureFree(&picture_); }
     Picture(const Picture&) = delete;
     Picture& operator=(const Picture&) = delete;
-    bool import(const Image& image, double exposure_stops) {
+    bool import(const Image& image, const FilmSettings& film) {
         if (!ok_) return false;
         picture_.width = image.width;
         picture_.height = image.height;
         picture_.use_argb = 1;
-        const std::vector<std::uint8_t> pixels = display_pixels(image, exposure_stops);
+        const std::vector<std::uint8_t> pixels = display_pixels(image, film);
         return (image.opaque
                     ? WebPPictureImportRGB(&picture_, pixels.data(), 3 * image.width)
                     : WebPPictureImportRGBA(&picture_, pixels.data(), 4 * image.width)) != 0;
@@ -87,10 +87,10 @@ Result<Animation> Animation::begin(AnimationFormat format, double frames_per_sec
     return Animation(std::move(state));
 }
 
-Status Animation::add(const Image& image, double exposure_stops) {
+Status Animation::add(const Image& image, const FilmSettings& film) {
     State& state = *state_;
     if (state.apng) {
-        auto png = encode_png(image, exposure_stops);
+        auto png = encode_png(image, film);
         if (!png.ok()) return png.error();
         return state.apng->add(*png);
     }
@@ -108,7 +108,7 @@ Status Animation::add(const Image& image, double exposure_stops) {
         if (!state.webp) return out_of_memory();
     }
     Picture picture;
-    if (!picture.import(image, exposure_stops)) return out_of_memory();
+    if (!picture.import(image, film)) return out_of_memory();
     if (WebPAnimEncoderAdd(state.webp.get(), picture.get(), state.at_ms(), &config) == 0)
         return is_no_memory(picture.get()->error_code)
                    ? out_of_memory()

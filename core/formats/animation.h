@@ -7,6 +7,7 @@
 
 #include "core/base/image.h"
 #include "core/base/result.h"
+#include "core/formats/tone.h"
 
 namespace awan {
 
@@ -22,8 +23,8 @@ class Animation {
     Animation& operator=(Animation&& other) noexcept;
     ~Animation();
 
-    // The picture goes through the same curve as in encode_png; exposure in stops.
-    Status add(const Image& image, double exposure_stops);
+    // The picture goes through the same curve as in encode_png.
+    Status add(const Image& image, const FilmSettings& film);
     // The file, once all frames were added.
     Result<std::string> end();
 

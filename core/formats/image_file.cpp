@@ -20,22 +20,23 @@ const float* row_of(const Image& image, int y) {
            4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width);
 }
 
-void opaque_row(const float* from, int width, float gain, const DisplayTable& table,
-                std::uint8_t* to) {
-    for (int x = 0; x < width; ++x, from += 4, to += 3)
-        for (int c = 0; c < 3; ++c) to[c] = table.code(from[c] * gain);
+void opaque_row(const float* from, int width, const Film& film, std::uint8_t* to) {
+    for (int x = 0; x < width; ++x, from += 4, to += 3) {
+        const auto codes = film.rounded(film.gain() * glm::vec3(from[0], from[1], from[2]));
+        std::copy(codes.begin(), codes.end(), to);
+    }
 }
 
 // Straight alpha: colour is divided by alpha while it is still linear, then tone mapped.
-void transparent_row(const float* from, int width, float gain, const DisplayTable& table,
-                     std::uint8_t* to) {
+void transparent_row(const float* from, int width, const Film& film, std::uint8_t* to) {
     for (int x = 0; x < width; ++x, from += 4, to += 4) {
         // NaN becomes 0.
         const float alpha = from[3] > 0 ? std::min(from[3], 1.0f) : 0.0f;
         to[3] = static_cast<std::uint8_t>(alpha * 255.0f + 0.5f);
         // Where alpha rounds to 0 nothing shows; black packs better than the noise of 0 / 0.
-        const float scale = to[3] == 0 ? 0.0f : gain / alpha;
-        for (int c = 0; c < 3; ++c) to[c] = table.code(from[c] * scale);
+        const float scale = to[3] == 0 ? 0.0f : film.gain() / alpha;
+        const auto codes = film.rounded(scale * glm::vec3(from[0], from[1], from[2]));
+        std::copy(codes.begin(), codes.end(), to);
     }
 }
 
@@ -47,21 +48,31 @@ Status check_pixels(const Image& image) {
     return std::nullopt;
 }
 
-std::vector<std::uint8_t> display_pixels(const Image& image, double exposure_stops) {
-    const DisplayTable table;
-    const auto gain = static_cast<float>(std::exp2(exposure_stops));
+std::vector<std::uint8_t> display_pixels(const Image& image, const FilmSettings& settings) {
+    const Film film(settings);
     const std::size_t row = (image.opaque ? 3U : 4U) * static_cast<std::size_t>(image.width);
     std::vector<std::uint8_t> pixels(row * static_cast<std::size_t>(image.height));
     for (int y = 0; y < image.height; ++y)
         (image.opaque ? opaque_row : transparent_row)(
-            row_of(image, y), image.width, gain, table,
-            pixels.data() + row * static_cast<std::size_t>(y));
+            row_of(image, y), image.width, film, pixels.data() + row * static_cast<std::size_t>(y));
     return pixels;
 }
 
 // The share of the sun's light that the lit side of a thick cloud reflects, as the transport rungs and the truth have
 // it. Two streams through an optical depth of 30 at g = .85 give .7, at 45 degrees.
 constexpr double kCloudReflectance = 0.5;
+
+// The share of the stops lost to a low sun that stays lost. From noon to sunset a cloud loses 3 or 4 stops, to the end
+// of civil twilight 13: these become .9 and 3.3.
+constexpr double kEveningKept = 0.25;
+
+// What the scene's sun makes of that cloud from 45 degrees up, without the sky. >= 0.
+double high_sun_cloud(const Scene& scene) {
+    const glm::dvec3 color = scene->sun.auto_color
+                                 ? sunlight(std::numbers::pi / 4, scene->sky.turbidity)
+                                 : scene->sun.color;
+    return kCloudReflectance * scene->sun.intensity * luminance(color) / std::numbers::pi;
+}
 
 double auto_exposure(const Scene& scene) {
     const Outside outside = outside_of(scene);
@@ -76,12 +87,18 @@ double auto_exposure(const Scene& scene) {
     const double cloud = kCloudReflectance * luminance(outside.sun) / std::numbers::pi + mean_sky;
     // Without light there is nothing to meter.
     if (!(cloud > 0)) return 0;
-    return std::clamp(std::log2(static_cast<double>(metered_level()) / cloud),
-                      -limits::kMaxExposure, limits::kMaxExposure);
+    const double lost = std::max(0.0, std::log2(high_sun_cloud(scene) / cloud));
+    const double stops =
+        std::log2(static_cast<double>(metered_level()) / cloud) - kEveningKept * lost;
+    return std::clamp(stops, -limits::kMaxExposure, limits::kMaxExposure);
 }
 
 double exposure_of(const Scene& scene) {
     return scene->image.exposure.value_or(auto_exposure(scene));
+}
+
+FilmSettings film_of(const Scene& scene) {
+    return {exposure_of(scene), scene->image.tone};
 }
 
 }  // namespace awan

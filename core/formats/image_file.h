@@ -7,14 +7,15 @@
 
 #include "core/base/deadline.h"
 #include "core/base/image.h"
+#include "core/formats/tone.h"
 #include "core/scene/scene.h"
 
 namespace awan {
 
-// sRGB of 8 or 16 bits a channel after exposure (stops, radiance * 2^stops) and the tone curve of
-// core/shaders/tone.glsl; RGB when image.opaque, else RGBA with straight (not premultiplied) alpha
-// as PNG wants it. Errors: kOverDeadline, kCancelled, kOutOfMemory.
-Result<std::string> encode_png(const Image& image, double exposure_stops, int bits = 8,
+// sRGB of 8 bits a channel, dithered (dithered_code), or of 16, after exposure and tone curve; RGB when image.opaque,
+// else RGBA with straight (not premultiplied) alpha as PNG wants it, which is not dithered. Errors: kOverDeadline,
+// kCancelled, kOutOfMemory.
+Result<std::string> encode_png(const Image& image, const FilmSettings& film, int bits = 8,
                                const Deadline& deadline = {});
 
 // What an encoder of pictures answers when it cannot.
@@ -25,8 +26,9 @@ inline Error encoder_error(const std::string& what) {
 // That the picture has as many pixels as it says, and some.
 Status check_pixels(const Image& image);
 
-// The pixels of it in 8 bits, row by row: 3 bytes each when image.opaque, else 4.
-std::vector<std::uint8_t> display_pixels(const Image& image, double exposure_stops);
+// The pixels of it in 8 bits, row by row: 3 bytes each when image.opaque, else 4. Rounded: for encoders that lose
+// detail and would spend their bits on dither.
+std::vector<std::uint8_t> display_pixels(const Image& image, const FilmSettings& film);
 
 // How a picture came about, kept in its file as the attributes awan:rung, awan:error and awan:error_forecast. Of
 // numbers that are not finite nothing is kept.
@@ -47,11 +49,13 @@ void set_exr_threads(int threads);
 
 // Exposure in stops for "auto": what a photographer would meter on the sunlit side of a thick cloud, which is half of
 // the sun's light, as from a white wall at 45 degrees, and the sky's mean radiance. It is brought to kMeteredLevel
-// before the tone curve. Depends on the lights only, so it does not flicker as a camera moves. A setting sun is made
-// up for, however little of its light is left.
+// before the tone curve. Depends on the lights only, so it does not flicker as a camera moves. Of what a low sun takes
+// away from the light of a high one, three stops in four are made up for: the eye adapts, but evening stays evening.
 double auto_exposure(const Scene& scene);
 
 // The scene's own exposure, or that one, in stops.
 double exposure_of(const Scene& scene);
+// With the tone curve that it names.
+FilmSettings film_of(const Scene& scene);
 
 }  // namespace awan

@@ -2,7 +2,6 @@
 #include <png.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <exception>
@@ -56,8 +55,7 @@ void on_png_flush(png_structp) {}
 // One row of a picture in 8 or 16 bits a channel, as PNG wants it: of 16 the higher byte first.
 struct RowMaker {
     const Image& image;
-    float gain;
-    const DisplayTable& table;
+    const Film& film;
     int bits;
 
     void make(int y, std::uint8_t* to) const {
@@ -70,17 +68,20 @@ struct RowMaker {
             // to 0 nothing shows; black packs better than the noise of 0 / 0.
             const float most = bits == 8 ? 255.0f : 65535.0f;
             const auto alpha_code = static_cast<std::uint16_t>(alpha * most + 0.5f);
-            const float scale = image.opaque ? gain : alpha_code == 0 ? 0.0f : gain / alpha;
-            for (int c = 0; c < 3; ++c) put(from[c] * scale, to);
-            if (!image.opaque) put_code(alpha_code, to);
+            const float scale = image.opaque      ? film.gain()
+                                : alpha_code == 0 ? 0.0f
+                                                  : film.gain() / alpha;
+            const glm::vec3 exposed = scale * glm::vec3(from[0], from[1], from[2]);
+            if (bits == 8)
+                for (const std::uint8_t code : film.dithered(exposed, x, y)) put(code, to);
+            else
+                for (const std::uint16_t code : film.rounded_16(exposed)) put(code, to);
+            if (!image.opaque) put(alpha_code, to);
         }
     }
 
   private:
-    void put(float radiance, std::uint8_t*& to) const {
-        put_code(bits == 8 ? table.code(radiance) : display_code_16(radiance), to);
-    }
-    void put_code(std::uint16_t code, std::uint8_t*& to) const {
+    void put(std::uint16_t code, std::uint8_t*& to) const {
         if (bits == 16) *to++ = static_cast<std::uint8_t>(code >> 8);
         *to++ = static_cast<std::uint8_t>(code & 0xFF);
     }
@@ -123,11 +124,11 @@ bool write_png(png_structp png, png_infop info, const RowMaker& maker, std::uint
 
 }  // namespace
 
-Result<std::string> encode_png(const Image& image, double exposure_stops, int bits,
+Result<std::string> encode_png(const Image& image, const FilmSettings& settings, int bits,
                                const Deadline& deadline) {
     if (const Status wrong = check_pixels(image)) return *wrong;
-    const DisplayTable table;
-    const RowMaker maker{image, static_cast<float>(std::exp2(exposure_stops)), table, bits};
+    const Film film(settings);
+    const RowMaker maker{image, film, bits};
     const std::size_t channels = image.opaque ? 3 : 4;
     std::vector<std::uint8_t> row(channels * static_cast<std::size_t>(image.width) *
                                   static_cast<std::size_t>(bits / 8));

@@ -1,13 +1,9 @@
 #include "core/formats/tone.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
-#include <limits>
 
 namespace awan {
 namespace {
@@ -15,59 +11,96 @@ namespace {
 namespace glsl {
 using glm::max;
 using glm::min;
+using glm::mix;
+using glm::vec3;
 #include "core/shaders/tone.glsl"
 }  // namespace glsl
+
+// Infinity and what is so bright that squares of it overflow is plain white like this.
+constexpr float kBrightest = 1e9f;
 
 double srgb(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-int exact_code(float x) {
-    return static_cast<int>(std::floor(255.0 * srgb(static_cast<double>(tone_curve(x))) + 0.5));
+float sane(float radiance) {
+    return radiance > 0 ? std::min(radiance, kBrightest) : 0.0f;
 }
 
 }  // namespace
 
-float tone_curve(float exposed_radiance) {
-    return glsl::tone_curve(exposed_radiance);
+glm::vec3 tone_mapped(const glm::vec3& exposed_radiance, Tone tone) {
+    const glm::vec3 color(sane(exposed_radiance.x), sane(exposed_radiance.y),
+                          sane(exposed_radiance.z));
+    return tone == Tone::kNeutral ? glsl::tone_neutral(color) : glsl::tone_reinhard(color);
 }
-std::uint16_t display_code_16(float exposed_radiance) {
-    const float x = exposed_radiance > 0 ? std::min(exposed_radiance, glsl::kToneWhite) : 0.0f;
-    return static_cast<std::uint16_t>(
-        std::floor(65535.0 * srgb(static_cast<double>(tone_curve(x))) + 0.5));
-}
+
 float metered_level() {
     return glsl::kMeteredLevel;
 }
 
-DisplayTable::DisplayTable() {
-    // first_of[k]: the smallest radiance with code k. Positive floats have the order of their bits, so it is found by
-    // bisection on the bits.
-    std::array<float, 257> first_of{};
-    first_of[256] = std::numeric_limits<float>::infinity();
-    const auto white = std::bit_cast<std::uint32_t>(glsl::kToneWhite);
-    std::uint32_t below = 0;
-    for (std::size_t code = 1; code < 256; ++code) {
-        std::uint32_t at_least = white;
-        while (at_least - below > 1) {
-            const std::uint32_t middle = below + (at_least - below) / 2;
-            if (exact_code(std::bit_cast<float>(middle)) >= static_cast<int>(code))
-                at_least = middle;
-            else
-                below = middle;
-        }
-        first_of[code] = std::bit_cast<float>(at_least);
+std::array<float, 3> dither_phases(int x, int y) {
+    // 1 / p and 1 / p^2 of 2^32, p^3 = p + 1. In whole numbers, which wrap as the circle does.
+    constexpr std::uint32_t kAlong = 3242174889u, kDown = 2447445414u, kThird = 1431655765u;
+    constexpr float kStep = 1.0f / 16777216;
+    const std::uint32_t at =
+        kAlong * static_cast<std::uint32_t>(x) + kDown * static_cast<std::uint32_t>(y);
+    const auto phase = [](std::uint32_t turn) { return static_cast<float>(turn >> 8) * kStep; };
+    return {phase(at), phase(at + kThird), phase(at + 2 * kThird)};
+}
+
+int dithered_code(float value, float phase) {
+    // Rounding may lift 255 and a phase just below 1 to 256.
+    if (value < 1 || value > 254) return std::min(static_cast<int>(value + phase), 255);
+    // The inverse of the distribution function of a triangle over -1..1.
+    const float noise = phase < 0.5f ? std::sqrt(2 * phase) - 1 : 1 - std::sqrt(2 - 2 * phase);
+    return static_cast<int>(value + 0.5f + noise);
+}
+
+Film::Film(const FilmSettings& settings)
+    : tone_(settings.tone), gain_(static_cast<float>(std::exp2(settings.exposure))) {
+    const std::uint32_t first = cell_index(kSmallest), last = cell_index(1.0f);
+    cells_.reserve(last - first + 1);
+    const auto start_of = [](std::uint32_t index) {
+        return static_cast<double>(std::bit_cast<float>(index << 14));
+    };
+    double left = 255 * srgb(start_of(first));
+    for (std::uint32_t index = first; index < last; ++index) {
+        const double right = 255 * srgb(start_of(index + 1));
+        const double slope = (right - left) / (start_of(index + 1) - start_of(index));
+        cells_.push_back(
+            {static_cast<float>(left - slope * start_of(index)), static_cast<float>(slope)});
+        left = right;
     }
-    first_cell_ = cell_index(first_of[1]);
-    brightest_ = first_of[255];
-    std::uint32_t code = 0;
-    for (std::uint32_t index = first_cell_; index <= cell_index(brightest_); ++index) {
-        const auto smallest = std::bit_cast<float>(index << 16);
-        while (smallest >= first_of[code + 1]) ++code;
-        assert(code == 255 || cell_index(first_of[std::min(code + 2, 256u)]) != index);
-        cells_.push_back({first_of[code + 1], code});
+    cells_.push_back({255, 0});
+}
+
+std::array<std::uint8_t, 3> Film::rounded(const glm::vec3& exposed) const {
+    const glm::vec3 linear = tone_mapped(exposed, tone_);
+    std::array<std::uint8_t, 3> codes{};
+    for (int c = 0; c < 3; ++c)
+        codes[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(value_of(linear[c]) + 0.5f);
+    return codes;
+}
+
+std::array<std::uint8_t, 3> Film::dithered(const glm::vec3& exposed, int x, int y) const {
+    const glm::vec3 linear = tone_mapped(exposed, tone_);
+    const std::array<float, 3> phases = dither_phases(x, y);
+    std::array<std::uint8_t, 3> codes{};
+    for (int c = 0; c < 3; ++c) {
+        const auto i = static_cast<std::size_t>(c);
+        codes[i] = static_cast<std::uint8_t>(dithered_code(value_of(linear[c]), phases[i]));
     }
-    darkest_ = std::bit_cast<float>(first_cell_ << 16);
+    return codes;
+}
+
+std::array<std::uint16_t, 3> Film::rounded_16(const glm::vec3& exposed) const {
+    const glm::vec3 linear = tone_mapped(exposed, tone_);
+    std::array<std::uint16_t, 3> codes{};
+    for (int c = 0; c < 3; ++c)
+        codes[static_cast<std::size_t>(c)] = static_cast<std::uint16_t>(
+            std::floor(65535.0 * srgb(static_cast<double>(linear[c])) + 0.5));
+    return codes;
 }
 
 }  // namespace awan

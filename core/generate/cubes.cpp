@@ -6,6 +6,7 @@
 
 #include "core/base/exact_math.h"
 #include "core/generate/keyed_random.h"
+#include "core/generate/shaped_cubes.h"
 
 namespace awan {
 namespace {
@@ -100,9 +101,12 @@ void fill_cube(const Cube& cube, Fill fill, std::uint64_t key, std::uint64_t fir
         for (std::uint64_t i = first; i < last; ++i) *out++ = printed_particle(cube, keyed(key, i));
         return;
     }
+    if (fill == Fill::kCumulus) return fill_cumulus(cube, key, first, last, out);
     ScrambledSobol points(key, static_cast<std::uint32_t>(first));
     if (fill == Fill::kGardner) {
         for (std::uint64_t i = first; i < last; ++i) *out++ = gardner_particle(cube, points.next());
+    } else if (fill == Fill::kStratus) {
+        for (std::uint64_t i = first; i < last; ++i) *out++ = stratus_particle(cube, points.next());
     } else {
         for (std::uint64_t i = first; i < last; ++i) *out++ = from_unit_point(cube, points.next());
     }

@@ -1,4 +1,4 @@
-// The cubes of Rekawan (Sunar et al. 2005, sections 4.4-4.5) filled with particles, in three ways.
+// The cubes of Rekawan (Sunar et al. 2005, sections 4.4-4.5) filled with particles, in five ways.
 #pragma once
 
 #include <cstdint>
@@ -31,6 +31,8 @@ struct FilledParticle {
 // bias: only the positive octant is filled, the mean is off by +0.2..+0.3 of a side. The radius of (4.12) can leave
 // (0, Rmax]; it is clamped to Rmax, and drawn again where it is not positive. At most kMaxPrintedDraws draws a
 // particle, then one uniform in the cube (flat cubes accept 0.2% of the draws).
+//
+// kCumulus, kStratus: the shapes of clouds instead of boxes (shaped_cubes.h); the same points, mapped.
 void fill_cube(const Cube& cube, Fill fill, std::uint64_t key, std::uint64_t first,
                std::uint64_t last, FilledParticle* out);
 

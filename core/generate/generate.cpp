@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/base/parallel.h"
+#include "core/generate/auto_density.h"
 #include "core/generate/cubes.h"
 #include "core/generate/keyed_random.h"
 #include "core/generate/models.h"
@@ -45,9 +46,17 @@ void add_pieces(std::vector<Piece>& pieces, Piece whole, std::uint64_t count, st
     }
 }
 
+double density_of_cloud(const Scene& scene, std::size_t k) {
+    const Cloud& cloud = scene->clouds[k];
+    if (const auto given = density_of(*scene, cloud)) return *given;
+    if (is_procedural(cloud)) return kDefaultDensity;
+    return auto_density(cloud, fill_of(*scene, cloud), keyed(seed_of(*scene, cloud), k));
+}
+
 // made: the particles of the clouds that are procedural, by the cloud's number.
+// densities: of each cloud.
 std::vector<Piece> cut_into_pieces(const Scene& scene, const std::vector<ModelParticles>& made,
-                                   std::size_t& total) {
+                                   const std::vector<double>& densities, std::size_t& total) {
     std::vector<Piece> pieces;
     total = 0;
     for (std::size_t k = 0; k < scene->clouds.size(); ++k) {
@@ -60,7 +69,7 @@ std::vector<Piece> cut_into_pieces(const Scene& scene, const std::vector<ModelPa
                     0,
                     0,
                     0,
-                    made[k].extinctions ? 1.0 : density_of(*scene, cloud),
+                    made[k].extinctions ? 1.0 : densities[k],
                     fill_of(*scene, cloud)};
         if (cloud.model != CloudModel::kCubes) {
             add_pieces(pieces, piece, piece.ready->positions.size(), total);
@@ -152,12 +161,12 @@ Status run_models(const Scene& scene, int threads, const Deadline& deadline, boo
             for (const Cube& cube : cloud.cubes) total += cube.particles;
             continue;
         }
-        const Motion motion = motion_of(cloud, scene->time);
+        const Motion motion = motion_of(cloud, clouds_time(*scene));
         ModelRequest request;
         request.key = keyed(seed_of(*scene, cloud), k);
         request.place = k;
-        request.density = density_of(*scene, cloud);
-        request.time = scene->time;
+        request.density = density_of(*scene, cloud).value_or(kDefaultDensity);
+        request.time = clouds_time(*scene);
         request.threads = threads;
         request.coarse = coarse;
         const Camera& camera = scene->camera;
@@ -190,8 +199,10 @@ Result<ParticleSet> generate(const Scene& scene, int threads, const Deadline& de
     ParticleSet set;
     std::vector<ModelParticles> made(scene->clouds.size());
     if (Status failed = run_models(scene, threads, deadline, coarse, made, set)) return *failed;
+    for (std::size_t k = 0; k < scene->clouds.size(); ++k)
+        set.cloud_density.push_back(density_of_cloud(scene, k));
     std::size_t total = 0;
-    const std::vector<Piece> pieces = cut_into_pieces(scene, made, total);
+    const std::vector<Piece> pieces = cut_into_pieces(scene, made, set.cloud_density, total);
     set.center.resize(total);
     set.radius.resize(total);
     set.density.resize(total);
@@ -208,9 +219,9 @@ Result<ParticleSet> generate(const Scene& scene, int threads, const Deadline& de
             return;
         }
         if (pieces[i].cube != nullptr) {
-            fill_piece(pieces[i], scene->time, set);
+            fill_piece(pieces[i], clouds_time(*scene), set);
         } else {
-            copy_piece(pieces[i], scene->time, set);
+            copy_piece(pieces[i], clouds_time(*scene), set);
         }
     });
     if (auto error = deadline.over()) return *error;

@@ -25,6 +25,9 @@ struct ParticleSet {
     // extinction is then the sum of the Gaussians.
     std::shared_ptr<const DetailField> detail;
 
+    // Of each cloud of the scene, 1/unit: as given, or what was found for "auto".
+    std::vector<double> cloud_density;
+
     // Of procedural clouds (ModelParticles in models.h): the largest of their errors, and what tells sets apart that
     // depend on the eye.
     double error = 0;

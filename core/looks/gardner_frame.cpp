@@ -115,8 +115,8 @@ Frame frame_of(const Scene& scene, const View& view, bool textures) {
         const EllipsoidsCloud& model = *cloud.ellipsoids;
         SeenCloud seen;
         seen.model = &model;
-        seen.motion = motion_of(cloud, scene->time);
-        const glm::dvec3 shift = scene->time * model.drift;
+        seen.motion = motion_of(cloud, clouds_time(*scene));
+        const glm::dvec3 shift = clouds_time(*scene) * model.drift;
         if (textures) seen.in_space = ready(model.texture, true, shift, made);
         if (model.plane) {
             if (textures) seen.on_plane = ready(model.plane->texture, false, shift, made);

@@ -67,7 +67,7 @@ double ostroushko_look_ms(const Scene& scene, const View& view, int threads) {
     for (const Cloud& cloud : scene->clouds) {
         const glm::dvec3& size = cloud.spheres->size;
         const double radius = std::max({size.x, size.y, size.z}) / 2 * cloud.scale;
-        const Motion motion = motion_of(cloud, scene->time);
+        const Motion motion = motion_of(cloud, clouds_time(*scene));
         const double distance = glm::length(motion.translate - view.eye);
         const double across =
             2 * radius / std::max(distance, radius) / (2 * view.tan_half_fov) * scene->image.height;

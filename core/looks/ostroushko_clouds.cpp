@@ -49,9 +49,9 @@ std::vector<Sphere> upper_spheres(const SphereTree& tree, int levels) {
 LookCloud look_cloud(const Scene& scene, std::size_t k, const glm::dvec3& eye) {
     const Cloud& cloud = scene->clouds[k];
     const SpheresCloud& spheres = *cloud.spheres;
-    const Motion motion = motion_of(cloud, scene->time);
+    const Motion motion = motion_of(cloud, clouds_time(*scene));
     LookCloud made{
-        SphereTree(spheres, keyed(cloud.seed.value_or(scene->seed), k), k, scene->time),
+        SphereTree(spheres, keyed(cloud.seed.value_or(scene->seed), k), k, clouds_time(*scene)),
         motion,
         motion.back(eye),
         extinction_of(spheres, cloud.density.value_or(scene->density.value_or(kDefaultDensity))),

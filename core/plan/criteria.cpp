@@ -160,8 +160,8 @@ Criterion detail(const Scene& scene, const Survey& survey) {
     if (!(scene->detail->amount > 0)) return {false, 0, "the scene asks for an amount of 0"};
     // Where matter is gathered a pixel has it or has it not. Measured on table 4.4 of Sunar et al. 2005.
     const double left_out = 0.55 * scene->detail->amount;
-    return above("its largest bumps in pixels,", detail_pixels(scene, survey), kLeastBump,
-                 left_out);
+    return above("its largest bumps in pixels,", detail_pixels(scene, survey),
+                 scene->detail->automatic ? kLeastAutoBump : kLeastBump, left_out);
 }
 
 Criterion of_matter(Effect effect, const Scene& scene, const Survey& survey, const Lights& lights) {
@@ -201,6 +201,14 @@ Criterion of_matter(Effect effect, const Scene& scene, const Survey& survey, con
 }
 
 }  // namespace
+
+bool detail_counts(const Scene& scene, const Survey& survey) {
+    const Switch asked = scene->effects[static_cast<int>(Effect::kDetail)];
+    if (asked == Switch::kOff || !(scene->detail.value_or(Detail{}).amount > 0)) return false;
+    if (asked == Switch::kOn) return true;
+    return scene->detail &&
+           (!scene->detail->automatic || detail_pixels(scene, survey) > kLeastAutoBump);
+}
 
 double detail_pixels(const Scene& scene, const Survey& survey) {
     const Detail asked = scene->detail.value_or(Detail{});

@@ -26,6 +26,10 @@ Criterion criterion(Effect effect, const Scene& scene, const Survey& survey);
 
 // Pixels; smaller bumps are faded out (core/draw/march_detail.h).
 inline constexpr double kLeastBump = 1;
+// Pixels; where the scene leaves it to us, smaller bumps are not worth what detail costs.
+inline constexpr double kLeastAutoBump = 16;
+// Whether the scene has detail as far as its cost and error go: one that asks for it has it however small it is.
+bool detail_counts(const Scene& scene, const Survey& survey);
 // Size of detail's largest bumps in the picture, pixels, where the cloud is nearest; infinite from within.
 double detail_pixels(const Scene& scene, const Survey& survey);
 

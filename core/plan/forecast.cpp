@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/plan/criteria.h"
 #include "core/plan/forecast_tables.h"
 #include "core/plan/transport_settings.h"
 
@@ -32,8 +33,8 @@ double island_bytes(const IslandWork& work, double bands, double particles, doub
 }
 
 // Cells of the solve for the sun where there is detail; 0: there is none. `cells`: of the grid.
-double fine_cells(const Rung& rung, const Scene& scene, double cells) {
-    if (!scene->detail || !(scene->detail->amount > 0)) return 0;
+double fine_cells(const Rung& rung, const Scene& scene, const Survey& survey, double cells) {
+    if (!detail_counts(scene, survey)) return 0;
     double fine = cells * std::pow(fine_cells_a_side(rung.cells), 3);
     if (fine > kMostFineCells && rung.cells <= 32) fine = 8 * cells;
     return fine <= kMostFineCells ? fine : 0;
@@ -54,12 +55,13 @@ double predicted_bytes(const Rung& rung, const Scene& scene, const Survey& surve
             if (!survey.islands.list.empty()) {
                 const IslandWork work = island_work(transport_settings(rung), scene, survey);
                 return island_bytes(work, scene->sky.none ? 1 : 4, particles, kVectors, threads) +
-                       64 * kFineVectors * fine_cells(rung, scene, work.largest) *
+                       64 * kFineVectors * fine_cells(rung, scene, survey, work.largest) *
                            std::max(threads, 1);
             }
             return std::min(std::pow(rung.cells, 3), figures[5]) * 64 * kVectors +
                    64 * kFineVectors *
-                       fine_cells(rung, scene, std::min(std::pow(rung.cells, 3), figures[5])) +
+                       fine_cells(rung, scene, survey,
+                                  std::min(std::pow(rung.cells, 3), figures[5])) +
                    8e6 + 64 * particles;
         case Method::kPaths:
         case Method::kLook:  // never asked for (plan.cpp)

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/plan/criteria.h"
 #include "core/plan/island_settings.h"
 #include "core/plan/transport_settings.h"
 #include "core/scene/outside.h"
@@ -19,11 +20,6 @@ namespace {
 constexpr double kMostDepth = 300, kMostCellDepth = 60;
 
 constexpr double kIslandsShare = 0.4;
-
-bool has_detail(const Scene& scene) {
-    return scene->detail && scene->detail->amount > 0 &&
-           scene->effects[static_cast<int>(Effect::kDetail)] != Switch::kOff;
-}
 
 double longest_side(const Survey& survey) {
     const glm::dvec3 size = survey.bounds.max - survey.bounds.min;
@@ -169,28 +165,29 @@ ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& s
     const double thin = std::log(depth / (1 + depth)),
                  thick = std::log1p(std::min(depth, kMostDepth));
     const double cells = std::log1p(std::min(cell_depth, kMostCellDepth)), forward = std::abs(g);
-    const std::array figures{1.0,
-                             thin,
-                             thick,
-                             cells,
-                             forward,
-                             g * g,
-                             backlit,
-                             g * g * backlit,
-                             coarseness,
-                             survey.eye_inside ? 1.0 : 0.0,
-                             sun_share(scene),
-                             std::log10(std::clamp(1 - scene->medium.albedo, 1e-4, 1.0)) + 4,
-                             thin * forward,
-                             thick * forward,
-                             thick * backlit,
-                             thick * thick,
-                             cells * cells,
-                             thin * thin,
-                             has_detail(scene) ? scene->detail->amount : 0,
-                             survey.ground.light / (1 + survey.ground.light),
-                             -std::expm1(-survey.haze.depth_to_clouds),
-                             survey.islands.list.empty() ? 0.0 : 1.0};
+    const std::array figures{
+        1.0,
+        thin,
+        thick,
+        cells,
+        forward,
+        g * g,
+        backlit,
+        g * g * backlit,
+        coarseness,
+        survey.eye_inside ? 1.0 : 0.0,
+        sun_share(scene),
+        std::log10(std::clamp(1 - scene->medium.albedo, 1e-4, 1.0)) + 4,
+        thin * forward,
+        thick * forward,
+        thick * backlit,
+        thick * thick,
+        cells * cells,
+        thin * thin,
+        detail_counts(scene, survey) ? scene->detail.value_or(Detail{}).amount : 0,
+        survey.ground.light / (1 + survey.ground.light),
+        -std::expm1(-survey.haze.depth_to_clouds),
+        survey.islands.list.empty() ? 0.0 : 1.0};
     static_assert(figures.size() == kErrorFigureCount);
     return figures;
 }
@@ -203,11 +200,11 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
     TimeFigures figures{
         1, covered, particles, pixels * survey.particles_per_pixel, pixels, 0, 0, 0, 0, 0, 0,
         0, 0,       0};
-    if (has_detail(scene)) {
+    if (detail_counts(scene, survey)) {
         // As long a way as the cloud's mean side, in steps of a fifth of a bump (core/draw/march.cpp).
         const glm::dvec3 size = survey.bounds.max - survey.bounds.min;
         const double way = std::cbrt(std::max(size.x * size.y * size.z, 0.0));
-        const double step = 0.2 * scene->detail->size * survey.detail.radius;
+        const double step = 0.2 * scene->detail.value_or(Detail{}).size * survey.detail.radius;
         figures[8] = covered * std::min(way / std::max(step, 1e-12), 2048.0);
         figures[10] = 1;
     }

@@ -31,6 +31,15 @@ bool in_picture(const View& view, const glm::dvec3& low, const glm::dvec3& high)
     return !(left || right || over || under || behind);
 }
 
+// The square root of an island's share of the picture's width, at most 1; 0: it is not in the picture.
+double share_of_picture(const View& view, const Island& island) {
+    if (island.particles == 0 || !in_picture(view, island.low, island.high)) return 0;
+    const glm::dvec3 size = island.high - island.low;
+    const double distance = glm::length(glm::clamp(view.eye, island.low, island.high) - view.eye);
+    const double width = 2 * distance * view.tan_half_fov * std::max(view.aspect, 1.0);
+    return std::sqrt(std::min(1.0, std::max({size.x, size.y, size.z}) / std::max(width, 1e-12)));
+}
+
 int steps_down(int full, double share, int least) {
     const double steps = std::floor(-2 * std::log2(std::clamp(share, 1e-6, 1.0)) + 1e-9);
     return std::clamp(static_cast<int>(std::lround(full * std::pow(2.0, -steps / 2))),
@@ -41,16 +50,12 @@ int steps_down(int full, double share, int least) {
 
 std::vector<IslandCells> island_cells(const TransportSettings& settings, const Survey& survey) {
     std::vector<IslandCells> cells;
-    const View& view = survey.view;
     for (const Island& island : survey.islands.list) {
+        double share = share_of_picture(survey.view, island);
+        for (const View& view : survey.seen_from)
+            share = std::max(share, share_of_picture(view, island));
         IslandCells& own = cells.emplace_back();
-        if (island.particles == 0 || !in_picture(view, island.low, island.high)) continue;
-        const glm::dvec3 size = island.high - island.low;
-        const double distance =
-            glm::length(glm::clamp(view.eye, island.low, island.high) - view.eye);
-        const double width = 2 * distance * view.tan_half_fov * std::max(view.aspect, 1.0);
-        const double share =
-            std::sqrt(std::min(1.0, std::max({size.x, size.y, size.z}) / std::max(width, 1e-12)));
+        if (!(share > 0)) continue;
         own.cells = settings.cells == 0 ? 0 : steps_down(settings.cells, share, kLeastIslandCells);
         own.sun_cells = steps_down(settings.sun_cells, share, kLeastIslandSunCells);
     }

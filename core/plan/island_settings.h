@@ -8,8 +8,9 @@
 namespace awan {
 
 // Cells for each of the survey's islands: what `settings` mean for an island that fills the picture, and fewer for
-// smaller ones, with the square root of their projected size, in steps of sqrt 2 (so that a camera that moves a
-// little keeps its light); at least kLeastIslandCells. Islands out of the picture get none. EMPTY: one grid for all.
+// smaller ones, with the square root of their projected size, in steps of sqrt 2 (so that a camera that moves a little
+// keeps its light); at least kLeastIslandCells. Islands out of the picture get none. Where the survey has further
+// views, each island has what the one needs that shows it largest. EMPTY: one grid for all.
 std::vector<IslandCells> island_cells(const TransportSettings& settings, const Survey& survey);
 
 // Of the whole scene, beside its islands: coarse light for what is out of the picture, and for what islands see of

@@ -14,8 +14,8 @@
 namespace awan {
 
 // How a cube is filled (core/generate/cubes.h).
-enum class Fill { kUniform, kGardner, kPrinted };
-inline constexpr const char* kFillWords[] = {"uniform", "gardner", "printed"};
+enum class Fill { kUniform, kGardner, kPrinted, kCumulus, kStratus };
+inline constexpr const char* kFillWords[] = {"uniform", "gardner", "printed", "cumulus", "stratus"};
 
 struct Cube {
     std::uint64_t particles = 0;

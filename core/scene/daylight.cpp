@@ -70,23 +70,7 @@ glm::dvec3 sun_xyz(double elevation, double turbidity) {
     return sum * (683 * kSunSolidAngle * kStep * 1e3);
 }
 
-// What all luminances are relative to, lux.
-double sun_at_zenith() {
-    return sun_xyz(kPi / 2, 2).y;
-}
-
-// --- colours
-
-// Y of white is 1. What Rec. 709 has no colour for goes to its edge and keeps its luminance.
-glm::dvec3 rec709(const glm::dvec3& xyz) {
-    const glm::dvec3 rgb(3.2404542 * xyz.x - 1.5371385 * xyz.y - 0.4985314 * xyz.z,
-                         -0.9692660 * xyz.x + 1.8760108 * xyz.y + 0.0415560 * xyz.z,
-                         0.0556434 * xyz.x - 0.2040259 * xyz.y + 1.0572252 * xyz.z);
-    if (rgb.x >= 0 && rgb.y >= 0 && rgb.z >= 0) return rgb;
-    const glm::dvec3 inside(std::max(rgb.x, 0.0), std::max(rgb.y, 0.0), std::max(rgb.z, 0.0));
-    const double y = glm::dot(inside, glm::dvec3(0.2126729, 0.7151522, 0.0721750));
-    return y > 0 ? inside * (std::max(xyz.y, 0.0) / y) : glm::dvec3(0);
-}
+// --- the sky (appendix 2)
 
 double perez_value(const std::array<double, 5>& p, double up, double gamma, double cos_gamma) {
     return (1 + p[0] * std::exp(p[1] / up)) *
@@ -107,13 +91,42 @@ double twilight(double below) {
 
 }  // namespace
 
+AirDepths air_depths(int i, double turbidity) {
+    const double w = wavelength_of(static_cast<std::size_t>(i));
+    const double aerosol = 0.04608 * turbidity - 0.04586;  // Angstrom's beta
+    return {0.008735 * std::pow(w, -4.08), aerosol * std::pow(w, -1.3),
+            kOzone[static_cast<std::size_t>(i)] * kOzoneDepth};
+}
+
+glm::dvec3 sun_above_air(int i) {
+    const auto number = static_cast<std::size_t>(i);
+    return kSun[number] * matching(wavelength_of(number)) * (683 * kSunSolidAngle * kStep * 1e3);
+}
+
+double daylight_unit() {
+    return sun_xyz(kPi / 2, 2).y;
+}
+
+glm::dvec3 rec709(const glm::dvec3& xyz) {
+    const glm::dvec3 rgb(3.2404542 * xyz.x - 1.5371385 * xyz.y - 0.4985314 * xyz.z,
+                         -0.9692660 * xyz.x + 1.8760108 * xyz.y + 0.0415560 * xyz.z,
+                         0.0556434 * xyz.x - 0.2040259 * xyz.y + 1.0572252 * xyz.z);
+    if (rgb.x >= 0 && rgb.y >= 0 && rgb.z >= 0) return rgb;
+    const glm::dvec3 inside(std::max(rgb.x, 0.0), std::max(rgb.y, 0.0), std::max(rgb.z, 0.0));
+    const double y = glm::dot(inside, glm::dvec3(0.2126729, 0.7151522, 0.0721750));
+    return y > 0 ? inside * (std::max(xyz.y, 0.0) / y) : glm::dvec3(0);
+}
+
+glm::dvec3 balanced_rec709(const glm::dvec3& xyz) {
+    // What makes rec709 of sun 45 degrees high and sky together on a level plane, turbidity 2, (1.0775, .9809, .9607)
+    // at Y = 1, white (atmosphere_test computes it).
+    return rec709(xyz) * glm::dvec3(0.9281, 1.0194, 1.0409);
+}
+
 double air_transmittance(int number, double m, double turbidity) {
     const auto i = static_cast<std::size_t>(number);
-    const double w = wavelength_of(i);
-    const double aerosol = 0.04608 * turbidity - 0.04586;  // Angstrom's beta
-    double depth = 0.008735 * std::pow(w, -4.08) + aerosol * std::pow(w, -1.3);
-    depth += kOzone[i] * kOzoneDepth;
-    depth *= m;
+    const AirDepths parts = air_depths(number, turbidity);
+    double depth = m * (parts.gas + parts.aerosol + parts.ozone);
     if (i >= kFirstVapour) {
         const double vapour = kVapour[i - kFirstVapour] * kVapourDepth * m;
         depth += 0.2385 * vapour / std::pow(1 + 20.07 * vapour, 0.45);
@@ -129,8 +142,8 @@ double sun_illuminance(double elevation, double turbidity) {
 glm::dvec3 sunlight(double elevation, double turbidity) {
     const double shown = std::clamp(1 + glm::degrees(elevation), 0.0, 1.0);
     if (shown == 0) return glm::dvec3(0);
-    const glm::dvec3 xyz = sun_xyz(std::max(elevation, 0.0), turbidity) / sun_at_zenith();
-    return shown * shown * (3 - 2 * shown) * rec709(xyz);
+    const glm::dvec3 xyz = sun_xyz(std::max(elevation, 0.0), turbidity) / daylight_unit();
+    return shown * shown * (3 - 2 * shown) * balanced_rec709(xyz);
 }
 
 ClearSky clear_sky(const glm::dvec3& to_sun, double turbidity) {
@@ -163,7 +176,7 @@ ClearSky clear_sky(const glm::dvec3& to_sun, double turbidity) {
                       cubic(-0.04214, 0.08970, -0.04153, 0.00516, sun)) *
                          t +
                      cubic(0.15346, -0.26756, 0.06670, 0.26688, sun);
-    const std::array<double, 3> zenith = {1e3 * kcd / sun_at_zenith(), x, y};
+    const std::array<double, 3> zenith = {1e3 * kcd / daylight_unit(), x, y};
     for (std::size_t i = 0; i < 3; ++i)
         sky.scale[i] = zenith[i] / perez_value(sky.perez[i], 1, sun, std::cos(sun));
     return sky;
@@ -181,7 +194,7 @@ glm::dvec3 radiance(const ClearSky& sky, const glm::dvec3& direction) {
     // Out of the range that the fits were made for, x and y still have to be those of a colour.
     const double x = std::clamp(value[1], 0.05, 0.7), y = std::clamp(value[2], 0.05, 0.7);
     const double luminance = sky.dimmed * std::max(value[0], 0.0);
-    return rec709(luminance * glm::dvec3(x / y, 1, std::max(1 - x - y, 0.0) / y));
+    return balanced_rec709(luminance * glm::dvec3(x / y, 1, std::max(1 - x - y, 0.0) / y));
 }
 
 }  // namespace awan

@@ -17,6 +17,28 @@ glm::dvec3 sunlight(double elevation, double turbidity);
 // optical mass (1: sun at the zenith) lets through.
 double air_transmittance(int i, double optical_mass, double turbidity);
 
+// Optical depths of the air from the ground up at one of those wavelengths, by what it is made of; water vapour, which
+// bites into the far red only, is left out.
+inline constexpr int kDaylightWaves = 38;
+struct AirDepths {
+    double gas = 0, aerosol = 0, ozone = 0;
+};
+AirDepths air_depths(int i, double turbidity);
+
+// The share of 10 nm around it in X, Y and Z of the sun's irradiance above the air; Y in lux.
+glm::dvec3 sun_above_air(int i);
+
+// What all luminances are relative to: that of the sun at the zenith through air of turbidity 2, lux.
+double daylight_unit();
+
+// Linear Rec. 709; Y of white is 1. What it has no colour for goes to its edge and keeps its luminance.
+glm::dvec3 rec709(const glm::dvec3& xyz);
+
+// The same through a camera that is set to daylight, as all light of sun and sky is seen: what a level plane gets of
+// both together is white, with the sun 45 degrees high and turbidity 2 (about 5900 K), Y kept. Without it every noon
+// cloud would be cream, as the display's white is that of a bluish daylight (6504 K), and hazy horizons mauve.
+glm::dvec3 balanced_rec709(const glm::dvec3& xyz);
+
 // Illuminance of direct sunlight at normal incidence, lux; 0 below the horizon.
 double sun_illuminance(double elevation, double turbidity);
 

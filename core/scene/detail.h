@@ -9,9 +9,14 @@ namespace awan {
 struct Detail {
     double amount = 0.7;
     double size = 1.5;
+    // "auto": with these figures, where the bumps take more than a few pixels.
+    bool automatic = false;
 };
 
+inline constexpr Detail kAutomaticDetail{.automatic = true};
+
 inline constexpr Field kDetailFields[] = {
+    absence<&Detail::automatic>("auto"),
     field<&Detail::amount>({.name = "amount",
                             .wanted = "a number from 0 to 1",
                             .range = from_to(0, 1),

@@ -213,9 +213,9 @@ void settle_cloud(Instead& instead, const SceneDraft& scene, const Cloud& cloud)
     leave_out_if_all(instead, cloud.ready.colors, glm::vec3(1.0f));
     settle_model(instead, cloud);
     // Where it stands is what tells two times apart.
-    instead.put(cloud.velocity, scene.time * cloud.velocity);
+    instead.put(cloud.velocity, clouds_time(scene) * cloud.velocity);
     instead.put(cloud.fill, fill_of(scene, cloud));
-    instead.put(cloud.density, density_of(scene, cloud));
+    if (const auto density = density_of(scene, cloud)) instead.put(cloud.density, *density);
     instead.put(cloud.seed, seed_of(scene, cloud));
 }
 
@@ -226,6 +226,7 @@ void settle_lights(Instead& instead, const SceneDraft& scene) {
     instead.put(scene.sun.direction, sun_direction(scene.sun));
     const bool physical = !scene.sky.none && scene.sky.physical;
     if (!physical && !scene.sun.auto_color) instead.leave_out(scene.sky.turbidity);
+    if (!physical) instead.leave_out(scene.sky.daylight);
 }
 
 // What holds for light and picture alike.
@@ -236,10 +237,15 @@ Instead settled(const SceneDraft& scene) {
     instead.leave_out(scene.density);
     for (const Cloud& cloud : scene.clouds) settle_cloud(instead, scene, cloud);
     settle_lights(instead, scene);
-    // The time moves clouds, which is said of each above, and shows in those that change.
-    if (!std::any_of(scene.clouds.begin(), scene.clouds.end(), is_procedural))
-        instead.leave_out(scene.time);
     return instead;
+}
+
+// The time moves clouds, which is said of each in settle_cloud(), and shows in those that change.
+void settle_time(Instead& instead, const SceneDraft& scene) {
+    if (std::any_of(scene.clouds.begin(), scene.clouds.end(), is_procedural))
+        instead.put(scene.time, clouds_time(scene));
+    else
+        instead.leave_out(scene.time);
 }
 
 void settle_accuracy(Instead& instead, const Accuracy& accuracy) {
@@ -264,11 +270,14 @@ std::string fingerprint(const Scene& scene) {
     settle_accuracy(instead, scene->accuracy);
     // A picture is of one time, whatever their number.
     if (scene->sequence) instead.leave_out(scene->sequence->frames);
+    // A camera that moves is elsewhere at each time.
+    if (!scene->sequence || scene->sequence->camera.empty()) settle_time(instead, *scene);
     return digest(*scene, instead);
 }
 
 std::string light_fingerprint(const Scene& scene) {
     Instead instead = settled(*scene);
+    settle_time(instead, *scene);
     // Clouds have theirs.
     instead.leave_out(scene->seed);
     instead.leave_out(scene->haze);

@@ -8,8 +8,9 @@
 
 namespace awan {
 
-enum class ImageFormat { kPng, kExr };
-inline constexpr const char* kImageFormatWords[] = {"png", "exr"};
+// kPng16: PNG of 16 bits a channel.
+enum class ImageFormat { kPng, kExr, kPng16 };
+inline constexpr const char* kImageFormatWords[] = {"png", "exr", "png16"};
 
 enum class Background { kSky, kTransparent };
 inline constexpr const char* kBackgroundWords[] = {"sky", "transparent"};
@@ -18,14 +19,19 @@ inline constexpr const char* kBackgroundWords[] = {"sky", "transparent"};
 enum class Precision { kHalf, kFloat };
 inline constexpr const char* kPrecisionWords[] = {"half", "float"};
 
+// How bright colours come to the display (core/shaders/tone.glsl).
+enum class Tone { kNeutral, kReinhard };
+inline constexpr const char* kToneWords[] = {"neutral", "reinhard"};
+
 struct ImageSettings {
     int width = 800;
     int height = 600;
     ImageFormat format = ImageFormat::kPng;
     Background background = Background::kSky;
     Precision precision = Precision::kHalf;
-    // None: automatic (core/formats/tone.h).
+    // None: automatic (core/formats/image_file.h).
     std::optional<double> exposure;
+    Tone tone = Tone::kNeutral;
 };
 
 inline constexpr Field kImageFields[] = {
@@ -41,9 +47,11 @@ inline constexpr Field kImageFields[] = {
                                    .says = "Pixels."}),
     field<&ImageSettings::format>({.name = "format",
                                    .words = kImageFormatWords,
-                                   .says = "PNG: sRGB after exposure and the tone curve. EXR: "
-                                           "linear radiance, premultiplied, alpha = 1 - "
-                                           "transmittance."}),
+                                   .says =
+                                       "PNG: sRGB after exposure and the tone curve, of 8 bits a "
+                                       "channel, dithered, or of 16 (png16). EXR: "
+                                       "linear radiance, premultiplied, alpha = 1 - "
+                                       "transmittance."}),
     field<&ImageSettings::background>({.name = "background",
                                        .words = kBackgroundWords,
                                        .says = "What stands behind the clouds."}),
@@ -53,6 +61,12 @@ inline constexpr Field kImageFields[] = {
                                      .absent = "auto",
                                      .unit = "stops",
                                      .says = "Stops: radiance is multiplied by 2^exposure."}),
+    field<&ImageSettings::tone>({.name = "tone",
+                                 .words = kToneWords,
+                                 .says =
+                                     "Of PNG: neutral keeps the hue of what is bright; reinhard "
+                                     "bends each channel by itself, so that it turns to yellow, "
+                                     "cyan or magenta on its way to white."}),
     field<&ImageSettings::precision>(
         {.name = "precision", .words = kPrecisionWords, .says = "Of EXR's samples."}),
 };

@@ -20,6 +20,7 @@
 
 #include "core/base/result.h"
 #include "core/scene/cloud.h"
+#include "core/scene/interpolation.h"
 #include "core/scene/limits.h"
 #include "core/scene/table.h"
 
@@ -451,7 +452,6 @@ struct ImplicitCloud {
     double threshold = 0.004;
 };
 
-inline constexpr const char* kInterpolationWords[] = {"smooth", "linear"};
 inline constexpr const char* kDisplaceWords[] = {"every_way", "diagonal"};
 inline constexpr const char* kSwirlPathWords[] = {"steady", "printed"};
 inline constexpr const char* kOfPreset = "the preset's";

@@ -141,6 +141,8 @@ inline constexpr double kMaxTime = 1e6;
 inline constexpr double kMaxVelocity = 1e6;
 // Frames of a sequence: an hour at 24 a second. Names of numbered files have as many digits.
 inline constexpr std::uint64_t kMaxFrames = 100'000;
+// Keys of a moving camera: one a frame for seven minutes, as a flight has them that was recorded.
+inline constexpr std::uint64_t kMaxCameraKeys = 10'000;
 
 // --- Automaton (core/scene/automaton.h)
 

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 namespace awan {
 
@@ -12,7 +13,9 @@ double luminance(const glm::dvec3& rgb) {
     return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-Outside outside_of(const SceneDraft& scene) {
+namespace {
+
+Outside outside_under(const SceneDraft& scene, std::shared_ptr<const AirSky> air) {
     Outside outside;
     outside.to_sun = sun_direction(scene.sun);
     const Sky& sky = scene.sky;
@@ -32,8 +35,9 @@ Outside outside_of(const SceneDraft& scene) {
     if (sky.physical) {
         dome.clear = clear_sky(outside.to_sun, sky.turbidity);
         // The model's luminance is relative to the sun's.
-        dome.intensity = sky.intensity * scene.sun.intensity;
-        dome.shines = dome.intensity > 0 && dome.clear.dimmed > 0;
+        dome.intensity = sky.intensity * scene.sun.intensity * (air ? 1 : kPreethamShare);
+        dome.shines = dome.intensity > 0 && (air ? air->shines : dome.clear.dimmed > 0);
+        dome.air = std::move(air);
     } else {
         dome.zenith = sky.zenith * sky.intensity;
         dome.horizon = sky.horizon * sky.intensity;
@@ -42,9 +46,30 @@ Outside outside_of(const SceneDraft& scene) {
     return outside;
 }
 
+}  // namespace
+
+std::shared_ptr<const AirSky> air_of(const SceneDraft& scene) {
+    const Sky& sky = scene.sky;
+    if (sky.none || !sky.physical || sky.daylight != Daylight::kScattered) return nullptr;
+    return std::make_shared<const AirSky>(air_sky(sun_direction(scene.sun), sky.turbidity));
+}
+
+Outside outside_of(const SceneDraft& scene) {
+    return outside_under(scene, air_of(scene));
+}
+
+Outside outside_of(const Scene& scene) {
+    return outside_under(*scene, scene.air());
+}
+
+glm::dvec3 physical_radiance(const SkyDome& sky, const glm::dvec3& direction) {
+    return sky.intensity *
+           (sky.air ? radiance(*sky.air, direction) : radiance(sky.clear, direction));
+}
+
 glm::dvec3 sky_radiance(const SkyDome& sky, const glm::dvec3& direction) {
     if (!sky.shines) return glm::dvec3(0);
-    if (sky.physical) return sky.intensity * radiance(sky.clear, direction);
+    if (sky.physical) return physical_radiance(sky, direction);
     const double up = std::max(direction.y, 0.0);
     return glm::mix(sky.horizon, sky.zenith, 1.09 * up * up / (up * up + 0.09));
 }

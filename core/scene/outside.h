@@ -3,7 +3,9 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <memory>
 
+#include "core/scene/atmosphere.h"
 #include "core/scene/daylight.h"
 #include "core/scene/scene.h"
 
@@ -14,8 +16,10 @@ struct SkyDome {
     bool shines = false;  // else black, and nothing below holds
     bool physical = false;
     glm::dvec3 zenith{0}, horizon{0};  // radiance; of a gradient
-    ClearSky clear;                    // of a physical sky
-    double intensity = 1;              // multiplies `clear`
+    // Of a physical sky: scattered light, or where there is none, the fits of Preetham et al.
+    std::shared_ptr<const AirSky> air;
+    ClearSky clear;
+    double intensity = 1;  // multiplies either
 };
 
 struct Outside {
@@ -26,9 +30,14 @@ struct Outside {
 
 // Effect sun_color decides whether an "auto" sun has its colour: switched off it has the luminance without the hue.
 Outside outside_of(const SceneDraft& scene);
-inline Outside outside_of(const Scene& scene) {
-    return outside_of(*scene);
-}
+// The same without computing the sky again.
+Outside outside_of(const Scene& scene);
+
+// The scene's sky where it is scattered light, else none. Some milliseconds.
+std::shared_ptr<const AirSky> air_of(const SceneDraft& scene);
+
+// Of a sky that is physical and shines, from a direction (unit): its intensity times air or fits.
+glm::dvec3 physical_radiance(const SkyDome& sky, const glm::dvec3& direction);
 
 // Radiance from a direction (unit, from the ground up). Double; for 16 pixels at a time see core/draw.
 glm::dvec3 sky_radiance(const SkyDome& sky, const glm::dvec3& direction);

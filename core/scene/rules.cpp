@@ -141,7 +141,9 @@ Status check_ready(const ReadyParticles& ready, const Placement& placement, doub
 // At which something may stand.
 std::vector<double> times_of(const SceneDraft& draft) {
     if (!draft.sequence) return {draft.time};
-    return {draft.time, draft.sequence->from, draft.sequence->to};
+    const Sequence& sequence = *draft.sequence;
+    if (sequence.clouds_stand) return {sequence.from};
+    return {draft.time, sequence.from, sequence.to};
 }
 
 bool within_limits(const glm::dvec3& v) {
@@ -165,7 +167,7 @@ Status check_cloud(const SceneDraft& draft, std::size_t k, Totals& totals) {
     if (cloud.spheres) return check_rules(*cloud.spheres, at + "/spheres");
     if (cloud.implicit) return check_rules(*cloud.implicit, at + "/implicit");
     if (cloud.ellipsoids) return check_rules(*cloud.ellipsoids, at + "/ellipsoids");
-    const double density = density_of(draft, cloud);
+    const double density = density_of(draft, cloud).value_or(kDefaultDensity);
     const Placement placement(cloud);
     if (cloud.model == CloudModel::kParticles)
         return check_ready(cloud.ready, placement, density, totals, at);
@@ -223,6 +225,18 @@ Status check_camera(const Camera& camera) {
     return std::nullopt;
 }
 
+Status check_camera_keys(const std::vector<CameraKey>& keys) {
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const std::string at = "/sequence/camera/" + std::to_string(i);
+        if (i > 0 && !(keys[i].time > keys[i - 1].time))
+            return invalid(at + "/time", "must be later than that of the key before, " +
+                                             to_text(keys[i - 1].time));
+        if (!(glm::length(keys[i].target - keys[i].eye) > 0))
+            return invalid(at + "/target", "must differ from `eye`: there is no direction to look");
+    }
+    return std::nullopt;
+}
+
 Status check_image(const ImageSettings& image) {
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
@@ -263,6 +277,8 @@ Status check_rules(const SceneDraft& draft) {
     if (Status wrong = check_sun(draft.sun)) return wrong;
     if (Status wrong = check_camera(draft.camera)) return wrong;
     if (Status wrong = check_image(draft.image)) return wrong;
+    if (draft.sequence)
+        if (Status wrong = check_camera_keys(draft.sequence->camera)) return wrong;
     if (Status wrong = check_look(draft)) return wrong;
     if (Status wrong = check_effects(draft)) return wrong;
     return check_accuracy(draft.accuracy);

@@ -35,14 +35,6 @@ Status check_model(const Model& model, const std::string& at) {
 
 // --- of writing: what a document must give, and what it may not give together (rules_written.cpp)
 
-// The fields of one object that a document gives: bit i for field i of its table.
-struct Given {
-    const Table& table;
-    std::uint64_t bits = 0;
-
-    bool has(std::string_view name) const;
-};
-
 // `object` is as read so far, all of its fields done. The error's pointer is relative to it.
 Status check_written(const Given& given, const void* object);
 

@@ -62,12 +62,6 @@ Status check_accuracy(const Given& given) {
 
 }  // namespace
 
-bool Given::has(std::string_view name) const {
-    for (std::size_t i = 0; i < table.fields.size(); ++i)
-        if (table.fields[i].name == name) return (bits >> i & 1) != 0;
-    return false;
-}
-
 Status check_written(const Given& given, const void* object) {
     if (Status wrong = needs_required(given)) return wrong;
     const Table* const table = &given.table;

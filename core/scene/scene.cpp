@@ -75,17 +75,22 @@ constexpr Field kSceneFields[] = {
                               .words = kFillWords,
                               .says = "How cubes are filled: uniform (centred, low-discrepancy), "
                                       "gardner (uniform and a phase-shift warp), "
-                                      "printed (the equations as they were published)."}),
+                                      "printed (the equations as they were published), "
+                                      "cumulus (domes on a flat base), stratus (a layer with "
+                                      "round corners)."}),
     field<&SceneDraft::seed>(
         {.name = "seed",
          .wanted = "an integer from 0 to 18446744073709551615",
          .says = "Same scene and same seed: same particles, on every machine and thread count."}),
-    field<&SceneDraft::density>({.name = "density",
-                                 .wanted = "a number >= 0 (extinction, 1/unit)",
-                                 .range = from_to(0, limits::kMaxDensity),
-                                 .unit = "1/unit",
-                                 .says = "Peak extinction of a particle, 1/unit.",
-                                 .usual = [](const void*) { return kDefaultDensity; }}),
+    field<&SceneDraft::density>(
+        {.name = "density",
+         .wanted = R"(a number >= 0 (extinction, 1/unit) or "auto")",
+         .range = from_to(0, limits::kMaxDensity),
+         .absent = "auto",
+         .unit = "1/unit",
+         .says = "Peak extinction of a particle, 1/unit. \"auto\": cubes and ready "
+                 "particles get what makes each cloud an optical depth of "
+                 "some 40 through its middle, other models 0.2."}),
     field<&SceneDraft::medium>(
         {.name = "medium", .wanted = "an object", .says = "What the particles do with light."}),
     field<&SceneDraft::sun>({.name = "sun", .wanted = "an object", .says = "The sun."}),
@@ -103,9 +108,10 @@ constexpr Field kSceneFields[] = {
                               .absent = "none",
                               .says = "Air that is seen."}),
     field<&SceneDraft::detail>({.name = "detail",
-                                .wanted = R"(an object or "none")",
+                                .wanted = R"(an object, "auto" or "none")",
                                 .absent = "none",
-                                .says = "Structure finer than the particles."}),
+                                .says = "Structure finer than the particles. \"auto\": amount 0.7, "
+                                        "size 1.5, where its bumps take 16 pixels or more."}),
     field<&SceneDraft::camera>({.name = "camera",
                                 .wanted = R"(an object or "auto")",
                                 .says = "\"auto\": the whole cloud, three-quarter view."}),
@@ -136,7 +142,7 @@ constexpr Field kSceneFields[] = {
          .wanted = R"(an object or "none")",
          .absent = "none",
          .says = "The times that belong together. An automatic camera then holds the clouds at all "
-                 "of them, and rung, "
+                 "of them, unless `camera` moves it, and rung, "
                  "effects and detail are settled for all; a render is still of one time, `time`."}),
 };
 static_assert(covers<SceneDraft>(kSceneFields));
@@ -168,8 +174,12 @@ std::optional<Effect> effect_from_name(std::string_view name) {
     return std::nullopt;
 }
 
-double density_of(const SceneDraft& scene, const Cloud& cloud) {
-    return cloud.density.value_or(scene.density.value_or(kDefaultDensity));
+double clouds_time(const SceneDraft& scene) {
+    return scene.sequence && scene.sequence->clouds_stand ? scene.sequence->from : scene.time;
+}
+
+std::optional<double> density_of(const SceneDraft& scene, const Cloud& cloud) {
+    return cloud.density ? cloud.density : scene.density;
 }
 
 Fill fill_of(const SceneDraft& scene, const Cloud& cloud) {

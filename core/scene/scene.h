@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,8 +36,8 @@ namespace awan {
 enum class Look { kPhysical, kOstroushko, kGardner };
 inline constexpr const char* kLookWords[] = {"physical", "ostroushko", "gardner"};
 
-// Makes table 4.4 of Sunar et al. 2005 a thick cumulus: optical depth about 30 through its middle (measured by
-// survey_test).
+// Of procedural clouds that are given none, 1/unit. Cubes and ready particles get what makes them deep enough
+// (core/generate/auto_density.h).
 inline constexpr double kDefaultDensity = 0.2;
 
 struct SceneDraft {
@@ -44,16 +45,17 @@ struct SceneDraft {
     // to its cubes read /cubes/i, else /clouds/k/cubes/i.
     bool top_level_cubes = true;
     std::vector<Cloud> clouds;
-    Fill fill = Fill::kUniform;
+    Fill fill = Fill::kCumulus;
     std::uint64_t seed = 1;
-    // None: kDefaultDensity.
+    // None: automatic.
     std::optional<double> density;
     Medium medium;
     Sun sun;
     Sky sky;
     std::optional<Ground> ground;
     std::optional<Haze> haze;
-    std::optional<Detail> detail;
+    // None: the particles as they are.
+    std::optional<Detail> detail = kAutomaticDetail;
     Camera camera;
     ImageSettings image;
     Effects effects{};
@@ -67,23 +69,33 @@ struct SceneDraft {
 template <>
 const Table& table_of<SceneDraft>();
 
+struct AirSky;
+
 // A scene that can be made: every value in range, every request within what this version does.
 class Scene {
   public:
     const SceneDraft* operator->() const { return &draft_; }
     const SceneDraft& operator*() const { return draft_; }
+    // Its sky, where that is scattered light (core/scene/atmosphere.h), else none. It follows from the draft and is
+    // computed once.
+    const std::shared_ptr<const AirSky>& air() const { return air_; }
 
   private:
-    explicit Scene(SceneDraft draft) : draft_(std::move(draft)) {}
+    Scene(SceneDraft draft, std::shared_ptr<const AirSky> air)
+        : draft_(std::move(draft)), air_(std::move(air)) {}
     friend Result<Scene> validate(SceneDraft draft);
     SceneDraft draft_;
+    std::shared_ptr<const AirSky> air_;
 };
 
 // Unit vector towards the sun. Elevation 90 is exactly (0, 1, 0).
 glm::dvec3 sun_direction(const Sun& sun);
 
-// What holds for a cloud: its own, else the scene's, else the default.
-double density_of(const SceneDraft& scene, const Cloud& cloud);
+// Seconds of which the clouds are: the scene's time, or where they stand while the camera moves, the sequence's first.
+double clouds_time(const SceneDraft& scene);
+
+// What holds for a cloud: its own, else the scene's, else the default. No density: automatic.
+std::optional<double> density_of(const SceneDraft& scene, const Cloud& cloud);
 Fill fill_of(const SceneDraft& scene, const Cloud& cloud);
 std::uint64_t seed_of(const SceneDraft& scene, const Cloud& cloud);
 

@@ -10,11 +10,11 @@ namespace awan {
 
 struct Sun {
     double elevation = 40;
-    double azimuth = 60;
+    double azimuth = 110;
     std::optional<glm::dvec3> direction;
     glm::dvec3 color{1.0, 0.97, 0.92};
     // "auto": from the elevation (core/scene/daylight.h); `color` is unused then.
-    bool auto_color = false;
+    bool auto_color = true;
     double intensity = 40;
 };
 

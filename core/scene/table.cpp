@@ -24,4 +24,10 @@ bool is_absent(const Table& table, const void* object) {
     return absence != nullptr && *static_cast<const bool*>(absence->access.member(object));
 }
 
+bool Given::has(std::string_view name) const {
+    for (std::size_t i = 0; i < table.fields.size(); ++i)
+        if (table.fields[i].name == name) return (bits >> i & 1) != 0;
+    return false;
+}
+
 }  // namespace awan

@@ -151,6 +151,8 @@ struct Field : Row {
     constexpr bool in_documents() const { return name[0] != '\0'; }
 };
 
+struct Given;
+
 struct Table {
     // Of the schema, e.g. "Haze".
     const char* name;
@@ -161,6 +163,16 @@ struct Table {
     // Where a word may stand for the whole object, the field that it sets: {"model": "physical"} is "physical". Null:
     // none.
     const char* shorthand = nullptr;
+    // Sets what was not given where that follows from what was (below); null: nothing does.
+    void (*complete)(void* object, const Given& given) = nullptr;
+};
+
+// The fields of one object that a document gives: bit i for field i of its table.
+struct Given {
+    const Table& table;
+    std::uint64_t bits = 0;
+
+    bool has(std::string_view name) const;
 };
 
 // Completes "must be ...": what the row says, else its words, `"a" or "b"` or `one of "a", "b", "c"`.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/scene/check_ranges.h"
+#include "core/scene/outside.h"
 #include "core/scene/rules.h"
 
 namespace awan {
@@ -24,7 +25,8 @@ Result<Scene> validate(SceneDraft draft) {
         return *wrong;
     }
     if (Status wrong = check_rules(draft)) return *wrong;
-    return Scene(std::move(draft));
+    auto air = air_of(draft);
+    return Scene(std::move(draft), std::move(air));
 }
 
 }  // namespace awan

@@ -89,6 +89,7 @@ Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int thre
                       const Deadline& deadline) {
     Survey survey;
     survey.particles = particles.size();
+    survey.cloud_density = particles.cloud_density;
     survey.model_error = particles.error;
     survey.bounds = bounds_of(particles);
     survey.view = resolve_view(scene->camera, scene->image, survey.bounds);

@@ -59,6 +59,8 @@ struct HazeFigures {
 
 struct Survey {
     std::size_t particles = 0;
+    // ParticleSet::cloud_density.
+    std::vector<double> cloud_density;
     Bounds bounds;
     View view;
     DensityVolume volume;
@@ -97,6 +99,8 @@ struct Survey {
     double model_error = 0;  // ParticleSet::error
     GroundView ground;
     HazeFigures haze;
+    // Further views that the light is to serve, those of a camera that moves. EMPTY: it serves this picture alone.
+    std::vector<View> seen_from;
 };
 
 // Optical depths are sampled on a raster of 64 x 64 lines over the cloud or the picture, and on the lines through
@@ -105,6 +109,10 @@ struct Survey {
 // until the work fits (about 10 ms at 10,000 particles), and may then be 20% low.
 Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int threads,
                       const Deadline& deadline);
+
+// How far before `target`, along the view, an eye has every corner of the box in the picture, with a little room around
+// it; the view's own eye does not matter.
+double distance_that_holds(const View& view, const Bounds& bounds, const glm::dvec3& target);
 
 // The camera of a scene; "auto" looks at the bounds from a three-quarter view and holds all of
 // them.

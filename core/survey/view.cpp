@@ -13,11 +13,12 @@ constexpr double kRadians = std::numbers::pi / 180.0;
 // "auto" stands at this azimuth and height over the cloud and leaves this margin around it.
 constexpr double kAutoAzimuth = 30 * kRadians;
 // Looking up a little, as one sees clouds.
-constexpr double kAutoElevation = -6 * kRadians;
+constexpr double kAutoElevation = -10 * kRadians;
 constexpr double kAutoMargin = 1.08;
 
-// Distance from `target` along `back` at which every corner of the box is in the picture.
-double distance_that_holds(const View& view, const Bounds& bounds, glm::dvec3 target) {
+}  // namespace
+
+double distance_that_holds(const View& view, const Bounds& bounds, const glm::dvec3& target) {
     const double tan_x = view.tan_half_fov * view.aspect / kAutoMargin;
     const double tan_y = view.tan_half_fov / kAutoMargin;
     double distance = 0;
@@ -32,8 +33,6 @@ double distance_that_holds(const View& view, const Bounds& bounds, glm::dvec3 ta
     }
     return distance;
 }
-
-}  // namespace
 
 View resolve_view(const Camera& camera, const ImageSettings& image, const Bounds& bounds) {
     View view;

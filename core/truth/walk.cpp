@@ -434,7 +434,7 @@ class Walks {
 glm::dvec3 sky_radiance(const Setting& setting, const glm::dvec3& direction) {
     const SkyDome& dome = setting.dome;
     if (!dome.shines) return glm::dvec3(0);
-    if (dome.physical) return dome.intensity * radiance(dome.clear, direction);
+    if (dome.physical) return physical_radiance(dome, direction);
     const double up = std::max(direction.y, 0.0);
     const double share = 1.09 * up * up / (up * up + 0.09);
     return (1 - share) * dome.horizon + share * dome.zenith;

@@ -23,7 +23,7 @@ struct RenderCommand {
     std::vector<std::string> outputs;
     // These and the next are in place of what the document says.
     std::optional<int> width, height;
-    // "", "png", "exr"; of an animation "webp", "apng".
+    // "", "png", "png16", "exr"; of an animation "webp", "apng".
     std::string format;
     // Seconds, in place of the document's.
     std::optional<double> time;
@@ -39,8 +39,8 @@ struct RenderCommand {
     // Of rung, error and time_ms at most one is set.
     std::optional<std::string> rung;
     std::optional<double> error, time_ms;
-    // A channel of PNG: 8 or 16.
-    int bits = 8;
+    // A channel of PNG: 8 or 16, in place of what the format says.
+    std::optional<int> bits;
     // Pictures whose files are all there are not made again.
     bool skip_existing = false;
     // What make and ninja read to know what the files are made of, or "".
@@ -51,6 +51,30 @@ struct RenderCommand {
     DeviceChoice device = DeviceChoice::kAuto;
 };
 int run_render(const RenderCommand& command);
+
+// A flight around clouds or through them (core/flight_path.h).
+struct FlyCommand {
+    // One or more, which become one; `input` has what takes the place of values in the first, and no path.
+    std::vector<std::string> scenes;
+    SceneInput input;
+    // "", a word of kFlightPathWords, or a file of camera keys.
+    std::string path;
+    // "", or a word of kThicknessWords.
+    std::string mode;
+    std::optional<std::uint64_t> frames;
+    std::optional<int> width, height;
+    double frames_per_second = 12;
+    std::optional<std::string> rung;
+    // Until when it flies; 0: to its end.
+    double timeout_seconds = 0;
+    // A .json or a .txt, or "".
+    std::string report;
+    // Numbered pictures, animations, and the flight's document, a .json. EMPTY: it is flown for the report alone.
+    std::vector<std::string> outputs;
+    int threads = 1;
+    DeviceChoice device = DeviceChoice::kAuto;
+};
+int run_fly(const FlyCommand& command);
 
 struct AccuracyCommand {
     std::vector<std::string> scenes;

@@ -189,7 +189,7 @@ Run add_render(CLI::App& app) {
         ->envname("AWAN_FLIPBOOK");
     add(*render, "--columns", command->columns, "of a flipbook; 0: about a square")
         ->check(CLI::Range(0, limits::kMaxImageSide));
-    add(*render, "--bits", command->bits, "of a channel of PNG, 8 or 16")
+    add(*render, "--bits", command->bits, "of a channel of PNG, 8 or 16, instead of the document's")
         ->check(CLI::IsMember({8, 16}));
     add_farm_flags(*render, command->skip_existing, command->depfile);
     render
@@ -203,8 +203,9 @@ Run add_render(CLI::App& app) {
     add(*render, "--height", command->height, "pixels, instead of the document's")
         ->check(CLI::Range(1, limits::kMaxImageSide));
     add(*render, "--format", command->format,
-        "png or exr, instead of the document's; webp or apng for standard output")
-        ->check(CLI::IsMember({"png", "exr", "webp", "apng"}));
+        "png, png16 (16 bits a channel) or exr, instead of the document's; webp or apng for "
+        "standard output")
+        ->check(CLI::IsMember({"png", "png16", "exr", "webp", "apng"}));
     add(*render, "--background", command->background,
         "sky or transparent, instead of the document's")
         ->check(CLI::IsMember({"sky", "transparent"}));
@@ -231,6 +232,72 @@ Run add_render(CLI::App& app) {
         "A frame depends on its time alone: rendered by itself, on another machine or on other\n"
         "threads, it has the same bytes.");
     return [command] { return run_render(*command); };
+}
+
+// "800x600".
+std::string take_size(const std::string& text, FlyCommand& command) {
+    int width = 0, height = 0, end = 0;
+    const bool whole = std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &end) == 2 &&
+                       static_cast<std::size_t>(end) == text.size();
+    if (!whole || width < 1 || height < 1 || std::max(width, height) > limits::kMaxImageSide)
+        return text + " is not WIDTHxHEIGHT, each from 1 to " +
+               std::to_string(limits::kMaxImageSide);
+    command.width = width;
+    command.height = height;
+    return {};
+}
+
+Run add_fly(CLI::App& app) {
+    auto command = std::make_shared<FlyCommand>();
+    command->threads = processors();
+    auto size = std::make_shared<std::string>();
+    CLI::App* fly = app.add_subcommand(
+        "fly", "a flight around clouds or through them: pictures, and a report of how it went");
+    fly->add_option("scene", command->scenes,
+                    std::string(kSceneHelp) + "; or several, whose clouds become one scene")
+        ->required();
+    add(*fly, "-o,--output", command->outputs,
+        "a .webp or .apng, a name with %04d or #### in it for numbered .png or .exr, or a .json, "
+        "the scene with the flight's camera keys; may be repeated; none: only the report")
+        ->allow_extra_args(false);
+    add(*fly, "--path", command->path,
+        "orbit (around the clouds), through (in at one side, out at the other), keys (the "
+        "document's own), or a .json file of camera keys; the document's own, else orbit");
+    add(*fly, "--mode", command->mode,
+        "thin, medium or thick: an optical depth of 1, 6 or 30; as the scenes stand")
+        ->check(CLI::IsMember({"thin", "medium", "thick"}));
+    add(*fly, "--frames", command->frames, "how many; those of the document's sequence, else 48")
+        ->check(CLI::Range(std::uint64_t{1}, limits::kMaxCameraKeys));
+    add(*fly, "--size", *size, "WIDTHxHEIGHT in pixels, instead of the document's")
+        ->check([command](const std::string& text) { return take_size(text, *command); });
+    add(*fly, "--fps", command->frames_per_second, "frames a second that an animation shows")
+        ->check(CLI::Range(0.1, 1000.0));
+    add(*fly, "--rung", command->rung,
+        "a rung of accuracy by name, instead of transport-16, which is made for flights: its light "
+        "is kept from frame to frame")
+        ->check(CLI::IsMember(rung_names()));
+    add(*fly, "--timeout", command->timeout_seconds,
+        "seconds after which it stops with what is done; 0: at its end")
+        ->check(CLI::Range(0.0, 1e6));
+    add(*fly, "--report", command->report,
+        "a .json or .txt file: time, frames, particles, billboards, frames a second, stages, "
+        "memory; the text is printed too");
+    add(*fly, "--set", command->input.sets,
+        "a value of the first document, as /sun/elevation=12; may be repeated")
+        ->allow_extra_args(false);
+    add(*fly, "--seed", command->input.seed, "instead of the first document's");
+    add(*fly, "--radius", command->input.radius,
+        "of ready particles (.ply, .csv), in place of what the file says of it")
+        ->check(CLI::PositiveNumber);
+    add_threads(*fly, command->threads);
+    add_device(*fly, command->device);
+    fly->footer(
+        "  awan fly cumulus.json -o flight.webp                            once around it\n"
+        "  awan fly a.json b.json --path through --mode thick --frames 96 --size 640x360 \\\n"
+        "      --timeout 60 --report report.json -o frames/%04d.png\n"
+        "  awan fly cumulus.json --path keys.json -o flight.json           to render later\n"
+        "Camera keys are a list of {\"time\", \"eye\", \"target\", \"fov\"}, as sequence.camera.");
+    return [command, size] { return run_fly(*command); };
 }
 
 Run add_accuracy(CLI::App& app) {
@@ -401,6 +468,7 @@ int main(int argc, char** argv) {
 
     const std::pair<const char*, Run> commands[] = {{"serve", add_serve(app)},
                                                     {"render", add_render(app)},
+                                                    {"fly", add_fly(app)},
                                                     {"accuracy", add_accuracy(app)},
                                                     {"particles", add_particles(app)},
                                                     {"plan", add_plan(app)},

@@ -15,7 +15,8 @@ Result<std::vector<Target>> targets_of(const RenderCommand& command, const std::
         if (twice) return Error{ErrorCode::kIo, "", "-o " + path + " stands twice"};
         // With several outputs the format is that of the one that has no name of its own.
         const bool named = path != "-" && path.rfind('.') != std::string::npos;
-        const std::string format = named && command.outputs.size() > 1 ? "" : command.format;
+        const std::string word = command.format == "png16" ? "png" : command.format;
+        const std::string format = named && command.outputs.size() > 1 ? "" : word;
         auto known = output_format(path, format, {"png", "exr", "webp", "apng"}, otherwise);
         if (!known) return known.error();
         if (binary_to_terminal(path))

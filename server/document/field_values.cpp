@@ -85,6 +85,7 @@ void set_absent(const Table& table, void* object, bool absent) {
 }
 
 void complete_defaults(const Table& table, std::uint64_t seen, void* object) {
+    if (table.complete != nullptr) table.complete(object, Given{table, seen});
     for (std::size_t i = 0; i < table.fields.size(); ++i) {
         const Field& field = table.fields[i];
         if (field.usual == nullptr || field.access.optional || (seen >> i & 1) != 0) continue;

@@ -8,13 +8,16 @@
 
 namespace awan {
 
-// {"kind": "render" | "accuracy" | "sequence", "scene": {...}, "format": "..."}. Views of the text they were read from.
+// {"kind": "render" | "accuracy" | "sequence" | "fly", "scene": {...}, "format": "..."}, and of a flight "path",
+// "mode", "frames" and "rung". Views of the text they were read from.
 struct JobText {
     std::string_view kind;
     // The scene's document, as it stands; "/scene" is before every pointer in it.
     std::string_view scene;
     // A word; "" where there is none.
     std::string_view format;
+    // Of a flight, as they stand: words without their quotes, a number; "" where there is none.
+    std::string_view path, mode, frames, rung;
 };
 
 // Only the outer object is read; what stands in `scene` is parse_scene()'s business. Costs no memory, whatever the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 
 #include "core/formats/numbers.h"
@@ -94,8 +95,8 @@ void override_scene(const Overrides& overrides, SceneDraft& draft) {
     if (overrides.width) image.width = *overrides.width;
     if (overrides.height) image.height = *overrides.height;
     if (overrides.background) image.background = *overrides.background;
-    if (overrides.format == "png") image.format = ImageFormat::kPng;
-    if (overrides.format == "exr") image.format = ImageFormat::kExr;
+    for (std::size_t i = 0; i < std::size(kImageFormatWords); ++i)
+        if (overrides.format == kImageFormatWords[i]) image.format = static_cast<ImageFormat>(i);
     if (overrides.seed) draft.seed = *overrides.seed;
     if (overrides.error || overrides.time_ms || overrides.rung)
         draft.accuracy = {overrides.error, overrides.time_ms, overrides.rung};

@@ -172,9 +172,9 @@ class SceneReader {
         Frame& frame = top();
         frame.field = kNoField;
         if (frames_.size() == 1 && !end_answer(frame)) return false;
+        complete_defaults(*frame.table, frame.seen, frame.object);
         if (const Status wrong = check_written({*frame.table, frame.seen}, frame.object))
             return fail_at(pointer() + wrong->pointer, wrong->message, wrong->code);
-        complete_defaults(*frame.table, frame.seen, frame.object);
         return pop();
     }
 

@@ -172,6 +172,8 @@ void add_default(const Field& field, const void* standards, std::string& out) {
     const void* const value = field.access.get(standards);
     if (field.required || field.access.holds == Holds::kObjects) return;
     if (field.usual != nullptr) return member("default", field.usual(standards), out);
+    if (field.access.unused != nullptr && *field.access.unused(standards))
+        return words("default", field.absent, out);
     switch (field.access.holds) {
         case Holds::kNumber:
             if (value) member("default", *static_cast<const double*>(value), out);

@@ -22,6 +22,13 @@ void bounds(const Bounds& box, std::string& out) {
 void survey_object(const Survey& survey, std::string& out) {
     out += '{';
     member("particles", std::uint64_t{survey.particles}, out);
+    name("density", out);
+    out += '[';
+    for (const double density : survey.cloud_density) {
+        if (out.back() != '[') out += ',';
+        append_json_number(density, out);
+    }
+    out += ']';
     bounds(survey.bounds, out);
     name("optical_depth", out);
     out += '{';

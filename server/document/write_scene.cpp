@@ -165,16 +165,19 @@ void add_member(const Field& field, const void* object, const void* standards, i
     if (field.idle != nullptr && field.idle(object)) return;
     const void* const value = field.access.get(object);
     const void* const standard = field.access.get(standards);
-    const bool unused = field.access.unused != nullptr && *field.access.unused(object);
+    const auto is_unused = [&field](const void* of) {
+        return field.access.unused != nullptr && *field.access.unused(of);
+    };
+    const bool unused = is_unused(object), usually_unused = is_unused(standards);
     if (value == nullptr || unused) {
         // Not given, where that is not what leaving it out means.
-        if (field.absent != nullptr && (unused || standard != nullptr))
+        if (field.absent != nullptr && (unused ? !usually_unused : standard != nullptr))
             add_word(field.absent, field.name, members);
         return;
     }
     if (field.access.holds == Holds::kObject)
         return add_object(field, value, standard, depth, members);
-    const bool may_be_left_out = standard != nullptr && !field.required;
+    const bool may_be_left_out = standard != nullptr && !usually_unused && !field.required;
     if (may_be_left_out && is_standard(field, value, standard, object)) return;
     if (field.of_model &&
         *field.of_model != static_cast<int>(static_cast<const Cloud*>(object)->model))

@@ -1,6 +1,8 @@
 // /v1/jobs: work that is asked for now and fetched later.
 #include <algorithm>
 
+#include "core/formats/numbers.h"
+#include "core/scene/rungs.h"
 #include "server/document/job_text.h"
 #include "server/service/negotiation.h"
 #include "server/service/problem.h"
@@ -30,7 +32,13 @@ const std::vector<JobKind>& job_kinds() {
          {{"webp", "image/webp"},
           {"apng", "image/apng"},
           {"zip", "application/zip"},
-          {"flipbook", "application/zip"}}}};
+          {"flipbook", "application/zip"}}},
+        {"fly",
+         "",
+         {{"webp", "image/webp"},
+          {"apng", "image/apng"},
+          {"zip", "application/zip"},
+          {"json", "application/json"}}}};
     return kinds;
 }
 
@@ -38,12 +46,61 @@ Error wrong(const std::string& pointer, std::string message) {
     return {ErrorCode::kInvalidScene, pointer, std::move(message)};
 }
 
+// "\"a\", \"b\"".
+std::string listed(std::span<const char* const> words) {
+    std::string all;
+    for (const char* const word : words)
+        all += (all.empty() ? "\"" : ", \"") + std::string(word) + '"';
+    return all;
+}
+
+// The place of a word among those there are.
+Result<std::size_t> word_at(std::string_view word, std::span<const char* const> words,
+                            const char* pointer) {
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found == words.end()) return wrong(pointer, "must be one of " + listed(words));
+    return static_cast<std::size_t>(found - words.begin());
+}
+
+// What a job of kind fly asks for; no other has such members.
+Result<FlightWish> flight_wish(const JobText& text) {
+    FlightWish wish;
+    const std::pair<const char*, std::string_view> given[] = {
+        {"/path", text.path}, {"/mode", text.mode}, {"/frames", text.frames}, {"/rung", text.rung}};
+    for (const auto& [pointer, value] : given)
+        if (!value.empty() && text.kind != "fly")
+            return wrong(pointer, "belongs to a job of kind \"fly\"");
+    if (!text.path.empty()) {
+        const auto path = word_at(text.path, kFlightPathWords, "/path");
+        if (!path) return path.error();
+        wish.path = static_cast<FlightPath>(*path);
+    }
+    if (!text.mode.empty()) {
+        const auto mode = word_at(text.mode, kThicknessWords, "/mode");
+        if (!mode) return mode.error();
+        wish.thickness = static_cast<Thickness>(*mode);
+    }
+    if (!text.frames.empty()) {
+        wish.frames = read_number<std::uint64_t>(text.frames);
+        if (!wish.frames || *wish.frames < 1 || *wish.frames > limits::kMaxCameraKeys)
+            return wrong("/frames",
+                         "must be an integer from 1 to " + std::to_string(limits::kMaxCameraKeys));
+    }
+    if (!text.rung.empty()) {
+        std::vector<const char*> rungs;
+        for (const Rung& rung : ladder()) rungs.push_back(rung.name);
+        if (const auto known = word_at(text.rung, rungs, "/rung"); !known) return known.error();
+        wish.rung = text.rung;
+    }
+    return wish;
+}
+
 // The request whose answer is the job's result.
 Result<JobWork> work_of(const JobText& text, const Request& request) {
     const auto kind = std::find_if(job_kinds().begin(), job_kinds().end(),
                                    [&](const JobKind& k) { return k.name == text.kind; });
     if (kind == job_kinds().end())
-        return wrong("/kind", "must be \"render\", \"accuracy\" or \"sequence\"");
+        return wrong("/kind", R"(must be "render", "accuracy", "sequence" or "fly")");
     const auto format = text.format.empty()
                             ? kind->formats.begin()
                             : std::find_if(kind->formats.begin(), kind->formats.end(),
@@ -54,7 +111,10 @@ Result<JobWork> work_of(const JobText& text, const Request& request) {
             if (!word.empty()) known += (known.empty() ? "\"" : ", \"") + std::string(word) + '"';
         return wrong("/format", "must be one of " + known);
     }
+    auto flight = flight_wish(text);
+    if (!flight) return flight.error();
     JobWork work;
+    work.flight = *std::move(flight);
     work.id = request_id_from("");
     work.kind = text.kind;
     work.format = format->first;
@@ -98,6 +158,9 @@ std::optional<Response> refuse_scene(Service::State& state, const Request& reque
     }
     if (work.kind == "sequence" && !(*scene)->sequence)
         return fail(wrong("/scene/sequence", "a job of a sequence needs one"), request);
+    if (work.flight.path == FlightPath::kKeys &&
+        !((*scene)->sequence && !(*scene)->sequence->camera.empty()))
+        return fail(wrong("/scene/sequence/camera", "there are no keys to fly along"), request);
     return std::nullopt;
 }
 
@@ -233,7 +296,7 @@ Response tell_job(Service::State& state, const Request& request) {
 }
 
 Response answer_job_work(Service::State& state, const JobWork& work, const Request& request) {
-    if (work.kind == "sequence") return answer_sequence(state, request, work.format);
+    if (work.kind == "sequence" || work.kind == "fly") return answer_sequence(state, request, work);
     return answer_scene_request(state, request);
 }
 

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/flight_path.h"
 #include "server/service/service.h"
 
 namespace awan {
@@ -24,12 +25,14 @@ std::string_view name_of(JobState state);
 // What a job is to do. Never changes.
 struct JobWork {
     std::string id, kind;
-    // The result's, of a sequence.
+    // The result's, of a sequence or a flight.
     std::string format;
     // Of the answer that is its result: its path, headers and body; deadline and progress are the job's.
     Request request;
     // The client's, with a digest of what came with it; "": none.
     std::string idempotency_key, digest;
+    // Of a flight.
+    FlightWish flight{};
 };
 
 struct JobView {

@@ -218,7 +218,8 @@ Result<std::string> encode_picture(const Rendered& rendered, const Scene& scene,
                                    std::string_view type, const Deadline& deadline) {
     if (type == kExr)
         return encode_exr(rendered.image, scene->image.precision, notes_of(rendered), deadline);
-    return encode_png(rendered.image, exposure_of(scene), 8, deadline);
+    return encode_png(rendered.image, film_of(scene),
+                      scene->image.format == ImageFormat::kPng16 ? 16 : 8, deadline);
 }
 
 Drawn draw_in_lanes(Service::State& state, const Request& request, const Scene& scene,

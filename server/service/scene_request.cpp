@@ -24,12 +24,16 @@ constexpr std::string_view kUrlencoded = "application/x-www-form-urlencoded",
 constexpr std::array<std::string_view, 5> kAccuracyNames = {"theme", "size", "samples", "runs",
                                                             "rungs"};
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kFormats = {
+// Of a picture that is rendered; a plot has no such thing.
+constexpr std::string_view kPng16Word = kImageFormatWords[static_cast<int>(ImageFormat::kPng16)];
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kFormats = {
     {{"json", "application/json"},
      {"csv", "text/csv"},
      {"ply", "application/x-ply"},
      {"awn", "text/x-awn"},
      {"png", "image/png"},
+     {kPng16Word, "image/png"},
      {"exr", "image/x-exr"}}};
 
 bool is_form(std::string_view type) {
@@ -199,6 +203,7 @@ Result<SceneRequest> read_scene_request(const Request& request) {
 std::optional<std::string_view> chosen_offer(const Request& request, std::string_view format,
                                              std::span<const std::string_view> offers) {
     if (format.empty()) return best_offer(joined_header(request, "Accept"), offers);
+    if (format == kPng16Word && request.path != "/v1/render") return {};
     for (const auto& [name, type] : kFormats)
         if (name == format && std::find(offers.begin(), offers.end(), type) != offers.end())
             return type;

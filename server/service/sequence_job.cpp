@@ -7,11 +7,14 @@
 #include <thread>
 #include <utility>
 
+#include "core/flight_path.h"
 #include "core/formats/animation.h"
 #include "core/formats/image_file.h"
 #include "core/formats/sheet.h"
 #include "core/formats/zip_archive.h"
 #include "core/sequence.h"
+#include "core/survey/in_view.h"
+#include "server/document/flight_report.h"
 #include "server/document/sheet_text.h"
 #include "server/service/problem.h"
 #include "server/service/state.h"
@@ -20,7 +23,7 @@ namespace awan {
 namespace {
 
 // That an animation shows.
-constexpr double kFramesPerSecond = 12;
+constexpr double kFramesPerSecond = kFlightFramesPerSecond;
 
 // Before a lane, or memory, is asked for again.
 constexpr std::chrono::milliseconds kLinesAreFull{100};
@@ -28,9 +31,10 @@ constexpr std::chrono::milliseconds kLinesAreFull{100};
 // Where the frames go, in their order.
 class Reel {
   public:
-    // format: "webp", "apng", "zip" or "flipbook".
+    // format: "webp", "apng", "zip", "flipbook", or of a flight "json": its report alone.
     static Result<Reel> begin(const std::string& format, const Scene& scene) {
         Reel reel;
+        if (format == "json") return reel;
         const std::uint64_t frames = scene->sequence->frames;
         if (format == "zip" || format == "flipbook") {
             auto archive = ZipArchive::begin();
@@ -58,12 +62,13 @@ class Reel {
     }
     Status add(const Rendered& rendered, const Scene& scene, std::uint64_t frame,
                const Deadline& deadline) {
-        if (animation_) return animation_->add(rendered.image, exposure_of(scene));
+        if (animation_) return animation_->add(rendered.image, film_of(scene));
         if (layout_) {
             if (frame == 0) sheet_ = begin_sheet(*layout_, rendered.image.opaque);
             put_on_sheet(*layout_, frame, rendered.image, sheet_);
             return std::nullopt;
         }
+        if (!archive_) return std::nullopt;
         const bool exr = scene->image.format == ImageFormat::kExr;
         auto bytes = encode_picture(rendered, scene, exr ? "image/x-exr" : "image/png", deadline);
         if (!bytes) return bytes.error();
@@ -73,11 +78,19 @@ class Reel {
     std::size_t bytes() const {
         return (archive_ ? archive_->bytes() : 0) + sheet_.pixels.size() * sizeof(float);
     }
-    // scene: any of the frames, since the light and so the exposure is the same for all.
-    Result<std::string> end(const Scene& scene, const Deadline& deadline) {
+    // scene: any of the frames, since the light and so the exposure is the same for all. report: of a flight.
+    Result<std::string> end(const Scene& scene, const FlightReport* report,
+                            const Deadline& deadline) {
         if (animation_) return animation_->end();
+        if (!archive_) return flight_to_json(*report);
         if (layout_)
             if (const Status failed = add_sheet(scene, deadline)) return *failed;
+        if (report != nullptr) {
+            if (Status failed = archive_->add("report.json", flight_to_json(*report)))
+                return *failed;
+            if (Status failed = archive_->add("report.txt", flight_to_text(*report)))
+                return *failed;
+        }
         return archive_->end();
     }
 
@@ -90,8 +103,10 @@ class Reel {
 
     Status add_sheet(const Scene& scene, const Deadline& deadline) {
         const bool exr = scene->image.format == ImageFormat::kExr;
-        auto bytes = exr ? encode_exr(sheet_, scene->image.precision, {}, deadline)
-                         : encode_png(sheet_, exposure_of(scene), 8, deadline);
+        auto bytes =
+            exr ? encode_exr(sheet_, scene->image.precision, {}, deadline)
+                : encode_png(sheet_, film_of(scene),
+                             scene->image.format == ImageFormat::kPng16 ? 16 : 8, deadline);
         if (!bytes) return bytes.error();
         const std::string name = exr ? "flipbook.exr" : "flipbook.png";
         if (Status failed = archive_->add(name, *bytes)) return failed;
@@ -122,6 +137,7 @@ class Reel {
 
 const char* type_of_reel(const std::string& format) {
     if (format == "zip" || format == "flipbook") return "application/zip";
+    if (format == "json") return "application/json";
     return format == "apng" ? "image/apng" : "image/webp";
 }
 
@@ -134,9 +150,9 @@ Status grow_lease(WorkBudget::Lease& lease, std::size_t bytes, const Deadline& d
     return std::nullopt;
 }
 
-// One frame, drawn; or what is to be said instead.
+// One frame, drawn; or what is to be said instead. in_view: its particles in the picture.
 Drawn frame_of(Service::State& state, const Request& request, const Settled& settled, double time,
-               Scene& scene) {
+               Scene& scene, std::size_t& in_view) {
     Lanes::Pass pass(state.lanes);
     const LaneWork work{Weight::kLong, 2 * kShort_ms, request.client};
     if (auto refused =
@@ -148,6 +164,7 @@ Drawn frame_of(Service::State& state, const Request& request, const Settled& set
         plan_frame(frame, threads_of_one(state), request.deadline, state.options.speed),
         threads_of_one(state), &state.tiles);
     if (!planned) return {std::nullopt, planned.error()};
+    in_view = particles_in_view(planned->particles, planned->survey.view);
     scene = std::move(frame.scene);
     Request inner = request;
     // A frame's own progress is not that of the whole.
@@ -155,28 +172,67 @@ Drawn frame_of(Service::State& state, const Request& request, const Settled& set
     return draw_in_lanes(state, inner, scene, *std::move(planned), 0, pass);
 }
 
+// What is settled before the first frame; of a flight, whose scene this makes, its path too.
+Result<Settled> settle_job(Service::State& state, const Request& request, const JobWork& work,
+                           Result<Scene>& scene) {
+    Lanes::Pass pass(state.lanes);
+    const LaneWork lane{Weight::kLong, 2 * kShort_ms, request.client};
+    while (pass.enter(lane, request.deadline) != Lanes::Entry::kIn)
+        if (const auto over = request.deadline.over()) return *over;
+    const int threads = threads_of_one(state);
+    if (work.kind == "fly") {
+        auto flight = flight_of(**scene, work.flight, threads, request.deadline);
+        if (!flight) {
+            Error error = flight.error();
+            error.pointer = "/scene" + error.pointer;
+            return error;
+        }
+        scene = std::move(flight);
+    }
+    return settle(*scene, Settling::kMeasured, {&state.settling_lights, threads}, request.deadline);
+}
+
+// What is known before it begins.
+FlightReport flight_report_of(const JobWork& work, const SceneDraft& scene,
+                              const Service::State& state) {
+    const bool has_keys = scene.sequence && !scene.sequence->camera.empty();
+    FlightReport report;
+    report.scenes = {"scene"};
+    report.path = kFlightPathWords[static_cast<int>(
+        work.flight.path.value_or(has_keys ? FlightPath::kKeys : FlightPath::kOrbit))];
+    if (work.flight.thickness)
+        report.mode = kThicknessWords[static_cast<int>(*work.flight.thickness)];
+    report.width = scene.image.width;
+    report.height = scene.image.height;
+    report.threads = threads_of_one(state);
+    report.renderer = "processor";
+    return report;
+}
+
 }  // namespace
 
-Response answer_sequence(Service::State& state, const Request& request, const std::string& format) {
+Response answer_sequence(Service::State& state, const Request& request, const JobWork& work) {
+    const auto start = Deadline::Clock::now();
     auto scene = read_request_scene(request);
     if (!scene) return fail(scene.error(), request);
-    const Sequence& sequence = *(*scene)->sequence;
     WorkBudget::Lease lease = state.budget.take(work_bytes(**scene, true));
     if (!lease) return no_memory(state, request);
-    const auto settled = [&]() -> Result<Settled> {
-        Lanes::Pass pass(state.lanes);
-        const LaneWork work{Weight::kLong, 2 * kShort_ms, request.client};
-        while (pass.enter(work, request.deadline) != Lanes::Entry::kIn)
-            if (const auto over = request.deadline.over()) return *over;
-        return settle(*scene, Settling::kMeasured, {&state.settling_lights, threads_of_one(state)},
-                      request.deadline);
-    }();
+    const bool flies = work.kind == "fly";
+    FlightReport report = flight_report_of(work, **scene, state);
+    auto settled = settle_job(state, request, work, scene);
     if (!settled) return fail(settled.error(), request);
-    auto reel = Reel::begin(format, *scene);
+    settled->is_unmeasured = flies;
+    report.settle_seconds = ms_since(start) / 1000;
+    const Sequence& sequence = *(*scene)->sequence;
+    report.frames_asked = sequence.frames;
+    auto reel = Reel::begin(work.format, *scene);
     if (!reel) return fail(reel.error(), request);
     for (std::uint64_t i = 0; i < sequence.frames;) {
+        const auto frame_start = Deadline::Clock::now();
         Scene still = *scene;
-        Drawn drawn = frame_of(state, request, *settled, frame_time(sequence, i), still);
+        std::size_t in_view = 0;
+        const double time = frame_time(sequence, i);
+        Drawn drawn = frame_of(state, request, *settled, time, still, in_view);
         // The lines are full at the moment. What has been drawn is not lost for that.
         if (drawn.refused && drawn.refused->status == 429 && !request.deadline.over()) {
             std::this_thread::sleep_for(kLinesAreFull);
@@ -185,6 +241,7 @@ Response answer_sequence(Service::State& state, const Request& request, const st
         if (drawn.refused) return std::move(*drawn.refused);
         if (!drawn.rendered) return fail(drawn.rendered.error(), request);
         const std::size_t before = reel->bytes();
+        const auto encoding = Deadline::Clock::now();
         if (const Status failed = reel->add(*drawn.rendered, still, i, request.deadline))
             return fail(*failed, request);
         if (reel->bytes() > limits::kJobBytes)
@@ -196,14 +253,25 @@ Response answer_sequence(Service::State& state, const Request& request, const st
                 request);
         if (const Status over = grow_lease(lease, reel->bytes() - before, request.deadline))
             return fail(*over, request);
+        if (flies) {
+            FlownFrame flown =
+                flown_frame(i, time, drawn.rendered->survey.particles, in_view, *drawn.rendered);
+            flown.encode_ms = ms_since(encoding);
+            flown.ms = ms_since(frame_start);
+            report.frames.push_back(flown);
+            report.rung = drawn.rendered->plan.rung;
+            if (needs_device(drawn.rendered->plan))
+                report.renderer = state.renderer.info().device.renderer;
+        }
         ++i;
         if (request.progress)
             request.progress(static_cast<double>(i) / static_cast<double>(sequence.frames));
     }
-    auto bytes = reel->end(*scene, request.deadline);
+    report.seconds = ms_since(start) / 1000;
+    auto bytes = reel->end(*scene, flies ? &report : nullptr, request.deadline);
     if (!bytes) return fail(bytes.error(), request);
     Response response;
-    response.headers = {{"Content-Type", type_of_reel(format)}, {"Cache-Control", "no-store"}};
+    response.headers = {{"Content-Type", type_of_reel(work.format)}, {"Cache-Control", "no-store"}};
     response.body = *std::move(bytes);
     return response;
 }

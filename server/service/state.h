@@ -81,9 +81,10 @@ Response submit_job(Service::State& state, const Request& request);
 Response tell_job(Service::State& state, const Request& request);
 Response answer_job_work(Service::State& state, const JobWork& work, const Request& request);
 
-// The frames of a sequence as an animation, "webp" or "apng", as pictures in an archive, "zip", or as a sheet
-// and its layout in one, "flipbook" (sequence_job.cpp).
-Response answer_sequence(Service::State& state, const Request& request, const std::string& format);
+// The frames of a sequence, or of a flight, as an animation, "webp" or "apng", as pictures in an archive, "zip", or as
+// a sheet and its layout in one, "flipbook"; of a flight also only its report, "json", which is in its archive too
+// (sequence_job.cpp).
+Response answer_sequence(Service::State& state, const Request& request, const JobWork& work);
 
 // Draws what is planned: with the device, in whose line it waits while another computes in its lane, or in its lane.
 // pass: in a lane, before and after. `refused`: what is to be said where it got no lane; then there is no picture.

@@ -112,6 +112,9 @@ class Maker:
         scene = self.object(self.contract.found({"$ref": "#/components/schemas/" + kind}), 0)
         image = scene.get("image")
         scene["image"] = {**(image if isinstance(image, dict) else {}), "width": 16, "height": 12}
+        # Thick clouds and their lumps take the truth long.
+        scene.setdefault("density", 0.2)
+        scene.setdefault("detail", "none")
         scene["accuracy"] = {"rung": self.chance.choice(["harris", "additive", "transport-16"])}
         return scene
 

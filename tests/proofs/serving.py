@@ -8,7 +8,7 @@ import time
 
 JSON = {"Content-Type": "application/json"}
 SCENE = {"cubes": [{"particles": 20, "size": [2, 1, 2], "center": [0, 0, 0], "radius": 0.5}],
-         "image": {"width": 16, "height": 8}, "accuracy": {"rung": "harris"}}
+         "density": 0.2, "detail": "none", "image": {"width": 16, "height": 8}, "accuracy": {"rung": "harris"}}
 
 
 class Answer:

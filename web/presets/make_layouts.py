@@ -120,6 +120,7 @@ CLEAR = {"model": "physical", "turbidity": 2.6}
 PRESETS = {
     "noon-cumulus": lambda: {
         "cubes": layout("cumulus-detailed"),
+        "fill": "uniform",
         "density": 7,
         "sun": {"elevation": 42, "azimuth": 98, "color": "auto"},
         "sky": CLEAR,
@@ -130,6 +131,7 @@ PRESETS = {
     },
     "silver-lining": lambda: {
         "cubes": layout("congestus"),
+        "fill": "uniform",
         "density": 4,
         "sun": {"elevation": 21, "azimuth": 172, "color": "auto"},
         "sky": {"model": "physical", "turbidity": 3},
@@ -140,6 +142,7 @@ PRESETS = {
     },
     "sunset-stratocumulus": lambda: {
         "cubes": broken_deck(9, 420, 4, 22, 34, 0.75, 16, 0.62),
+        "fill": "uniform",
         "density": 1,
         "sun": {"elevation": 3, "azimuth": 152, "color": "auto", "intensity": 80},
         "sky": {"model": "physical", "turbidity": 3, "intensity": 0.4},
@@ -151,6 +154,7 @@ PRESETS = {
     },
     "cirrus": lambda: {
         "cubes": cirrus(),
+        "fill": "uniform",
         "density": 2,
         "medium": {"g": 0.8},
         "sun": {"elevation": 48, "azimuth": 60, "color": "auto"},
@@ -161,6 +165,7 @@ PRESETS = {
     },
     "thunderhead": lambda: {
         "cubes": thunderhead(),
+        "fill": "uniform",
         "density": 7,
         "sun": {"elevation": 22, "azimuth": 66, "color": "auto"},
         "sky": {"model": "physical", "turbidity": 3},
@@ -172,6 +177,7 @@ PRESETS = {
     },
     "fog-shafts": lambda: {
         "cubes": broken_deck(5, 300, 5, 17, 24, 0.85, 22, 0.62),
+        "fill": "uniform",
         "density": 3,
         "sun": {"elevation": 27, "azimuth": 176, "color": "auto"},
         "sky": {"model": "physical", "turbidity": 4},

@@ -88,7 +88,7 @@ def main():
             height = radius * (dice.uniform(1, 1.4) if dice.random() < 0.2 else dice.uniform(0.4, 0.8))
             clouds.append((turrets(dice, radius, height), x, z, radius))
     weight = sum(radius ** 1.2 for *_, radius in clouds)
-    document = {"clouds": [], "density": 4, "seed": 100,
+    document = {"clouds": [], "fill": "uniform", "density": 4, "seed": 100,
                 "medium": {"g": 0.8, "albedo": 0.9995},
                 "sun": {"elevation": 30, "azimuth": 96, "color": "auto"},
                 "sky": {"model": "physical", "turbidity": 2.6},

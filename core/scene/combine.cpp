@@ -1,0 +1,40 @@
+#include "core/scene/combine.h"
+
+#include "core/scene/checks.h"
+#include "core/scene/fingerprint.h"
+
+namespace awan {
+namespace {
+
+bool is_same_medium(const Medium& a, const Medium& b) {
+    return fingerprint_of(table_of<Medium>(), &a) == fingerprint_of(table_of<Medium>(), &b);
+}
+
+bool is_same_detail(const std::optional<Detail>& a, const std::optional<Detail>& b) {
+    if (!a || !b) return a.has_value() == b.has_value();
+    return fingerprint_of(table_of<Detail>(), &*a) == fingerprint_of(table_of<Detail>(), &*b);
+}
+
+Error other_than_first(const char* member) {
+    return invalid(std::string("/") + member,
+                   "is not that of the first scene, and scenes that are combined have one");
+}
+
+}  // namespace
+
+Status combine_into(SceneDraft& scene, const SceneDraft& other) {
+    if (!is_same_medium(scene.medium, other.medium)) return other_than_first("medium");
+    if (!is_same_detail(scene.detail, other.detail)) return other_than_first("detail");
+    if (scene.look != other.look) return other_than_first("look");
+    for (Cloud cloud : other.clouds) {
+        // Spelled out, since the other scene's words for all do not come along.
+        cloud.density = density_of(other, cloud);
+        cloud.fill = fill_of(other, cloud);
+        cloud.seed = seed_of(other, cloud);
+        scene.clouds.push_back(std::move(cloud));
+    }
+    scene.top_level_cubes = false;
+    return std::nullopt;
+}
+
+}  // namespace awan

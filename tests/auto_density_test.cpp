@@ -1,0 +1,123 @@
+// What density a cloud gets that is given none: closed forms, the survey's optical depths, laws.
+#include "core/generate/auto_density.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/base/exact_math.h"
+#include "core/generate/generate.h"
+#include "core/generate/keyed_random.h"
+#include "core/pipeline.h"
+#include "core/scene/validate.h"
+
+namespace awan {
+namespace {
+
+const double kRootTwoPi = std::sqrt(2 * std::numbers::pi);
+
+Cloud one_particle(double radius) {
+    Cloud cloud;
+    cloud.model = CloudModel::kParticles;
+    cloud.ready.positions = {{3, 4, 5}};
+    cloud.ready.radii = {static_cast<float>(radius)};
+    return cloud;
+}
+
+Cloud box(std::uint64_t particles, const glm::dvec3& size, double radius) {
+    Cloud cloud;
+    cloud.cubes = {{particles, size, {0, 1, 0}, radius, 1, {}}};
+    return cloud;
+}
+
+double density(const Cloud& cloud) {
+    return auto_density(cloud, Fill::kUniform, 7);
+}
+
+Survey surveyed(const Cloud& cloud, double time = 0) {
+    SceneDraft draft;
+    draft.top_level_cubes = false;
+    draft.clouds = {cloud};
+    draft.time = time;
+    const auto scene = validate(draft);
+    EXPECT_TRUE(scene.ok());
+    return *survey(*scene, *generate(*scene, 2, Deadline{}), 2, Deadline{});
+}
+
+TEST(ExactExp, IsThatOfTheLibrary) {
+    for (double x = 0; x > -690; x -= 0.37) EXPECT_NEAR(exact_exp(x) / std::exp(x), 1, 2e-14) << x;
+    EXPECT_EQ(exact_exp(0), 1);
+    EXPECT_EQ(exact_exp(-1e9), 0);
+    EXPECT_EQ(exact_exp(-INFINITY), 0);
+}
+
+TEST(AutoDensity, OfOneParticleIsTheClosedForm) {
+    // Its depth is density s sqrt(2 pi) through the middle, and half of that on average over its mass. Three digits.
+    for (const double radius : {0.002, 1.0, 370.0})
+        EXPECT_NEAR(density(one_particle(radius)) * radius / 2 * kRootTwoPi / 2, kAutoDepth,
+                    0.006 * kAutoDepth);
+}
+
+TEST(AutoDensity, OfAFlatLayerIsByItsThickness) {
+    // 20 000 particles of radius 0..1 over 100 x 100: a column of density * n / area * (2 pi)^1.5 <s^3>, where
+    // <s^3> = 1/8 * 1/4; the rim is thinner. Sideways it is far deeper, which does not count.
+    const double column = 20000 / 1e4 * std::pow(kRootTwoPi, 3) / 32;
+    EXPECT_NEAR(density(box(20000, {100, 1, 100}, 1)), kAutoDepth / column,
+                0.12 * kAutoDepth / column);
+}
+
+TEST(AutoDensity, MakesPlainLayoutsDeep) {
+    const Cloud layouts[] = {box(2000, {7.4, 2, 4}, 0.8), box(100, {2, 1, 2}, 0.5),
+                             box(1, {1, 1, 1}, 1), box(50, {300, 300, 300}, 120),
+                             box(300000, {10, 10, 10}, 0.3)};
+    for (const Cloud& cloud : layouts) {
+        const Survey seen = surveyed(cloud);
+        EXPECT_GT(seen.optical_depth_zenith, 22);
+        EXPECT_LT(seen.optical_depth_zenith, 100);
+        ASSERT_EQ(seen.cloud_density.size(), 1u);
+    }
+}
+
+TEST(AutoDensity, IsTheSameHoweverTheCloudStandsAndAtAllTimes) {
+    Cloud cloud = box(500, {4, 2, 3}, 0.7);
+    cloud.velocity = {1.1, 0, 0.3};
+    const double here = surveyed(cloud).cloud_density[0];
+    EXPECT_EQ(surveyed(cloud, 1e5).cloud_density[0], here);
+    cloud.translate = {1e6, 3, 7};
+    cloud.rotate_y = 33;
+    EXPECT_EQ(surveyed(cloud).cloud_density[0], here);
+    // Twice as large it would be twice as deep.
+    cloud.scale = 2;
+    EXPECT_NEAR(surveyed(cloud).cloud_density[0], here / 2, 0.006 * here);
+}
+
+TEST(AutoDensity, OfASampleIsThatOfAllParticles) {
+    // The same cloud of 256 and of 256 000 particles: the latter are looked at one in a thousand.
+    const double few = density(box(256, {4, 2, 3}, 0.7)),
+                 many = density(box(256000, {4, 2, 3}, 0.7));
+    EXPECT_NEAR(many * 1000 / few, 1, 0.2);
+}
+
+TEST(AutoDensity, StaysWithinWhatAParticleMayHave) {
+    EXPECT_EQ(density(one_particle(2e-6)), limits::kMaxDensity);
+    Cloud cloud = box(3, {1, 1, 1}, 1);
+    cloud.cubes[0].density = limits::kMaxDensity;
+    cloud.cubes.push_back({9, {1, 1, 1}, {50, 0, 0}, 1e-6, 1e-9, {}});
+    EXPECT_LE(density(cloud) * limits::kMaxDensity, limits::kMaxDensity * (1 + 1e-9));
+    EXPECT_GT(density(cloud), 0);
+    // Without matter.
+    for (Cube& cube : cloud.cubes) cube.density = 0;
+    EXPECT_EQ(density(cloud), kDefaultDensity);
+    cloud.cubes.clear();
+    EXPECT_EQ(density(cloud), kDefaultDensity);
+}
+
+TEST(AutoDensity, GivesWayToWhatIsGiven) {
+    Cloud cloud = box(10, {1, 1, 1}, 1);
+    cloud.density = 0.75;
+    EXPECT_EQ(surveyed(cloud).cloud_density[0], 0.75);
+}
+
+}  // namespace
+}  // namespace awan
