@@ -195,7 +195,8 @@ export const defaultsTests = {
       });
       const text = await page.locator("#json").inputValue();
       const scene = JSON.parse(text);
-      for (const part of ["ground", "haze", "detail", "sequence"]) assert.ok(scene[part], `${model}: ${part} is on`);
+      for (const part of ["ground", "haze", "sequence"]) assert.ok(scene[part], `${model}: ${part} is on`);
+      assert.notEqual(scene.detail, "none", `${model}: detail is on by itself`);
       const name = await nameOf(scene);
       if (!isName(name)) wrong.push(`${model}: ${name}`);
       wrong.push(...await page.evaluate(() => [...document.querySelectorAll(".group:not(#shape) input")]
