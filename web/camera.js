@@ -47,7 +47,7 @@ export function sizeOf(bounds) {
 
 // The view that the service's "auto" gives (core/survey/view.cpp), so that leaving it moves nothing:
 // from this side and height, every corner of the box in the picture, with a margin.
-const AUTO = { azimuth: 30, elevation: -6, fov: 40, margin: 1.08 };
+const AUTO = { azimuth: 30, elevation: -10, fov: 40, margin: 1.08 };
 
 function automaticOrbit(bounds, aspect) {
   const { azimuth, elevation, fov, margin } = AUTO;
