@@ -20,11 +20,9 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-// From where an orbit looks up to the clouds, degrees: as the automatic camera does. Over a ground it is as much higher
-// as it must, at most to the second.
-constexpr double kOrbitElevation = -6, kSteepestOrbit = 60;
-// The automatic camera's azimuth, degrees.
-constexpr double kOrbitAzimuth = 30;
+// An orbit looks up to the clouds as the automatic camera does. Over a ground it is as much higher as it must, at most
+// to this, degrees.
+constexpr double kSteepestOrbit = 60;
 // Sides from which an orbit's distance is looked for.
 constexpr int kOrbitSides = 72;
 // How high over the ground an eye is at least, of its distance.
@@ -77,7 +75,7 @@ double orbit_distance(const SceneDraft& draft, const Bounds& bounds, double elev
 
 std::vector<CameraKey> orbit(const SceneDraft& draft, const Bounds& bounds, std::uint64_t frames) {
     const glm::dvec3 center = 0.5 * (bounds.min + bounds.max);
-    double elevation = kOrbitElevation * kRadians;
+    double elevation = kAutomaticElevation * kRadians;
     double distance = orbit_distance(draft, bounds, elevation);
     // The distance depends little on the elevation, and the elevation on it.
     for (int i = 0; i < 3; ++i) {
@@ -86,7 +84,7 @@ std::vector<CameraKey> orbit(const SceneDraft& draft, const Bounds& bounds, std:
         elevation = std::min(std::asin(std::min(sine, 1.0)), kSteepestOrbit * kRadians);
         distance = orbit_distance(draft, bounds, elevation);
     }
-    double begin = kOrbitAzimuth * kRadians;
+    double begin = kAutomaticAzimuth * kRadians;
     if (!draft.camera.automatic) {
         const glm::dvec3 out = draft.camera.eye - center;
         if (out.x != 0 || out.z != 0) begin = std::atan2(out.x, out.z);
@@ -187,8 +185,7 @@ std::vector<CameraKey> through(const SceneDraft& draft, const Bounds& bounds,
 // --- thickness
 
 // As thick as `wanted` where the scene as it stands is `measured`: depth is proportional to density, and of spheres
-// that have a visual range to its inverse.
-// densities: of the clouds as they stand, 1/unit.
+// that have a visual range to its inverse. densities: of the clouds as they stand, 1/unit.
 void thicken(SceneDraft& draft, const std::vector<double>& densities, double wanted,
              double measured) {
     const double factor = wanted / measured;

@@ -50,7 +50,7 @@ struct AccuracyReport {
     };
     // Rungs that AccuracyOptions::time_ms had no room for.
     std::vector<LeftOut> left_out;
-    // Stops: what brings the pictures to the screen.
+    // What brings the pictures to the screen.
     FilmSettings film;
 };
 

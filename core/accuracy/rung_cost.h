@@ -19,7 +19,7 @@ struct RungMeasurement {
     const RenderScene& render;
     // Told of the step that was begun last.
     const Steps& steps;
-    // Stops: what brings the pictures to the screen.
+    // What brings the pictures to the screen.
     FilmSettings film;
 };
 

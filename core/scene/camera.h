@@ -6,7 +6,9 @@
 
 namespace awan {
 
-inline constexpr double kAutomaticFov = 40;  // degrees
+// The automatic camera looks at the clouds from this side, up a little, as one sees clouds. Degrees. web/camera.js says
+// the same of the page's.
+inline constexpr double kAutomaticFov = 40, kAutomaticAzimuth = 30, kAutomaticElevation = -10;
 
 struct Camera {
     // "auto": the whole cloud, three-quarter view; then the rest is unused.

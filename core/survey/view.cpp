@@ -10,10 +10,9 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
 
-// "auto" stands at this azimuth and height over the cloud and leaves this margin around it.
-constexpr double kAutoAzimuth = 30 * kRadians;
-// Looking up a little, as one sees clouds.
-constexpr double kAutoElevation = -10 * kRadians;
+constexpr double kAutoAzimuth = kAutomaticAzimuth * kRadians;
+constexpr double kAutoElevation = kAutomaticElevation * kRadians;
+// "auto" leaves this margin around the clouds.
 constexpr double kAutoMargin = 1.08;
 
 }  // namespace
