@@ -8,8 +8,6 @@ import { atOrDefault, fieldAt, standardAt } from "./schema.js";
 import { detailPanel, groundPanel, hazePanel } from "./surroundings.js";
 
 const turn = (degrees) => ((degrees % 360) + 360) % 360;
-const kFirstExposure = -3; // what it begins with when it is no longer automatic
-const kFirstDensity = 1;
 const kFirstColor = [1, 1, 1];
 const SIZES = ["640 × 360", "960 × 600", "1280 × 720", "1920 × 1080", "3840 × 2160", "1024 × 1024"];
 
@@ -20,6 +18,19 @@ export const shownIf = (shown, { element, refresh }) => ({
     refresh();
   },
 });
+
+// A box that leaves a number to the service, and a slider for when it is not. box: the box's own pointer. first: what the
+// number begins with then.
+function automatic(store, { label, box, first, ...spec }) {
+  const value = () => atOrDefault(store.scene, spec.pointer);
+  return [
+    checkbox({
+      label: `Automatic ${label.toLowerCase()}`, pointer: box, get: () => value() === "auto",
+      set: (on) => store.set(spec.pointer, on ? undefined : first),
+    }),
+    slider(store, { label, get: () => (value() === "auto" ? first : value()), ...spec }),
+  ];
+}
 
 function sunPanel(store) {
   // A document may give the sun as a direction; the angles then are read from it, and replace it
@@ -147,15 +158,8 @@ function skyPanel(store) {
 }
 
 function matterPanel(store) {
-  const density = () => atOrDefault(store.scene, "/density");
   const fields = [
-    checkbox({
-      label: "Automatic density", pointer: "/automatic-density", get: () => density() === "auto",
-      set: (on) => store.set("/density", on ? undefined : kFirstDensity),
-    }),
-    slider(store, {
-      label: "Density", pointer: "/density", min: 0.001, max: 100, log: true, get: () => (density() === "auto" ? kFirstDensity : density()),
-    }),
+    ...automatic(store, { label: "Density", box: "/automatic-density", first: 1, pointer: "/density", min: 0.001, max: 100, log: true }),
     slider(store, { label: "Albedo", pointer: "/medium/albedo", min: 0.5, step: 0.001 }),
     slider(store, { label: "Forward g", pointer: "/medium/g", min: -0.9, max: 0.98, step: 0.01 }),
     select(store, {
@@ -177,7 +181,6 @@ function matterPanel(store) {
 function imagePanel(store) {
   const side = (label, member) => numberField(store, { label, pointer: () => `/image/${member}` });
   const sizeNow = () => `${atOrDefault(store.scene, "/image/width")} × ${atOrDefault(store.scene, "/image/height")}`;
-  const exposure = () => atOrDefault(store.scene, "/image/exposure");
   const fields = [
     select(store, {
       label: "Size", pointer: () => "/image", choices: [["", "other"], ...SIZES.map((size) => [size, size])],
@@ -189,14 +192,7 @@ function imagePanel(store) {
     }),
     side("Width", "width"), side("Height", "height"),
     select(store, { label: "Background", pointer: () => "/image/background" }),
-    checkbox({
-      label: "Automatic exposure", pointer: "/image/automatic-exposure", get: () => exposure() === "auto",
-      set: (on) => store.set("/image/exposure", on ? undefined : kFirstExposure),
-    }),
-    slider(store, {
-      label: "Exposure", pointer: "/image/exposure", min: -8, max: 4, step: 0.1,
-      get: () => (exposure() === "auto" ? kFirstExposure : exposure()),
-    }),
+    ...automatic(store, { label: "Exposure", box: "/image/automatic-exposure", first: -3, pointer: "/image/exposure", min: -8, max: 4, step: 0.1 }),
   ];
   return { title: "Picture", pointer: "/image", fields };
 }
