@@ -129,6 +129,30 @@ TEST(AirSky, HasNoEdgeAtTheHorizonAndNoStepAtSunset) {
     }
 }
 
+// From straight below comes what dark land throws back of the light on it, a little veiled by the air before it; the
+// nearer the horizon, the more of the horizon's sky.
+TEST(AirSky, BelowTheHorizonIsLandThatTheAirVeils) {
+    for (const double elevation : {10., 40., 80.}) {
+        const AirSky sky = sky_at(elevation, 2);
+        const double day =
+            luminance(irradiance(sky)) +
+            std::sin(elevation * kDegree) * luminance(sunlight(elevation * kDegree, 2));
+        const double land = luminance(radiance(sky, {0, -1, 0}));
+        EXPECT_GT(land, 0.07 * day / kPi) << elevation;
+        EXPECT_LT(land, 0.18 * day / kPi) << elevation;
+        for (const double around : {0.5, 2.0}) {
+            const double level = luminance(radiance(sky, towards(0, around)));
+            double before = level;
+            for (const double down : {0.3, 2., 5., 15., 45.}) {
+                const double here = luminance(radiance(sky, towards(-down * kDegree, around)));
+                EXPECT_LE(here, before * 1.001) << elevation << " " << down;
+                before = here;
+            }
+            EXPECT_LT(before, 0.75 * level);
+        }
+    }
+}
+
 TEST(AirSky, IsTheSameOnBothSidesOfTheSunAndTurnsWithIt) {
     const AirSky sky = air_sky(towards(30 * kDegree, 0.7), 3),
                  other = air_sky(towards(30 * kDegree, 2), 3);

@@ -65,17 +65,18 @@ AWAN_INLINE Floats bumps_at(const std::uint32_t* words, const Floats p[3]) {
     return (a + part[2] * (b - a) + 0.5f) * (1.0f / 256);
 }
 
-// detailed() of core/generate/detail.h, divided by keep * edge, for u in 0..1: min(u / E(u), kMostGathered) * ramp(n;
-// u). With w the softness and a = 1 - u (1 + w) the noise at which the ramp begins, E(u) is the mean of the ramp over n
+// detailed() of core/generate/detail.h, divided by keep * edge, for u in 0..1: min(u / E(v), kMostGathered) * ramp(n;
+// v). With w the softness and a = 1 - v (1 + w) the noise at which the ramp begins, E(v) is the mean of the ramp over n
 // in 0..1:
 //     (1 - a)^2 / (2 w)              where a >= 1 - w: the ramp is cut off at its upper end,
 //     (1 - a) - w / 2                where 0 <= a < 1 - w,
 //     1 - (a + w)^2 / (2 w)          where a < 0: it is cut off at its lower end.
 AWAN_INLINE Floats lumps(const Floats& u, const Floats& n) {
     constexpr float w = kSoftness;
+    const Floats v = 2.0f * u / (1.0f + u);
     const Floats ramp =
-        simd::min(simd::max((n - 1.0f + u * (1 + w)) * (1 / w), Floats{}), simd::all(1.0f));
-    const Floats a = 1.0f - u * (1 + w);
+        simd::min(simd::max((n - 1.0f + v * (1 + w)) * (1 / w), Floats{}), simd::all(1.0f));
+    const Floats a = 1.0f - v * (1 + w);
     const Floats rest = 1.0f - a;
     const Floats early = rest * rest * (1 / (2 * w)), middle = rest - 0.5f * w;
     const Floats late = 1.0f - (a + w) * (a + w) * (1 / (2 * w));

@@ -25,7 +25,7 @@ constexpr std::array kOctaves = {Octave{kDetailBumps, 0.58F}, Octave{11, 0.28F},
 
 constexpr int kWaves = 10;
 // How far the warp moves a point, in largest bumps.
-constexpr double kWarp = 0.32;
+constexpr double kWarp = 0.2;
 
 constexpr auto kSide = static_cast<std::size_t>(kDetailSide);
 
@@ -196,10 +196,10 @@ glm::dmat3 turned() {
 
 }  // namespace
 
-float gathered_share(float u) {
+float gathered_share(float v) {
     constexpr float w = kSoftness;
     // The n at which the ramp begins.
-    const float a = 1 - u * (1 + w);
+    const float a = 1 - v * (1 + w);
     if (a >= 1 - w) return (1 - a) * (1 - a) / (2 * w);
     if (a >= 0) return 1 - a - 0.5F * w;
     return 1 - (a + w) * (a + w) / (2 * w);
@@ -283,17 +283,17 @@ double kept_by_detail(const DetailField& field, double extinction) {
     const double u = extinction / static_cast<double>(field.edge);
     if (!(u < 1)) return 1;
     if (!(u > 0)) return 0;
-    const auto share = static_cast<double>(gathered_share(static_cast<float>(u)));
+    const auto share = static_cast<double>(gathered_share(spread(static_cast<float>(u))));
     return std::min(1.0, static_cast<double>(kMostGathered) * share / u);
 }
 
 double most_detailed(const DetailField& field, double extinction) {
     const double u = extinction / static_cast<double>(field.edge);
-    // Below u = 1 a lump is at most kMostGathered * edge, and the ramp at most u (1 + w) / w.
+    // Below u = 1 a lump is at most kMostGathered * edge, and the ramp at most v (1 + w) / w, v at most 2 u.
     const double most = static_cast<double>(kMostGathered);
     const double lumps =
         static_cast<double>(field.edge) *
-        std::min(most, u * most * static_cast<double>((1 + kSoftness) / kSoftness));
+        std::min(most, 2 * u * most * static_cast<double>((1 + kSoftness) / kSoftness));
     return static_cast<double>(field.keep) * std::max(extinction, lumps) * 1.0001;
 }
 

@@ -1,13 +1,14 @@
 // Structure finer than the particles: where matter is thin, it is gathered into lumps with gaps between them.
 //
 // A field n(x) says where. It is uniform in 0..1, made of rounded bumps in three sizes (inverted cells of Worley
-// 1996, lumps on lumps as in the clouds of Schneider & Vos 2015) and folded by a warp without divergence. Where the
-// smooth extinction sigma is below `edge`, the matter is put into a share E(u) of space, u = sigma / edge; there its
-// extinction is about `edge`, and between the lumps it is nothing. So silhouettes follow the bumps, the inside stays
-// as it was, and the mean over realisations is sigma itself:
-//   sigma' = keep * edge * min(u / E(u), kMostGathered) * ramp(n; u),    E(u) = mean of ramp(n; u) over n,
-//   ramp(n; u) = clamp((n - 1 + u (1 + w)) / w, 0, 1),    w = kSoftness;    sigma' = keep * sigma where u >= 1.
-// Only where u < .2 or so does the bound kMostGathered lose mass; `keep` puts it back everywhere.
+// 1996, lumps on lumps as in the clouds of Schneider & Vos 2015) and folded a little by a warp without divergence. Where
+// the smooth extinction sigma is below `edge`, the matter is put into a share E(v) of space, u = sigma / edge, v = 2 u /
+// (1 + u); between the lumps there is nothing. Near u = 1 the lumps have about the extinction `edge`, in thin matter
+// less, so that an edge is soft and frays rather than crumbles. So silhouettes follow the bumps, the inside stays as it
+// was, and the mean over realisations is sigma itself:
+//   sigma' = keep * edge * min(u / E(v), kMostGathered) * ramp(n; v),    E(v) = mean of ramp(n; v) over n,
+//   ramp(n; v) = clamp((n - 1 + v (1 + w)) / w, 0, 1),    w = kSoftness;    sigma' = keep * sigma where u >= 1.
+// Only where u < .06 or so does the bound kMostGathered lose mass; `keep` puts it back everywhere.
 #pragma once
 
 #include <cstdint>
@@ -84,16 +85,20 @@ DetailField make_detail(const DetailFigures& figures, double amount, double size
 // n at a point, trilinear between voxels.
 float bumps_at(const DetailField& field, const glm::dvec3& point);
 
-// E(u), see above: the share of space that lumps take.
-float gathered_share(float u);
+// v, and E(v), see above: the share of space that lumps take.
+inline float spread(float u) {
+    return 2 * u / (1 + u);
+}
+float gathered_share(float v);
 
 // sigma' of a smooth extinction and n. Continuous in both; 0 for 0.
 inline float detailed(const DetailField& field, float extinction, float n) {
     const float u = extinction / field.edge;
     if (!(u < 1)) return field.keep * extinction;
-    const float ramp = (n - 1 + u * (1 + kSoftness)) * (1 / kSoftness);
+    const float v = spread(u);
+    const float ramp = (n - 1 + v * (1 + kSoftness)) * (1 / kSoftness);
     if (!(ramp > 0)) return 0;
-    const float share = gathered_share(u);
+    const float share = gathered_share(v);
     const float lump = u < kMostGathered * share ? u / share : kMostGathered;
     return field.keep * field.edge * lump * (ramp < 1 ? ramp : 1);
 }

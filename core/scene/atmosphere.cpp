@@ -22,8 +22,8 @@ constexpr double kGasScale = 8, kAerosolScale = 1.2, kOzoneMiddle = 25, kOzoneHa
 constexpr double kAerosolAlbedo = 0.93;
 // Asymmetry of its phase function (Bruneton & Neyret 2008).
 constexpr double kAerosolAsymmetry = 0.76;
-// Of the land around, for the light that it throws back into the air.
-constexpr double kLandAlbedo = 0.2;
+// How far below the eye it is: about where the bases of cumulus are above it.
+constexpr double kLandBelow = 1;
 // Radians that the sun's disc spans.
 constexpr double kSunWidth = 0.0093;
 
@@ -33,6 +33,8 @@ constexpr std::size_t kBands = 8;
 using Band = std::array<double, kBands>;
 // The first of daylight.h's wavelengths in each.
 constexpr std::array<int, kBands + 1> kBandStart = {0, 5, 9, 13, 17, 21, 25, 30, kDaylightWaves};
+// Of the land around, as it is seen and for the light that it throws back into the air: fields and woods.
+constexpr Band kLandAlbedo = {0.05, 0.05, 0.06, 0.08, 0.1, 0.095, 0.085, 0.085};
 
 struct Air {
     // Per kilometre at the ground, of ozone at the layer's middle.
@@ -267,7 +269,7 @@ Bands diffuse_at(const Air& air, const Sunshine& sun, double height, double sun_
             const Band light = light_at(air, sun, 0, sine);
             for (std::size_t b = 0; b < kBands; ++b)
                 once[b] +=
-                    kShare * through[b] * light[b] * std::max(0.0, sine) * kLandAlbedo / kTurn;
+                    kShare * through[b] * light[b] * std::max(0.0, sine) * kLandAlbedo[b] / kTurn;
         }
     }
     Bands all;
@@ -307,54 +309,115 @@ std::array<double, 4> spline(double t) {
             t * (0.5 + t * (2 - 1.5 * t)), t * t * (-0.5 + 0.5 * t)};
 }
 
+// Everything that is the same for all rays.
+struct Surroundings {
+    Air air;
+    Sunshine sun;
+    Diffuse diffuse;
+    double sun_sine = 0, sun_flat = 0;
+};
+
+// What a ray of the sky's maps brings: radiance even + haze * (the aerosol's phase function), and what gets through.
+struct Seen {
+    Band even{}, haze{}, through{};
+};
+
+Seen look(const Surroundings& all, double up, double cos_gamma, double way) {
+    constexpr int kSteps = 28;
+    Seen seen;
+    seen.through =
+        walk(all.air, 0, up, all.sun_sine, cos_gamma, way, kSteps, [&](const Step& step) {
+            const Band light = light_at(all.air, all.sun, step.height, step.sun_sine);
+            const double row = row_of(step.height, kDiffuseHeights);
+            const double column =
+                (std::asin(std::clamp(step.sun_sine, -1.0, 1.0)) - all.sun.lowest) / (2 * kAround) *
+                (kDiffuseElevations - 1);
+            const Bands around = between(all.diffuse.radiance, row, column);
+            for (std::size_t b = 0; b < kBands; ++b) {
+                seen.even[b] +=
+                    step.weight[b] * (step.gas[b] * gas_phase(cos_gamma) * light[b] +
+                                      (step.gas[b] + step.aerosol[b]) * around.value[b]);
+                seen.haze[b] += step.weight[b] * step.aerosol[b] * light[b];
+            }
+        });
+    return seen;
+}
+
+double elevation_of(int row) {
+    const double share = row / (AirSky::kRows - 1.0);
+    return kTurn / 2 * share * share;
+}
+
+// The cosine of the angle to the sun of a ray of the maps. up: the sine of its elevation, of either sign.
+double cosine_to_sun(const Surroundings& all, double up, int column) {
+    return up * all.sun_sine + std::sqrt(std::max(0.0, 1 - up * up)) * all.sun_flat *
+                                   std::cos(kTurn * column / (AirSky::kColumns - 1));
+}
+
+void keep(const Air& air, const Seen& seen, int row, int column, AirSky::Half& half) {
+    const auto i = static_cast<std::size_t>(row), j = static_cast<std::size_t>(column);
+    for (std::size_t b = 0; b < kBands; ++b) {
+        half.even[i][j] += seen.even[b] * air.xyz[b];
+        half.haze[i][j] += seen.haze[b] * air.xyz[b];
+    }
+}
+
+// Fills the upper half; gives the irradiance of level land.
+Band make_sky(const Surroundings& all, AirSky::Half& half) {
+    Band on_land = light_at(all.air, all.sun, 0, all.sun_sine);
+    for (double& light : on_land) light *= std::max(0.0, all.sun_sine);
+    for (int i = 0; i < AirSky::kRows; ++i) {
+        const double elevation = elevation_of(i), up = std::sin(elevation), way = way_out(0, up);
+        // Of the sky, by the trapezoid rule over rows and columns: both sides of the sun.
+        const double last = AirSky::kRows - 1.0;
+        const double high = kTurn * i / (last * last) * (i == AirSky::kRows - 1 ? 0.5 : 1);
+        const double level = 2 * kTurn / (AirSky::kColumns - 1) * up * std::cos(elevation) * high;
+        for (int j = 0; j < AirSky::kColumns; ++j) {
+            const double cos_gamma = cosine_to_sun(all, up, j);
+            const Seen seen = look(all, up, cos_gamma, way);
+            keep(all.air, seen, i, j, half);
+            const double share = level * (j == 0 || j == AirSky::kColumns - 1 ? 0.5 : 1);
+            for (std::size_t b = 0; b < kBands; ++b)
+                on_land[b] += share * (seen.even[b] + aerosol_phase(cos_gamma) * seen.haze[b]);
+        }
+    }
+    return on_land;
+}
+
+// Fills the lower half. The way to the land is taken through the air at the eye's height, along the level, so that it
+// begins at the horizon where the sky ends.
+void make_land(const Surroundings& all, const Band& on_land, AirSky::Half& half) {
+    const double level = way_out(0, 0);
+    for (int i = 0; i < AirSky::kRows; ++i) {
+        const double up = -std::sin(elevation_of(i));
+        const double way = std::min(level, kLandBelow / std::max(-up, 1e-9));
+        for (int j = 0; j < AirSky::kColumns; ++j) {
+            Seen seen = look(all, 0, cosine_to_sun(all, up, j), way);
+            for (std::size_t b = 0; b < kBands; ++b)
+                seen.even[b] += i > 0 ? seen.through[b] * on_land[b] * kLandAlbedo[b] / kTurn : 0;
+            keep(all.air, seen, i, j, half);
+        }
+    }
+}
+
 }  // namespace
 
 AirSky air_sky(const glm::dvec3& to_sun, double turbidity) {
-    constexpr int kSteps = 28;
-    const Air air = air_of(turbidity);
-    const double sun_sine = std::clamp(to_sun.y, -1.0, 1.0);
-    const Sunshine sun = sunshine_of(std::asin(sun_sine));
-    const Diffuse diffuse = diffuse_of(air, sun);
+    const double sine = std::clamp(to_sun.y, -1.0, 1.0);
+    Surroundings all{
+        air_of(turbidity), sunshine_of(std::asin(sine)), {}, sine, std::sqrt(1 - sine * sine)};
+    all.diffuse = diffuse_of(all.air, all.sun);
     AirSky sky;
     sky.to_sun = to_sun;
-    const double sun_flat = std::sqrt(1 - sun_sine * sun_sine);
-    for (int i = 0; i < AirSky::kRows; ++i) {
-        const double share = i / (AirSky::kRows - 1.0), elevation = kTurn / 2 * share * share;
-        const double up = std::sin(elevation), way = way_out(0, up);
-        for (int j = 0; j < AirSky::kColumns; ++j) {
-            const double cos_gamma =
-                up * sun_sine +
-                std::cos(elevation) * sun_flat * std::cos(kTurn * j / (AirSky::kColumns - 1));
-            Band even{}, haze{};
-            walk(air, 0, up, sun_sine, cos_gamma, way, kSteps, [&](const Step& step) {
-                const Band light = light_at(air, sun, step.height, step.sun_sine);
-                const double row = row_of(step.height, kDiffuseHeights);
-                const double column =
-                    (std::asin(std::clamp(step.sun_sine, -1.0, 1.0)) - sun.lowest) / (2 * kAround) *
-                    (kDiffuseElevations - 1);
-                const Bands around = between(diffuse.radiance, row, column);
-                for (std::size_t b = 0; b < kBands; ++b) {
-                    even[b] += step.weight[b] * (step.gas[b] * gas_phase(cos_gamma) * light[b] +
-                                                 (step.gas[b] + step.aerosol[b]) * around.value[b]);
-                    haze[b] += step.weight[b] * step.aerosol[b] * light[b];
-                }
-            });
-            glm::dvec3& even_xyz =
-                sky.even[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-            glm::dvec3& haze_xyz =
-                sky.haze[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-            for (std::size_t b = 0; b < kBands; ++b) {
-                even_xyz += even[b] * air.xyz[b];
-                haze_xyz += haze[b] * air.xyz[b];
-            }
-            sky.shines = sky.shines || even_xyz.y > 0 || haze_xyz.y > 0;
-        }
-    }
+    make_land(all, make_sky(all, sky.sky), sky.land);
+    for (const auto& row : sky.sky.even)
+        for (const glm::dvec3& xyz : row) sky.shines = sky.shines || xyz.y > 0;
     return sky;
 }
 
 glm::dvec3 radiance(const AirSky& sky, const glm::dvec3& direction) {
-    const double up = std::clamp(direction.y, 0.0, 1.0);
+    const AirSky::Half& half = direction.y < 0 ? sky.land : sky.sky;
+    const double up = std::min(std::abs(direction.y), 1.0);
     const double row = std::sqrt(std::asin(up) / (kTurn / 2)) * (AirSky::kRows - 1);
     const double flat =
         std::hypot(direction.x, direction.z) * std::hypot(sky.to_sun.x, sky.to_sun.z);
@@ -376,8 +439,8 @@ glm::dvec3 radiance(const AirSky& sky, const glm::dvec3& direction) {
             const int c = std::abs(j + b - 1);
             const auto s =
                 static_cast<std::size_t>(c < AirSky::kColumns ? c : 2 * (AirSky::kColumns - 1) - c);
-            even += along[static_cast<std::size_t>(b)] * sky.even[r][s];
-            haze += along[static_cast<std::size_t>(b)] * sky.haze[r][s];
+            even += along[static_cast<std::size_t>(b)] * half.even[r][s];
+            haze += along[static_cast<std::size_t>(b)] * half.haze[r][s];
         }
         xyz += down[static_cast<std::size_t>(a)] * (even + phase * haze);
     }

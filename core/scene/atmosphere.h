@@ -11,21 +11,25 @@ namespace awan {
 
 // What the sky of one sun and one air looks like from the ground, as CIE XYZ over the unit of luminance of daylight.h.
 struct AirSky {
-    // Rows: elevation 90 (i / (kRows - 1))^2 degrees. Columns: azimuth from the sun's, pi j / (kColumns - 1).
+    // Rows: elevation +-90 (i / (kRows - 1))^2 degrees. Columns: azimuth from the sun's, pi j / (kColumns - 1).
     static constexpr int kRows = 40, kColumns = 13;
-    using Map = std::array<std::array<glm::dvec3, kColumns>, kRows>;
     // The radiance is even + haze * (the aerosol's phase function of the angle to the sun).
-    Map even{}, haze{};
+    struct Half {
+        using Map = std::array<std::array<glm::dvec3, kColumns>, kRows>;
+        Map even{}, haze{};
+    };
+    // Above the horizon, and below it: land in the light of sun and sky, behind the air in front of it.
+    Half sky, land;
     glm::dvec3 to_sun{0, 1, 0};  // unit
     // False when no light is left, from about 10 degrees below the horizon on.
     bool shines = false;
 };
 
-// to_sun: unit. turbidity: 2..10. Takes some 3 ms.
+// to_sun: unit. turbidity: 2..10. Takes some 4 ms.
 AirSky air_sky(const glm::dvec3& to_sun, double turbidity);
 
-// From a direction (unit), linear Rec. 709 over the unit of luminance of daylight.h. Below the horizon the horizon's
-// gradation goes on. >= 0, finite.
+// From a direction (unit), linear Rec. 709 over the unit of luminance of daylight.h. Below the horizon there is level
+// land, dark as woods and fields are, a kilometre below the eye, which at the horizon is lost in the air. >= 0, finite.
 glm::dvec3 radiance(const AirSky& sky, const glm::dvec3& direction);
 
 }  // namespace awan

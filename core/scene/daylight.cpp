@@ -118,9 +118,9 @@ glm::dvec3 rec709(const glm::dvec3& xyz) {
 }
 
 glm::dvec3 balanced_rec709(const glm::dvec3& xyz) {
-    // What makes rec709 of sun 45 degrees high and sky together on a level plane, turbidity 2, (1.0775, .9809, .9607)
+    // What makes rec709 of sun 45 degrees high and sky together on a level plane, turbidity 2, (1.0821, .9807, .9497)
     // at Y = 1, white (atmosphere_test computes it).
-    return rec709(xyz) * glm::dvec3(0.9281, 1.0194, 1.0409);
+    return rec709(xyz) * glm::dvec3(0.9241, 1.0197, 1.0530);
 }
 
 double air_transmittance(int number, double m, double turbidity) {
