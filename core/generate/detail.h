@@ -1,11 +1,11 @@
 // Structure finer than the particles: where matter is thin, it is gathered into lumps with gaps between them.
 //
 // A field n(x) says where. It is uniform in 0..1, made of rounded bumps in three sizes (inverted cells of Worley
-// 1996, lumps on lumps as in the clouds of Schneider & Vos 2015) and folded a little by a warp without divergence. Where
-// the smooth extinction sigma is below `edge`, the matter is put into a share E(v) of space, u = sigma / edge, v = 2 u /
-// (1 + u); between the lumps there is nothing. Near u = 1 the lumps have about the extinction `edge`, in thin matter
-// less, so that an edge is soft and frays rather than crumbles. So silhouettes follow the bumps, the inside stays as it
-// was, and the mean over realisations is sigma itself:
+// 1996, lumps on lumps as in the clouds of Schneider & Vos 2015) and folded a little by a warp without divergence.
+// Where the smooth extinction sigma is below `edge`, the matter is put into a share E(v) of space, u = sigma / edge,
+// v = 2 u / (1 + u); between the lumps there is nothing. Near u = 1 the lumps have about the extinction `edge`, in thin
+// matter less, so that an edge is soft and frays rather than crumbles. So silhouettes follow the bumps, the inside
+// stays as it was, and the mean over realisations is sigma itself:
 //   sigma' = keep * edge * min(u / E(v), kMostGathered) * ramp(n; v),    E(v) = mean of ramp(n; v) over n,
 //   ramp(n; v) = clamp((n - 1 + v (1 + w)) / w, 0, 1),    w = kSoftness;    sigma' = keep * sigma where u >= 1.
 // Only where u < .06 or so does the bound kMostGathered lose mass; `keep` puts it back everywhere.
