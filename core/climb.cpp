@@ -10,6 +10,7 @@
 #include "core/draw/picture_difference.h"
 #include "core/light/transport.h"
 #include "core/plan/island_settings.h"
+#include "core/plan/known_error.h"
 #include "core/plan/step_times.h"
 #include "core/scene/validate.h"
 
@@ -22,21 +23,6 @@ constexpr double kErrorOfDifference = 1.5;
 constexpr double kErrorOfPicture = 1.1;
 // With which power of a cell's side errors fall, at least: from 1.3 to 1.6 was measured on smooth clouds.
 constexpr double kOrder = 1.3;
-// What differences of grids do not show. The march's steps and its light between looked up rays, in any matter; and in
-// thick matter the sun's lattice:
-constexpr double kEyeError = 0.005, kThickError = 0.006;
-// what 128 directions and four orders leave of the angles of forward scattered light, times g squared; the more of it
-// the nearer the sun is to behind the eye, in proportion to the square of what the cosine between it and the view is
-// below -1/2: what comes back from there has turned around by many small angles, which the peak's light does not;
-constexpr double kAngularError = 0.025, kTurnedBackError = 0.2;
-// what lumps of detail that are smaller than steps, cells and the gaps between rays leave, times the detail's amount;
-// more of it in deep matter, where a cell of the sun's lattice is several mean free paths, in proportion to depths
-// up to kDeep, and where the sun shines through their edges, times the cosine squared between it and the view.
-constexpr double kDetailError = 0.05, kDeepDetailError = 0.4, kDeep = 800,
-                 kBacklitDetailError = 0.075;
-// Of what is far below a pixel, times its share of the matter (Survey::sub_pixel).
-constexpr double kSubPixelError = 0.01;
-
 using Clock = Deadline::Clock;
 
 // The transport rung whose grid has so many cells; null: the grid is only on the way.
@@ -140,20 +126,10 @@ Result<const Image*> small_picture(const Climb& climb, const TransportLight& lig
 
 // difference: of a transport rung's small picture to the next coarser grid's.
 double stated_error(double difference, const Climb& climb) {
-    const Survey& survey = climb.planned.survey;
-    const double g = climb.scene->medium.g, depth = survey.optical_depth_eye;
-    const double behind = std::clamp(-2 * survey.sun_cosine - 1, 0.0, 1.0);
-    const double angular = (kAngularError + kTurnedBackError * behind * behind) * g * g;
-    double floor = std::hypot(kEyeError, std::hypot(kThickError, angular) * depth / (1 + depth));
-    if (climb.planned.particles.detail != nullptr) {
-        const double into_sun = std::max(survey.sun_cosine, 0.0);
-        floor =
-            std::hypot(floor, climb.scene->detail.value_or(Detail{}).amount *
-                                  (kDetailError + kDeepDetailError * std::min(depth / kDeep, 1.0) +
-                                   kBacklitDetailError * into_sun * into_sun));
-    }
+    const Planned& planned = climb.planned;
     return std::hypot(kErrorOfDifference * difference,
-                      std::hypot(floor, kSubPixelError * survey.sub_pixel), survey.model_error);
+                      known_error(climb.scene, planned.survey, planned.particles.detail != nullptr),
+                      planned.survey.model_error);
 }
 
 // By how much grids differ, as far as it tells how far off the finest is: two can be near to each other by luck. Then

@@ -5,7 +5,9 @@
 #include <numeric>
 
 #include "core/plan/criteria.h"
-#include "core/plan/forecast_tables.h"
+#include "core/plan/forecast_errors.h"
+#include "core/plan/forecast_times.h"
+#include "core/plan/known_error.h"
 #include "core/plan/transport_settings.h"
 
 namespace awan {
@@ -117,6 +119,10 @@ RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey
     const TimeFigures times = time_figures(rung, scene, survey, samples);
     const bool empty = survey.particles == 0 || !(survey.total_mass > 0);
     if (!empty) forecast.error = predicted_error(error_model(rung), errors);
+    // Of grids, the model is of what they are measured to differ by.
+    if (!empty && rung.cells > 0)
+        forecast.error =
+            std::hypot(forecast.error, known_error(scene, survey, detail_counts(scene, survey)));
     double ms = predicted_ms(kPrepareTime, times);
     const double march_speed = stretch(threads, kMarchSerial);
     switch (rung.method) {

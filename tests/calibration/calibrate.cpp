@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
@@ -14,9 +15,12 @@
 
 #include "core/accuracy/error_measures.h"
 #include "core/gl/device.h"
+#include "core/light/light_cache.h"
 #include "core/light/machine_speed.h"
 #include "core/pipeline.h"
+#include "core/plan/criteria.h"
 #include "core/plan/forecast_figures.h"
+#include "core/plan/known_error.h"
 #include "core/scene/validate.h"
 #include "core/truth/path_tracer.h"
 #include "server/document/json.h"
@@ -33,7 +37,7 @@ struct Options {
     double seconds = 20;  // of a truth, at most
     int runs = 3;         // timed renders; the least counts
     std::vector<double> errors, times;
-    bool only_grids = false, write = false;
+    bool only_grids = false, write = false, untraced = false;
     std::string keep;  // folder of references from an earlier run; EMPTY: none are kept
 };
 
@@ -135,12 +139,13 @@ struct TimedRender {
 };
 
 // The fastest of some runs.
-TimedRender timed_render(const Scene& scene, const Options& options, Device& device) {
+TimedRender timed_render(const Scene& scene, const Options& options, Device& device,
+                         LightCache* lights) {
     std::optional<TimedRender> best;
     for (int run = 0; run < options.runs; ++run) {
         const auto start = Deadline::Clock::now();
         const std::clock_t cpu = std::clock();
-        auto rendered = must(render_scene(scene, {&device, options.threads, nullptr, {}, {}}, {}));
+        auto rendered = must(render_scene(scene, {&device, options.threads, lights, {}, {}}, {}));
         const double cpu_ms = 1e3 * static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
         const double ms = 1e3 * seconds_since(start);
         if (!best || ms < best->time_ms) best = TimedRender{std::move(rendered), ms, cpu_ms};
@@ -166,19 +171,26 @@ std::string ask_name(const char* what, double ask) {
 void write_row(const Options& options, int index, const std::string& name, const Rung& rung,
                const Truth& truth, const TimedRender& made, std::FILE* out) {
     const Rendered& rendered = made.rendered;
-    const PictureError error = picture_error(rendered.image, truth.reference.image);
+    // Without a reference, only what is stated counts.
+    const PictureError error = truth.reference.samples > 0
+                                   ? picture_error(rendered.image, truth.reference.image)
+                                   : PictureError{};
     const Survey& survey = truth.planned.survey;
     const Scene& scene = truth.scene;
-    std::fprintf(out,
-                 "%s,%d,%s,%s,%d,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,%.3g,%.4g,%.3g,%.3g,%u,%.5g,"
-                 "%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%s",
-                 options.set.c_str(), index, truth.kind.c_str(), name.c_str(), rung.cells,
-                 survey.particles, survey.optical_depth_eye, survey.optical_depth_sun,
-                 scene->medium.g, scene->medium.albedo, survey.sun_cosine, error.nrmse,
-                 error.nrmse_noise, error.bias, error.bias_noise, truth.reference.noise,
-                 truth.reference.samples, rendered.plan.predicted.error, made.time_ms,
-                 rendered.times.light_ms, rendered.times.draw_ms, rendered.times.measure_ms,
-                 rendered.plan.predicted.time_ms, rendered.stated_error, made.cpu_ms, rung.name);
+    std::fprintf(
+        out,
+        "%s,%d,%s,%s,%d,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,%.3g,%.4g,%.3g,%.3g,%u,%.5g,"
+        "%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%s",
+        options.set.c_str(), index, truth.kind.c_str(), name.c_str(), rung.cells, survey.particles,
+        survey.optical_depth_eye, survey.optical_depth_sun, scene->medium.g, scene->medium.albedo,
+        survey.sun_cosine, error.nrmse, error.nrmse_noise, error.bias, error.bias_noise,
+        truth.reference.noise, truth.reference.samples, rendered.plan.predicted.error, made.time_ms,
+        rendered.times.light_ms, rendered.times.draw_ms, rendered.times.measure_ms,
+        rendered.plan.predicted.time_ms, rendered.stated_error,
+        rung.cells > 0 ? std::hypot(known_error(scene, survey, detail_counts(scene, survey)),
+                                    survey.model_error)
+                       : 0.0,
+        made.cpu_ms, rung.name);
     for (const double figure : error_figures(rung, scene, survey))
         std::fprintf(out, ",%.6g", figure);
     for (const double figure : time_figures(rung, scene, survey, 0))
@@ -200,15 +212,18 @@ void measure(const Options& options, int index, Device& device, std::FILE* out) 
     named.accuracy.rung = "truth";
     const Planned planned = must(plan_scene(must(validate(named)), options.threads, {}));
     Reference reference;
-    if (!read_kept(options, index, reference)) {
+    if (!options.untraced && !read_kept(options, index, reference)) {
         reference = reference_of(scene, planned, options);
         keep(options, index, reference);
     }
+    // Where times do not count, a grid goes on from the coarser rung's.
+    LightCache lights(std::size_t{1} << 30);
     const Truth against{numbered.kind, scene, planned, reference};
     const auto rendered_as = [&](const Accuracy& accuracy) {
         SceneDraft draft = numbered.draft;
         draft.accuracy = accuracy;
-        return timed_render(must(validate(draft)), options, device);
+        return timed_render(must(validate(draft)), options, device,
+                            options.untraced || options.noise < 1 ? &lights : nullptr);
     };
     for (const Rung& rung : ladder()) {
         if (rung.method == Method::kPaths || (options.only_grids && rung.cells == 0)) continue;
@@ -223,10 +238,11 @@ void measure(const Options& options, int index, Device& device, std::FILE* out) 
         const TimedRender made = rendered_as({{}, ask, {}});
         write_row(options, index, ask_name("time", ask), *made.rendered.rung, against, made, out);
     }
+    if (options.untraced) return;
     // The truth's own figures: noise of one path and what it took.
     std::fprintf(out,
                  "%s,%d,%s,truth,0,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,0,0,0,%.3g,%u,0,%.5g,0,%.5g,0,"
-                 "0,0,0,truth",
+                 "0,0,0,0,truth",
                  options.set.c_str(), index, numbered.kind.c_str(), planned.survey.particles,
                  planned.survey.optical_depth_eye, planned.survey.optical_depth_sun,
                  scene->medium.g, scene->medium.albedo, planned.survey.sun_cosine, reference.noise,
@@ -264,6 +280,8 @@ int main(int argc, char** argv) {
     app.add_flag("--write", options.write,
                  "write the scenes as documents, as SET-NUMBER.json in --keep's folder, and "
                  "measure nothing");
+    app.add_flag("--untraced", options.untraced,
+                 "without references: what is stated is all that counts");
     app.add_flag("--only-grids", options.only_grids, "leave out all but the transport rungs");
     app.add_option("-o,--output", options.output);
     CLI11_PARSE(app, argc, argv);
@@ -274,7 +292,7 @@ int main(int argc, char** argv) {
         "set,index,kind,rung,cells,particles,depth_eye,depth_sun,g,albedo,sun_cosine,error,error_"
         "noise,bias,bias_noise,"
         "truth_noise,samples,predicted_error,time_ms,light_ms,draw_ms,measure_ms,predicted_ms,"
-        "stated,cpu_ms,chosen",
+        "stated,known,cpu_ms,chosen",
         out);
     for (const char* name : kErrorFigureNames) std::fprintf(out, ",e_%s", name);
     for (const char* name : kTimeFigureNames) std::fprintf(out, ",t_%s", name);

@@ -1,18 +1,20 @@
 #!/usr/bin/env python3
-"""Fits the forecasts of core/plan to measured scenes and writes core/plan/forecast_tables.h.
+"""Fits the forecasts of core/plan to measured scenes.
 
-    fit.py ERRORS.csv TIMES.csv > core/plan/forecast_tables.h
+    fit.py errors STATED.csv TRACED.csv > core/plan/forecast_errors.h
+    fit.py times TIMES.csv > core/plan/forecast_times.h
 
-ERRORS.csv and TIMES.csv come from build/release/tests/calibrate; see README.md here. Plain Python: a few hundred rows.
+The CSVs come from build/release/tests/calibrate; see README.md here. Plain Python: a thousand rows.
 """
 import csv
 import math
 import sys
 
 RIDGE = 2.0  # pull of coefficients towards 0, in rows
-QUANTILE = 0.95  # share of the fitted scenes that must stay under the forecast
+QUANTILE = 0.6  # share of the fitted scenes of which no more is stated than the forecast
+NOISE_QUANTILE = 0.95  # share of the fitted scenes whose noise must stay under its forecast
 TIME_QUANTILE = 0.55  # share of the timed renders that must take at most their forecast
-FLOOR = 0.003  # smallest error that the references resolve
+FLOOR = 0.001  # smallest error that counts
 
 
 def solve(matrix, right):
@@ -90,20 +92,20 @@ def quantile(values, share):
     return ordered[min(int(math.ceil(share * len(ordered))) - 1, len(ordered) - 1)]
 
 
-def error_model(rows):
-    """Coefficients of log(error), the margin in the first."""
-    kept, targets = [], []
-    for row in rows:
-        error, noise = float(row["error"]), float(row["error_noise"])
-        kept.append(figures(row, "e_"))
-        # Where the noise hides the error, it is taken as large as half of what would have been seen.
-        targets.append(math.log(max(error, 0.5 * noise, FLOOR)))
-    # What the noise hides says little.
-    weights = [1 / (1 + 4 * (float(r["error_noise"]) / math.exp(t)) ** 2) for r, t in zip(rows, targets)]
-    coefficients = ridge(kept, targets, weights)
-    residuals = [t - sum(c * f for c, f in zip(coefficients, r)) for r, t in zip(kept, targets)]
-    coefficients[0] += quantile(residuals, QUANTILE)
+def error_model(rows, targets, share):
+    """Coefficients of log(target), the margin in the first."""
+    kept = [figures(row, "e_") for row in rows]
+    logs = [math.log(max(t, FLOOR)) for t in targets]
+    coefficients = ridge(kept, logs, [1.0] * len(rows))
+    residuals = [t - sum(c * f for c, f in zip(coefficients, r)) for r, t in zip(kept, logs)]
+    coefficients[0] += quantile(residuals, share)
     return coefficients
+
+
+def stated_model(rows):
+    """Of what is stated, without what is known of every picture (core/plan/known_error.h)."""
+    stated = [(float(r["stated"]), float(r["known"])) for r in rows]
+    return error_model(rows, [math.sqrt(max(s * s - k * k, 0)) for s, k in stated], QUANTILE)
 
 
 def table(name, kind, coefficients):
@@ -111,41 +113,39 @@ def table(name, kind, coefficients):
     print(f"inline constexpr {kind} {name} = {{{{{values}}}}};")
 
 
-def main():
-    errors, times = read(sys.argv[1]), read(sys.argv[2])
-    print("""// Coefficients of the forecasts, written by tests/calibration/fit.py from scenes measured by tests/calibration. Not to be
+HEAD = """// Coefficients of the forecasts, written by tests/calibration/fit.py from scenes measured by tests/calibration. Not to be
 // edited by hand: measure and fit anew when a rung changes.
 // clang-format off
 #pragma once
 
-#include <array>
-
 #include "core/plan/forecast_figures.h"
 
 namespace awan {
+"""
+END = """
+}  // namespace awan"""
 
-// log(error) = sum of coefficient x figure, the margin included.
+
+def fit_errors(rows, traced):
+    print(HEAD)
+    print("""// log(error) = sum of coefficient x figure, the margin included. Of grids without what known_error.h says.
 struct ErrorModel {
     ErrorFigures coefficient;
 };""")
-    transport = [r for r in errors if r["rung"].startswith("transport")]
-    for name, rows in (("kAdditiveError", [r for r in errors if r["rung"] == "additive"]),
-                       ("kHarrisError", [r for r in errors if r["rung"] == "harris"]),
-                       ("kSingleError", [r for r in errors if r["rung"] == "single"]),
-                       ("kTransportError", transport)):
-        table(name, "ErrorModel", error_model(rows))
+    rows = [r for r in rows if math.isfinite(float(r["stated"]))]
+    for name, rung in (("kAdditiveError", "additive"), ("kHarrisError", "harris"), ("kSingleError", "single"),
+                       ("kTransportError", "transport")):
+        table(name, "ErrorModel", stated_model([r for r in rows if r["rung"].startswith(rung)]))
     print("// Of rung truth: rms noise of a pixel with one path.")
-    noise = []
-    for row in errors:
-        if row["rung"] == "truth":
-            row = dict(row)
-            row["error"] = float(row["error"]) * math.sqrt(float(row["samples"]))
-            row["error_noise"] = 0
-            noise.append(row)
-    table("kPathNoise", "ErrorModel", error_model(noise))
+    paths = [r for r in traced if r["rung"] == "truth"]
+    noise = [float(r["error"]) * math.sqrt(float(r["samples"])) for r in paths]
+    table("kPathNoise", "ErrorModel", error_model(paths, noise, NOISE_QUANTILE))
+    print(END)
 
-    print("""
-// ms = sum of coefficient x figure, with two threads on the machine of the calibration.
+
+def fit_times(times):
+    print(HEAD)
+    print("""// ms = sum of coefficient x figure, with two threads on the machine of the calibration.
 struct TimeModel {
     TimeFigures coefficient;
 };""")
@@ -166,8 +166,14 @@ struct TimeModel {
     table("kMarchLightTime", "TimeModel", timed(("transport", "single"), field("light_ms"), (0, 2, 5, 6, 12, 13)))
     table("kMarchDrawTime", "TimeModel", timed(("transport", "single"), field("draw_ms"), (0, 1, 2, 3, 4, 8, 9, 11, 13)))
     table("kPathTime", "TimeModel", timed(("truth",), field("draw_ms"), (0, 2, 4, 7, 9)))
-    print("""
-}  // namespace awan""")
+    print(END)
+
+
+def main():
+    if sys.argv[1] == "errors":
+        fit_errors(read(sys.argv[2]), read(sys.argv[3]))
+    else:
+        fit_times(read(sys.argv[2]))
 
 
 if __name__ == "__main__":

@@ -164,6 +164,44 @@ Planned planned(const SceneDraft& draft) {
     return *std::move(result);
 }
 
+// Layouts that leave most of the rest to the service, as scripts post them.
+std::string fill_plainly(Dice& dice, SceneDraft& draft) {
+    draft.seed = 1 + static_cast<std::uint64_t>(dice.unit() * 1e6);
+    draft.clouds.push_back({});
+    Cloud& cloud = draft.clouds.back();
+    const int count = 1 + dice.pick(5);
+    glm::dvec3 size(dice.between(2, 10), dice.between(1, 4), dice.between(2, 7));
+    glm::dvec3 base(0);
+    for (int i = 0; i < count; ++i) {
+        const double particles = std::floor(dice.log_between(50, 4000));
+        const glm::dvec3 center(base.x, base.y + size.y / 2, base.z);
+        cloud.cubes.push_back(cube_of(dice, particles, size, center));
+        // On it or beside it.
+        if (dice.pick(2) == 0) base.y += size.y * dice.between(.6, .95);
+        base += dice.in_box({size.x, 0, size.z});
+        size *= dice.between(.45, .9);
+    }
+    if (dice.pick(3) == 0) draft.fill = dice.pick(2) == 0 ? Fill::kStratus : Fill::kUniform;
+    if (dice.pick(2) == 0) {
+        draft.sun.elevation = dice.between(2, 85);
+        draft.sun.azimuth = dice.between(0, 360);
+    }
+    if (dice.pick(3) == 0) draft.sky.turbidity = dice.between(2, 6);
+    if (dice.pick(4) == 0) draft.density = dice.log_between(.1, 10) / size.y;
+    if (dice.pick(4) == 0) draft.medium.g = dice.between(0, .87);
+    if (dice.pick(3) == 0) draft.ground = Ground{-dice.between(.2, 8), glm::dvec3(.15)};
+    return "plain";
+}
+
+// What a scene that names all of it has by default is of no concern to it.
+void name_all(SceneDraft& draft) {
+    draft.fill = Fill::kUniform;
+    draft.detail = std::nullopt;
+    draft.sun.auto_color = false;
+    draft.sky.physical = false;
+    draft.sky.intensity = kGradientSkyIntensity;
+}
+
 }  // namespace
 
 NumberedScene numbered_scene(const std::string& set, int index, int width, int height) {
@@ -173,6 +211,11 @@ NumberedScene numbered_scene(const std::string& set, int index, int width, int h
     draft.image.width = width;
     draft.image.height = height;
     draft.image.background = Background::kTransparent;
+    if (set.rfind("plain", 0) == 0) {
+        scene.kind = fill_plainly(dice, draft);
+        return scene;
+    }
+    name_all(draft);
     scene.kind = fill_clouds(dice, draft);
     place_lights(dice, draft);
     draft.density = 1;
