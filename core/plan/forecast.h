@@ -20,8 +20,8 @@ struct MachineSpeed {
 // What a rung would cost this scene and how far it would be from the truth.
 struct RungForecast {
     const Rung* rung = nullptr;
-    // Relative (PictureError::nrmse, core/accuracy/error_measures.h): what will about be stated of the picture once it is
-    // made (core/climb.h); in three scenes of five no more. Of truth, its noise.
+    // Relative (PictureError::nrmse, core/accuracy/error_measures.h): what will about be stated of the picture once it
+    // is made (core/climb.h); in three scenes of five no more. Of truth, its noise.
     double error = 0;
     // Of all stages but queue and encode, on this machine.
     double time_ms = 0;
