@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/accuracy/error_measures.h"
+#include "core/draw/picture_difference.h"
 #include "core/gl/device.h"
 #include "core/light/light_cache.h"
 #include "core/light/machine_speed.h"
@@ -168,8 +169,9 @@ std::string ask_name(const char* what, double ask) {
 }
 
 // name: what was asked for; rung: that the picture is of.
+// difference: to the picture of the rung before, of grids.
 void write_row(const Options& options, int index, const std::string& name, const Rung& rung,
-               const Truth& truth, const TimedRender& made, std::FILE* out) {
+               const Truth& truth, const TimedRender& made, double difference, std::FILE* out) {
     const Rendered& rendered = made.rendered;
     // Without a reference, only what is stated counts.
     const PictureError error = truth.reference.samples > 0
@@ -180,7 +182,7 @@ void write_row(const Options& options, int index, const std::string& name, const
     std::fprintf(
         out,
         "%s,%d,%s,%s,%d,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,%.3g,%.4g,%.3g,%.3g,%u,%.5g,"
-        "%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%s",
+        "%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%s",
         options.set.c_str(), index, truth.kind.c_str(), name.c_str(), rung.cells, survey.particles,
         survey.optical_depth_eye, survey.optical_depth_sun, scene->medium.g, scene->medium.albedo,
         survey.sun_cosine, error.nrmse, error.nrmse_noise, error.bias, error.bias_noise,
@@ -190,7 +192,7 @@ void write_row(const Options& options, int index, const std::string& name, const
         rung.cells > 0 ? std::hypot(known_error(scene, survey, detail_counts(scene, survey)),
                                     survey.model_error)
                        : 0.0,
-        made.cpu_ms, rung.name);
+        difference, made.cpu_ms, rung.name);
     for (const double figure : error_figures(rung, scene, survey))
         std::fprintf(out, ",%.6g", figure);
     for (const double figure : time_figures(rung, scene, survey, 0))
@@ -225,24 +227,30 @@ void measure(const Options& options, int index, Device& device, std::FILE* out) 
         return timed_render(must(validate(draft)), options, device,
                             options.untraced || options.noise < 1 ? &lights : nullptr);
     };
+    std::optional<Image> coarser;
     for (const Rung& rung : ladder()) {
         if (rung.method == Method::kPaths || (options.only_grids && rung.cells == 0)) continue;
         const TimedRender made = rendered_as({{}, {}, std::string(rung.name)});
-        write_row(options, index, rung.name, rung, against, made, out);
+        const Image& image = made.rendered.image;
+        write_row(options, index, rung.name, rung, against, made,
+                  coarser ? picture_difference(*coarser, image) : 0, out);
+        if (rung.cells > 0) coarser = image;
     }
     for (const double ask : options.errors) {
         const TimedRender made = rendered_as({ask, {}, {}});
-        write_row(options, index, ask_name("error", ask), *made.rendered.rung, against, made, out);
+        write_row(options, index, ask_name("error", ask), *made.rendered.rung, against, made, 0,
+                  out);
     }
     for (const double ask : options.times) {
         const TimedRender made = rendered_as({{}, ask, {}});
-        write_row(options, index, ask_name("time", ask), *made.rendered.rung, against, made, out);
+        write_row(options, index, ask_name("time", ask), *made.rendered.rung, against, made, 0,
+                  out);
     }
     if (options.untraced) return;
     // The truth's own figures: noise of one path and what it took.
     std::fprintf(out,
                  "%s,%d,%s,truth,0,%zu,%.4g,%.4g,%.3g,%.3g,%.4g,%.5g,0,0,0,%.3g,%u,0,%.5g,0,%.5g,0,"
-                 "0,0,0,0,truth",
+                 "0,0,0,0,0,truth",
                  options.set.c_str(), index, numbered.kind.c_str(), planned.survey.particles,
                  planned.survey.optical_depth_eye, planned.survey.optical_depth_sun,
                  scene->medium.g, scene->medium.albedo, planned.survey.sun_cosine, reference.noise,
@@ -292,7 +300,7 @@ int main(int argc, char** argv) {
         "set,index,kind,rung,cells,particles,depth_eye,depth_sun,g,albedo,sun_cosine,error,error_"
         "noise,bias,bias_noise,"
         "truth_noise,samples,predicted_error,time_ms,light_ms,draw_ms,measure_ms,predicted_ms,"
-        "stated,known,cpu_ms,chosen",
+        "stated,known,difference,cpu_ms,chosen",
         out);
     for (const char* name : kErrorFigureNames) std::fprintf(out, ",e_%s", name);
     for (const char* name : kTimeFigureNames) std::fprintf(out, ",t_%s", name);
