@@ -220,6 +220,8 @@ inline constexpr double kMinFov = 0.01, kMaxFov = 170.0;
 
 // Levels of nested JSON. The deepest value of the contract is at 6.
 inline constexpr int kMaxJsonDepth = 32;
+// Bytes of a document that begins with a preset, of which a tree is made: enough for thousands of cubes of its own.
+inline constexpr std::size_t kMaxPresetDocument = 1 << 20;
 // Bytes of a string. There are names only.
 inline constexpr std::uint64_t kMaxString = 256;
 

@@ -33,8 +33,9 @@ int run_presets(const PresetsCommand& command) {
             return kExitFine;
         }
         if (command.name.empty())
-            std::printf("%-24.*s %.*s\n", static_cast<int>(entry.name.size()), entry.name.data(),
-                        static_cast<int>(entry.title.size()), entry.title.data());
+            std::printf("%-24s %s%s\n", std::string(entry.name).c_str(),
+                        std::string(entry.title).c_str(),
+                        entry.genus.empty() ? "" : (" (" + std::string(entry.genus) + ")").c_str());
         names += (names.empty() ? "" : ", ") + std::string(entry.name);
     }
     if (command.name.empty()) return kExitFine;

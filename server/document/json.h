@@ -6,13 +6,15 @@
 
 #include "core/pipeline.h"
 #include "core/scene/scene.h"
+#include "server/document/presets.h"
 
 namespace awan {
 
 // The scene document of the contract. Strict: unknown fields, wrong types, duplicate keys, numbers
 // that are not finite, integers that are not integral or do not fit: each an Error with a JSON
 // pointer. kMalformed: not JSON (position in the message). kInvalidScene: JSON, but not a scene
-// document. A deep or huge document costs no more than its text. Ranges are validate()'s business.
+// document. A deep or huge document costs no more than its text. A document with the member `preset` is first completed
+// by with_preset(). Ranges are validate()'s business.
 Result<SceneDraft> parse_scene(std::string_view text);
 
 // The scene as a document that parses back to an equal draft (defaults are left out).
@@ -36,9 +38,6 @@ std::string plan_to_json(const Survey& survey, const Plan& plan);
 std::string problem_to_json(int status, std::string_view title, std::string_view detail,
                             std::string_view pointer, std::string_view request_id);
 
-struct PresetEntry {
-    std::string_view name, title, text;  // text: the document
-};
 std::string presets_to_json(const PresetEntry* first, std::size_t count);
 std::string version_to_json(const DeviceInfo* device, std::string_view no_device_reason);
 

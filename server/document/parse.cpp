@@ -19,6 +19,7 @@
 #include "server/document/left_alone.h"
 #include "server/document/number_runs.h"
 #include "server/document/particle_answer.h"
+#include "server/document/presets.h"
 
 namespace awan {
 namespace {
@@ -80,6 +81,8 @@ std::string reason_of(std::string_view what) {
 class SceneReader {
   public:
     std::optional<Error> error;
+    // The scene names a preset: reading stopped there.
+    bool begins_with_preset = false;
     SceneDraft draft;
     TextCursor text;  // where the parser is
 
@@ -155,6 +158,10 @@ class SceneReader {
         const int field = find_field(*frame.table, name);
         if (field < 0) {
             if (is_left_alone(name)) return pass_over_next();
+            if (name == "preset" && frames_.size() == 1) {
+                begins_with_preset = true;
+                return false;
+            }
             if (key_of_answer(name)) return true;
             std::string at = pointer() + escaped_name(name);
             return fail_at(std::move(at), "unknown field " + short_quote(name) + "; allowed are " +
@@ -411,6 +418,11 @@ Result<SceneDraft> parse_scene(std::string_view text) {
     SceneReader reader(text);
     try {
         json::sax_parse(TextIterator(reader.text), TextIterator(), &reader);
+        if (reader.begins_with_preset) {
+            const auto whole = with_preset(text);
+            if (!whole.ok()) return whole.error();
+            return parse_scene(*whole);
+        }
     } catch (const std::exception& e) {
         Error error = error_of_thrown(e);
         if (error.code == ErrorCode::kInternal)

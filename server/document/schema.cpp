@@ -13,6 +13,7 @@
 #include "server/document/json.h"
 #include "server/document/json_text.h"
 #include "server/document/particle_answer.h"
+#include "server/document/presets.h"
 
 namespace awan {
 namespace {
@@ -325,6 +326,11 @@ void add_presets_of(const Table& table, std::string& out) {
     if (&table == &table_of<Sky>()) add_presets("model", kSkyModelWords, sky_of_model, out);
 }
 
+void insert_property(std::string_view property, std::string& schema) {
+    constexpr std::string_view kProperties = "\"properties\":{";
+    schema.insert(schema.find(kProperties) + kProperties.size(), property);
+}
+
 std::string object_schema(const Table& table, const void* standards, Schemas& schemas) {
     if (&table == &table_of<Cloud>()) return cloud_schema(table, standards, schemas);
     std::string out = '{' + object_members(table, standards, {}, schemas);
@@ -351,10 +357,30 @@ std::string scene_of_particles(Schemas& schemas) {
     const std::string own =
         "\"particles\":" + field_schema(kAnsweredParticles, &none, schemas) +
         R"(,"count":{"description":"Not read: the list says it."},"bounds":{"description":"Not read."},)";
-    constexpr std::string_view kProperties = "\"properties\":{";
-    out.insert(out.find(kProperties) + kProperties.size(), own);
+    insert_property(own, out);
     words("description", "An answer of /v1/particles, with whatever else a scene has.", out);
     return out + R"(,"required":["particles"]})";
+}
+
+// A document that begins with a preset, whose place its other members take (presets.h).
+std::string scene_of_preset(Schemas& schemas) {
+    const Table& scene = table_of<SceneDraft>();
+    std::string out = '{' + object_members(scene, scene.standard(), {}, schemas);
+    std::string own = "\"preset\":{";
+    std::vector<std::string> names;
+    for (const PresetEntry& preset : preset_entries()) {
+        names.emplace_back(preset.name);
+        if (!preset.genus.empty()) names.emplace_back(preset.genus);
+    }
+    own += "\"enum\":[";
+    for (const std::string& name : names) {
+        if (&name != &names.front()) own += ',';
+        append_json_string(name, own);
+    }
+    insert_property(own + "]},", out);
+    words("description", "A preset with what is to be otherwise, merged into it as RFC 7396 says.",
+          out);
+    return out + R"(,"required":["preset"]})";
 }
 
 }  // namespace
@@ -363,6 +389,7 @@ std::string scene_schemas() {
     Schemas schemas;
     object_reference(table_of<SceneDraft>(), nullptr, schemas);
     schemas["SceneOfParticles"] = scene_of_particles(schemas);
+    schemas["SceneOfPreset"] = scene_of_preset(schemas);
     std::vector<const char*> rungs;
     for (const Rung& rung : ladder()) rungs.push_back(rung.name);
     schemas["Rung"] = words_schema(rungs);

@@ -152,6 +152,7 @@ std::string presets_to_json(const PresetEntry* first, std::size_t count) {
         out += '{';
         member("name", first[i].name, out);
         member("title", first[i].title, out);
+        if (!first[i].genus.empty()) member("genus", first[i].genus, out);
         member("href", std::string_view("/v1/presets/" + std::string(first[i].name)), out);
         out += '}';
     }

@@ -18,25 +18,6 @@ std::string_view content_type_of(std::string_view name) {
     return "application/octet-stream";
 }
 
-std::string_view embedded(std::string_view name) {
-    for (const EmbeddedFile& file : web_files())
-        if (file.name == name) return file.text;
-    return {};
-}
-
-// The next string of `text` after "key":. Enough for presets/index.json, which is ours, flat and
-// without escapes (service_test reads every title).
-std::string_view next_value(std::string_view& text, std::string_view key) {
-    std::size_t at = text.find(key);
-    if (at == std::string_view::npos) return {};
-    at = text.find('"', text.find(':', at + key.size()));
-    const std::size_t end = at == std::string_view::npos ? at : text.find('"', at + 1);
-    if (end == std::string_view::npos) return {};
-    const std::string_view value = text.substr(at + 1, end - at - 1);
-    text.remove_prefix(end + 1);
-    return value;
-}
-
 // The contract: routes and answers as web/openapi.json has them, scenes as the tables of core/scene do.
 std::string whole_contract(std::string_view routes) {
     constexpr std::string_view kSchemas = "\"schemas\": {";
@@ -65,14 +46,8 @@ std::vector<Page> make_pages() {
 
 std::vector<Preset> make_presets() {
     std::vector<Preset> presets;
-    std::string_view index = embedded("presets/index.json");
-    while (true) {
-        const std::string_view name = next_value(index, "\"name\"");
-        const std::string_view title = next_value(index, "\"title\"");
-        if (name.empty() || title.empty()) break;
-        const std::string_view text = embedded("presets/" + std::string(name) + ".json");
-        if (!text.empty()) presets.push_back({{name, title, text}, make_etag({text})});
-    }
+    for (const PresetEntry& entry : preset_entries())
+        presets.push_back({entry, make_etag({entry.text})});
     return presets;
 }
 
