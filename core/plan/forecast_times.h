@@ -3,8 +3,6 @@
 // clang-format off
 #pragma once
 
-#include <array>
-
 #include "core/plan/forecast_figures.h"
 
 namespace awan {

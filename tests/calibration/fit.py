@@ -132,7 +132,7 @@ def fit_errors(rows, traced):
 struct ErrorModel {
     ErrorFigures coefficient;
 };""")
-    rows = [r for r in rows if math.isfinite(float(r["stated"]))]
+    rows = [r for r in rows if r["rung"] != "truth" and math.isfinite(float(r["stated"]))]
     for name, rung in (("kAdditiveError", "additive"), ("kHarrisError", "harris"), ("kSingleError", "single"),
                        ("kTransportError", "transport")):
         table(name, "ErrorModel", stated_model([r for r in rows if r["rung"].startswith(rung)]))
