@@ -140,8 +140,6 @@ def clear_sky(elevation):
 
 
 def main():
-    if "edges" in sys.argv:
-        silhouette("one cube", ONE_CUBE); silhouette("table 4.4", TABLE_44); silhouette("congestus", preset("congestus")); return
     path = os.path.join(SCRATCH, "cube.json")
     with open(path, "w") as file:
         json.dump(ONE_CUBE, file)
