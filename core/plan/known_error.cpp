@@ -11,8 +11,10 @@ constexpr double kEyeError = 0.005, kThickError = 0.006;
 // what 128 directions and four orders leave of the angles of forward scattered light, times g squared; the more of it
 // the nearer the sun is to behind the eye, in proportion to the square of what the cosine between it and the view is
 // below -1/2: what comes back from there has turned around by many small angles, which the peak's light does not. Where
-// matter is so thin that little else comes back, that is most of it, times g to the power of 6;
-constexpr double kAngularError = 0.025, kTurnedBackError = 0.2, kThinTurnedBackError = 0.5;
+// matter is so thin that little else comes back, that is most of it, times g to the power of 6. Towards the sun, where
+// the peak comes through in thick matter, times g to the power of 4 and the cosine squared;
+constexpr double kAngularError = 0.025, kTurnedBackError = 0.2, kThinTurnedBackError = 0.5,
+                 kIntoSunError = 0.17;
 // what lumps of detail that are smaller than steps, cells and the gaps between rays leave, times the detail's amount;
 // more of it in deep matter, where a cell of the sun's lattice is several mean free paths, in proportion to depths
 // up to kDeep, and where the sun shines through their edges, times the cosine squared between it and the view.
@@ -26,14 +28,16 @@ constexpr double kSubPixelError = 0.01;
 double known_error(const Scene& scene, const Survey& survey, bool detailed) {
     const double g = scene->medium.g, depth = survey.optical_depth_eye;
     const double behind = std::clamp(-2 * survey.sun_cosine - 1, 0.0, 1.0);
-    const double angular = (kAngularError + kTurnedBackError * behind * behind) * g * g;
+    const double into_sun = std::max(survey.sun_cosine, 0.0);
+    const double angular = (kAngularError + kTurnedBackError * behind * behind +
+                            kIntoSunError * into_sun * into_sun * g * g) *
+                           g * g;
     const double thick = depth / (1 + depth);
     const double thin_turned_back =
         kThinTurnedBackError * behind * behind * g * g * g * g * g * g * 4 * thick * (1 - thick);
     double known =
         std::hypot(kEyeError, std::hypot(kThickError, angular) * thick, thin_turned_back);
     if (detailed) {
-        const double into_sun = std::max(survey.sun_cosine, 0.0);
         known =
             std::hypot(known, scene->detail.value_or(Detail{}).amount *
                                   (kDetailError + kDeepDetailError * std::min(depth / kDeep, 1.0) +
