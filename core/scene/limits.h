@@ -15,6 +15,12 @@ inline constexpr std::uint64_t kMaxCubes = 10'000;
 // Clouds. A full sky is a few hundred.
 inline constexpr std::uint64_t kMaxClouds = 1'000;
 
+// Different textures in one scene. Each takes 2.7 MiB of the renderer's memory, and OpenGL 4.5 promises room for 2,048
+// layers, of which each has 64.
+inline constexpr std::size_t kMaxTextures = 16;
+// Bytes of a texture's name.
+inline constexpr std::size_t kMaxTextureName = 64;
+
 // --- Lengths, in scene units
 
 // |coordinate|. Positions are kept in double and taken relative to the cloud before anything becomes float32. At 1e9 a

@@ -132,7 +132,7 @@ std::string value_schema(const Field& field, const void* standard, Schemas& sche
         case Holds::kText:
             return text_schema(field);
         case Holds::kSwitch:
-            return field.later ? R"({"type":"boolean","const":false})" : R"({"type":"boolean"})";
+            return R"({"type":"boolean"})";
         case Holds::kObject:
             return object_reference(field.access.table(), standard, schemas);
         case Holds::kObjects:
@@ -229,8 +229,7 @@ std::string object_members(const Table& table, const void* standards, std::optio
                            Schemas& schemas) {
     std::string properties, required;
     for (const Field& field : table.fields) {
-        if (!field.in_documents() || (field.later && field.access.holds != Holds::kSwitch))
-            continue;
+        if (!field.in_documents()) continue;
         if (field.of_model && field.of_model != model) continue;
         if (!properties.empty()) properties += ',';
         append_json_string(field.name, properties);
