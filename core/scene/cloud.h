@@ -26,7 +26,7 @@ struct Cube {
     // What it is painted with (core/scene/texture.h), and how many billboards it has then in the place of particles.
     // Where not given, the cloud's hold.
     std::optional<std::string> texture;
-    std::optional<std::uint64_t> billboards;
+    std::optional<std::uint64_t> billboards{};
 };
 
 inline constexpr Field kCubeFields[] = {

@@ -18,6 +18,12 @@ inline constexpr std::uint64_t kMaxClouds = 1'000;
 // Different textures in one scene. Each takes 2.7 MiB of the renderer's memory, and OpenGL 4.5 promises room for 2,048
 // layers, of which each has 64.
 inline constexpr std::size_t kMaxTextures = 16;
+// Pixels of a picture that a texture is made of, and along its side: 4096 x 4096 are 64 MiB while it is read, and are
+// brought down to 128 x 128.
+inline constexpr std::uint64_t kMaxTexturePixels = 1u << 24;
+inline constexpr std::uint64_t kMaxTexturePictureSide = 16'384;
+// Bytes of its file: as many uncompressed pixels of 4 bytes.
+inline constexpr std::uint64_t kMaxTextureBytes = 64u << 20;
 // Bytes of a texture's name.
 inline constexpr std::size_t kMaxTextureName = 64;
 
