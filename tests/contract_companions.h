@@ -35,7 +35,8 @@ inline json ones_for(const json& list) {
 }
 
 inline json one_cube() {
-    return json::parse(R"([{"particles": 5, "size": [1, 1, 1], "center": [0, 0, 0], "radius": 1}])");
+    return json::parse(
+        R"([{"particles": 5, "size": [1, 1, 1], "center": [0, 0, 0], "radius": 1}])");
 }
 
 inline const Companion kCompanions[] = {

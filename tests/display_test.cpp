@@ -24,7 +24,7 @@ using test::valid;
 SceneDraft cube(Display display) {
     SceneDraft draft = test::plain_draft();
     draft.clouds.push_back({});
-    draft.clouds[0].cubes = {{40, {2, 2, 2}, {0, 0, 0}, 0.4, 1, {}}};
+    draft.clouds[0].cubes = {{40, {2, 2, 2}, {0, 0, 0}, 1.2, 1, {}}};
     draft.camera.automatic = false;
     draft.camera.eye = {0, 0, 10};
     draft.camera.target = {0, 0, 0};
@@ -70,8 +70,8 @@ TEST(Display, BoundingBoxesAreEdgesAlone) {
         const int x = static_cast<int>(36 + 36 * 6 * slope);
         return std::max({alpha(image, x - 1, 36), alpha(image, x, 36), alpha(image, x + 1, 36)});
     };
-    EXPECT_GT(darkest_near(1.0 / 9), 0.5);
-    EXPECT_GT(darkest_near(1.0 / 11), 0.5);
+    EXPECT_GT(darkest_near(1.0 / 9), 0.4);
+    EXPECT_GT(darkest_near(1.0 / 11), 0.4);
     EXPECT_EQ(alpha(image, 36, 36), 0);
     EXPECT_EQ(alpha(image, 45, 40), 0);
 }
@@ -83,9 +83,9 @@ TEST(Display, QuadsShowTheTextureOnTheFaces) {
     EXPECT_LT(alpha(bare, 36, 36), 0.9);
     draft.texture = "soft";
     const Image soft = render(draft).image;
-    // Dense in a face's middle, nothing near its corners.
+    // Dense in a face's middle, little near its rim.
     EXPECT_GT(alpha(soft, 36, 36), 0.95);
-    EXPECT_LT(alpha(soft, 15, 15), 0.25);
+    EXPECT_LT(alpha(soft, 22, 14), 0.25);
 }
 
 TEST(Display, BillboardsAreThereWithAndWithoutATexture) {
@@ -105,9 +105,8 @@ TEST(Display, BillboardsAreThereWithAndWithoutATexture) {
 
 TEST(Display, ShowTextureIsTheTextureOnceAndUpright) {
     SceneDraft draft = cube(Display::kShowTexture);
-    EXPECT_EQ(
-        *std::max_element(render(draft).image.pixels.begin(), render(draft).image.pixels.end()),
-        0.0f);
+    const Image none = render(draft).image;
+    EXPECT_EQ(*std::max_element(none.pixels.begin(), none.pixels.end()), 0.0f);
     std::vector<std::uint8_t> depth(kTextureSide * kTextureSide);
     for (int y = 0; y < kTextureSide / 2; ++y)
         std::fill_n(depth.begin() + y * kTextureSide, kTextureSide / 2, std::uint8_t{255});

@@ -8,6 +8,7 @@
 
 #include "core/draw/billboards.h"
 #include "core/generate/gaussian.h"
+#include "core/generate/keyed_random.h"
 #include "core/generate/motion.h"
 
 namespace awan {
@@ -275,9 +276,10 @@ std::vector<DisplayVertex> display_billboards(const Scene& scene, const Particle
         const Paint paint = particles.paint.empty() ? Paint{} : particles.paint[i];
         const glm::dvec3 q = in_frame(particles.center[i], view);
         const double half = kBillboardReach * gaussian_s(particles, i);
-        // What is farther is darker: flat white squares would run into one.
+        // Flat white squares would run into one: what is farther is darker, and each a little by chance.
         const double far = (glm::length(q) - nearest) / std::max(farthest - nearest, 1e-12);
-        const glm::dvec3 color = kPaint * (1.15 - 0.75 * std::clamp(far, 0.0, 1.0));
+        const double own = unit_open(static_cast<std::uint32_t>(mix_bits(i + 1)));
+        const glm::dvec3 color = kPaint * (1.1 - 0.6 * std::clamp(far, 0.0, 1.0) - 0.3 * own);
         add_quad(square(q, billboard_axes(q, half, paint, vertical), lens),
                  premultiplied(color, kPaintedPart), paint.texture > 0 ? paint.texture - 1 : plain,
                  out);

@@ -65,7 +65,7 @@ Placed place(const ParticleSet& particles, std::size_t i, bool painted, const Vi
     const double pixel = window.gap() * own.q.z;
     const bool is_billboard = painted && particles.paint[i].texture != 0;
     if (is_billboard)
-        own.reach = std::numbers::sqrt2 * std::max(kBillboardReach * own.s, 0.75 * pixel);
+        own.reach = std::numbers::sqrt2 * std::max(kBillboardReach * own.s, pixel);
     else if (own.q.z > 0 && own.distance > own.reach && own.s < 3 * pixel)
         placed.level = level_for(own.s / pixel, least_width(own.tau));
     placed.box = pixels_of(own, window, placed.level > 0 ? kMargin : 0);

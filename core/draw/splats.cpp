@@ -147,7 +147,7 @@ Seen see_billboard(const SplatSetting& setting, std::size_t i, const SplatWindow
     if (!own.seen) return seen;
     const Paint& paint = setting.particles.paint[i];
     const double pixel = window.gap() * std::max(0.0, own.q.z);
-    const double side = kBillboardReach * seen.s, half = std::max(side, 0.75 * pixel);
+    const double side = kBillboardReach * seen.s, half = std::max(side, pixel);
     const double thinnest = setting.levels->depth_of(0);
     seen.tau = side / half * (side / half) * std::min(1.0, own.distance / half) *
                std::min(1.0, own.tau / thinnest);

@@ -92,7 +92,7 @@ std::vector<std::uint32_t> drawing_order(const Scene& scene, const ParticleSet& 
 // With effect view_extinction, neighbours in the order with the same centre and radius are merged into one, so that it
 // does not matter which of them is drawn over which: optical depths add, light and colour are weighted by them.
 //
-// A painted particle is a billboard (billboards.h). One that is narrower than the window's pixels is widened to 1.5 of
+// A painted particle is a billboard (billboards.h). One that is narrower than the window's pixels is widened to 2 of
 // them, and so much less opaque; one that is nearer to the eye than half its side fades, so that none is flown through.
 SplatList make_splats(const SplatSetting& setting, const SplatWindow& window,
                       std::span<const std::uint32_t> order);

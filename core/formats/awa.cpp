@@ -86,6 +86,7 @@ Result<SceneDraft> read_awa(std::string_view text) {
         layout.append(line) += '\n';
     }
     if (filled == 0) return at_line(1, "must be \"awa 1\"; the layout is empty");
+    if (filled == 1) return at_line(number + 1, "must be the total of billboards; the layout ends");
     auto draft = read_awn(layout);
     if (!draft) return draft;
     std::vector<Cube>& cubes = draft->clouds.front().cubes;

@@ -153,11 +153,13 @@ void paint(int item, Splat p, inout Column k) {
     k.level = up.w;
 }
 
-// The first row of a texture is its highest. Behind the eye there is nothing.
+// The first row of a texture is its highest. Behind the eye there is nothing; beside the square there is none of it, and
+// what would be infinite lies there.
 float opacity(Column k, float Y) {
-    float t = 1.0 / (k.to_center.x + k.to_center.y * Y);
-    vec2 at = 0.5 + 0.5 * t * vec2(k.across.x + k.across.y * Y, -(k.up.x + k.up.y * Y));
-    return t > 0.0 ? textureLod(textures, vec3(at, k.layer), k.level).x : 0.0;
+    float ahead = k.to_center.x + k.to_center.y * Y;
+    vec2 at = vec2(k.across.x + k.across.y * Y, -(k.up.x + k.up.y * Y)) / max(ahead, 1e-30);
+    at = clamp(0.5 + 0.5 * at, vec2(-1.0), vec2(2.0));
+    return ahead > 0.0 ? textureLod(textures, vec3(at, k.layer), k.level).x : 0.0;
 }
 #endif
 
