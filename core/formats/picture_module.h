@@ -16,8 +16,8 @@ struct PictureBounds {
 // A byte a pixel, row by row from the top left: its alpha, or where it has none its luminance.
 using TakePicture = void(void* to, int width, int height, const unsigned char* values);
 
-// Gives the picture in `bytes`, the first where there are several, to take(to, ...). Null, or what is wrong with it (for
-// ever valid). Not more than 5 bytes a pixel are held beside what its reader needs.
+// Gives the picture in `bytes`, the first where there are several, to take(to, ...). Null, or what is wrong with it
+// (for ever valid). Not more than 5 bytes a pixel are held beside what its reader needs.
 using ReadPicture = const char*(const char* bytes, std::size_t size, const PictureBounds& bounds,
                                 TakePicture* take, void* to);
 inline constexpr const char* kReadPicture = "awan_read_picture";

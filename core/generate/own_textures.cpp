@@ -1,5 +1,5 @@
-// Each texture is a function of a point (x, y) of the square from -1 to 1, y up: how deep the matter is there, 0 to 1, 0
-// from the unit circle on. Noise is of a lattice (values at whole points, smooth between, octaves added), and nothing
+// Each texture is a function of a point (x, y) of the square from -1 to 1, y up: how deep the matter is there, 0 to 1,
+// 0 from the unit circle on. Noise is of a lattice (values at whole points, smooth between, octaves added), and nothing
 // but sums, products, roots and exact_math goes in, so that every machine makes the same bytes.
 #include "core/generate/own_textures.h"
 
@@ -33,8 +33,8 @@ double noise(std::uint64_t key, double x, double y) {
     return low * (1 - v) + high * v;
 }
 
-// Octaves of noise, each half as large and half as strong, turned by the angle whose cosine is .8 so that their lattices
-// do not show; about 0..1.
+// Octaves of noise, each half as large and half as strong, turned by the angle whose cosine is .8 so that their
+// lattices do not show; about 0..1.
 double octaves(std::uint64_t key, double x, double y, int count) {
     double sum = 0, weight = 0, share = 1;
     for (int i = 0; i < count; ++i, share *= 0.5) {

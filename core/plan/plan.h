@@ -47,8 +47,8 @@ struct Plan {
 // Longer paths than these are not chosen, only taken by name.
 inline constexpr double kPatience_ms = 20e3;
 
-// Whether the scene calls for what only splats show: an effect is switched off that the other rungs cannot leave out, as
-// they follow all light there is, or its billboards are painted.
+// Whether the scene calls for what only splats show: an effect is switched off that the other rungs cannot leave out,
+// as they follow all light there is, or its billboards are painted.
 bool wants_splats(const Scene& scene);
 
 // Other paths a pixel for rung truth than the plan has, and what is predicted of it then; otherwise as plan().

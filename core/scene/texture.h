@@ -1,5 +1,5 @@
-// What billboards are painted with: pictures of matter, by name. Some are Awan's own (core/generate/own_textures.h), the
-// others come beside the document: uploaded, or as files of the command line. A document names them, and never a path.
+// What billboards are painted with: pictures of matter, by name. Some are Awan's own (core/generate/own_textures.h),
+// the others come beside the document: uploaded, or as files of the command line. A document names them, and never a path.
 #pragma once
 
 #include <array>
@@ -68,8 +68,8 @@ std::string_view find_texture(const SceneDraft& scene, std::string_view name);
 // clouds of other models, whose particles all have the cloud's.
 std::string_view texture_of(const SceneDraft& scene, const Cloud& cloud, const Cube* cube);
 
-// How many particles a cube has: where it is painted and says so (its `billboards`, else the cloud's, else the scene's),
-// that many, else its `particles`.
+// How many particles a cube has: where it is painted and says so (its `billboards`, else the cloud's, else the
+// scene's), that many, else its `particles`.
 std::uint64_t particles_of(const SceneDraft& scene, const Cloud& cloud, const Cube& cube);
 
 // The hashes of all textures that the scene is painted with, each once, in the order of clouds and cubes.

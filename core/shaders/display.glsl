@@ -1,5 +1,5 @@
-// Triangles for what is displayed instead of lit (draw/display.h). A vertex is three vec4s of a buffer texture: its place
-// in clip coordinates, its colour (premultiplied), and of a texture the place and the layer, or -1 for none.
+// Triangles for what is displayed instead of lit (draw/display.h). A vertex is three vec4s of a buffer texture: its
+// place in clip coordinates, its colour (premultiplied), and of a texture the place and the layer, or -1 for none.
 
 // A band of the picture: what y of the whole is multiplied by, and what is added to it.
 layout(location = 0) uniform vec2 band;

@@ -8,7 +8,8 @@
 // and in a column |q x d|^2 = C (Y - Y0)^2 + m, without cancellation.
 //
 // Where the program is compiled with PAINTED, particles may be billboards: squares that face the eye, through the
-// particle's centre, and opaque as their texture says, which was made for about their optical depth (draw/billboards.h).
+// particle's centre, and opaque as their texture says, which was made for about their optical depth
+// (draw/billboards.h).
 //
 // The program is compiled twice, since llvmpipe runs both sides of every branch: INTERIOR (effect `interior`) takes
 // only the half line before the eye, for all particles, the other the whole line. Light and phase function are

@@ -90,7 +90,8 @@ const char* read(const char* bytes, std::size_t size, const awan::PictureBounds&
         input->geterror();
         return "it is broken, or ends too soon";
     }
-    if (count == 3)  // Rec. 709
+    // Rec. 709.
+    if (count == 3)
         for (std::size_t i = 0; i < pixels; ++i)
             values[i] = static_cast<unsigned char>(
                 (2126 * values[3 * i] + 7152 * values[3 * i + 1] + 722 * values[3 * i + 2]) /
