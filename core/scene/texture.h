@@ -1,5 +1,5 @@
 // What billboards are painted with: pictures of matter, by name. Some are Awan's own (core/generate/own_textures.h),
-// the others come beside the document: uploaded, or as files of the command line. A document names them, and never a path.
+// the others come beside the document: uploaded, or as files of the command line. A document names them, never a path.
 #pragma once
 
 #include <array>

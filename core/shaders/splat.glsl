@@ -154,8 +154,8 @@ void paint(int item, Splat p, inout Column k) {
     k.level = up.w;
 }
 
-// The first row of a texture is its highest. Behind the eye there is nothing; beside the square there is none of it, and
-// what would be infinite lies there.
+// The first row of a texture is its highest. Behind the eye there is nothing; beside the square there is none of it,
+// and what would be infinite lies there.
 float opacity(Column k, float Y) {
     float ahead = k.to_center.x + k.to_center.y * Y;
     vec2 at = vec2(k.across.x + k.across.y * Y, -(k.up.x + k.up.y * Y)) / max(ahead, 1e-30);
