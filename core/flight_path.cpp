@@ -258,7 +258,10 @@ Result<Scene> flight_of(const SceneDraft& draft, const FlightWish& wish, int thr
     if (path == FlightPath::kKeys && !has_keys)
         return Error{ErrorCode::kInvalidScene, "/sequence/camera",
                      "there are no keys to fly along"};
-    if (flight.look == Look::kPhysical) flight.accuracy = {{}, {}, wish.rung.value_or(kFlightRung)};
+    if (flight.look == Look::kPhysical) {
+        const char* const usual = draws_textures(flight) ? kPaintedFlightRung : kFlightRung;
+        flight.accuracy = {{}, {}, wish.rung.value_or(usual)};
+    }
     give_sequence(wish, flight);
     if (path != FlightPath::kKeys && flight.sequence->frames > limits::kMaxCameraKeys)
         return Error{ErrorCode::kInvalidScene, "/sequence/frames",

@@ -25,6 +25,8 @@ inline constexpr std::uint64_t kFlightFrames = 48;
 inline constexpr double kFlightFramesPerSecond = 12;
 // All orders of scattering on the coarsest grid: light that one makes once and looks at from everywhere.
 inline constexpr const char* kFlightRung = "transport-16";
+// Of a scene with textures, which only splats show.
+inline constexpr const char* kPaintedFlightRung = "harris";
 
 struct FlightWish {
     // None: the scene's camera keys, or where it has none an orbit.

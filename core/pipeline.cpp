@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/climb.h"
+#include "core/draw/display.h"
 #include "core/draw/draw.h"
 #include "core/draw/march.h"
 #include "core/light/light.h"
@@ -111,6 +112,19 @@ Status render_look(const Scene& scene, const Planned& planned, const Tools& tool
     return std::nullopt;
 }
 
+// Not lit: what the clouds are made of.
+Status render_display(const Scene& scene, const Planned& planned, const Tools& tools,
+                      const Deadline& deadline, Rendered& rendered) {
+    if (tools.device == nullptr)
+        return Error{ErrorCode::kNoRenderer, "", "a scene that is displayed needs a renderer"};
+    auto image = timed(rendered.times.draw_ms, [&] {
+        return draw_display(scene, planned.particles, planned.survey.view, *tools.device, deadline);
+    });
+    if (!image.ok()) return image.error();
+    rendered.image = *std::move(image);
+    return std::nullopt;
+}
+
 // The coarsest grid that keeps to the error that the scene asks for; paths where none does; else the finest grid.
 // planned: for the transport rungs.
 Status render_grid_or_paths(const Scene& scene, Planned& planned, const Tools& tools,
@@ -137,6 +151,10 @@ bool is_time_to_measure(const Scene& scene, const Planned& planned, const StageT
 // one of a transport rung takes its place.
 Status measure_or_climb(const Scene& scene, Planned& planned, const Tools& tools,
                         const Deadline& deadline, Rendered& rendered) {
+    if (planned.plan.on(Effect::kTexture)) {
+        rendered.stated_error = std::numeric_limits<double>::quiet_NaN();
+        return std::nullopt;
+    }
     if (planned.particles.size() == 0 || !(planned.survey.total_mass > 0)) return std::nullopt;
     const bool unwanted = planned.rung_is_settled && planned.is_unmeasured;
     if (unwanted || !is_time_to_measure(scene, planned, rendered.times)) {
@@ -233,6 +251,10 @@ Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools
         case Method::kLook:
             rendered.stated_error = std::numeric_limits<double>::quiet_NaN();
             failed = render_look(scene, planned, tools, deadline, rendered);
+            break;
+        case Method::kDisplay:
+            rendered.stated_error = std::numeric_limits<double>::quiet_NaN();
+            failed = render_display(scene, planned, tools, deadline, rendered);
             break;
     }
     if (failed) return *failed;

@@ -12,7 +12,7 @@ namespace awan {
 
 Result<Planned> plan_still(const Scene& scene, int threads, const Deadline& deadline,
                            const MachineSpeed& speed, const std::optional<DetailFigures>& detail) {
-    const bool look = scene->look != Look::kPhysical;
+    const bool look = scene->look != Look::kPhysical && scene->display == Display::kLit;
     Planned planned;
     auto particles =
         timed(planned.times.generate_ms, [&] { return generate(scene, threads, deadline, look); });

@@ -242,7 +242,7 @@ Result<Settled> settle(const Scene& scene, Settling how, const ClimbTools& tools
         // It would stand beyond the limits.
         if (!validate(draft).ok()) draft.camera = own;
     }
-    if (draft.look != Look::kPhysical) return settled;
+    if (draft.look != Look::kPhysical || draft.display != Display::kLit) return settled;
     // Which effects there are must not hang on the rung that is expected of a frame.
     const bool for_error = !draft.accuracy.rung && !draft.accuracy.time_ms && !wants_splats(scene);
     std::optional<double> error;

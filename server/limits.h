@@ -98,4 +98,11 @@ inline constexpr std::size_t kSettlingLightBytes = 64u << 20;
 // Particles in one piece of a streamed answer: about 400 KiB of JSON.
 inline constexpr std::size_t kParticlesPerPiece = 4096;
 
+// --- Textures of clients
+
+// Kept at once, each of 16 KiB.
+inline constexpr std::size_t kMaxKeptTextures = 256;
+// What reading one takes at its peak: its pixels as the file has them, up to 16 bytes each, and as they are read.
+inline constexpr std::size_t kTextureWorkBytes = std::size_t{320} << 20;
+
 }  // namespace awan::limits

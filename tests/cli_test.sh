@@ -190,6 +190,37 @@ cmp -s b.json c.json || fail "a layout does not come back"
 run 0 convert a.csv ready.json
 run 0 plan ready.json
 run 3 convert a.csv ready.awn
+
+# --- textures
+printf 'awa 1\n40\n1\n40, 2, 1, 2, 0, 0, 0, 0.5, puff\n' >painted.awa
+run 0 convert painted.awa painted.json
+contains "an .awa as a document" '"texture":"puff"' "$(tr -d ' \n' <painted.json)"
+run 0 convert painted.json painted2.awa
+cmp -s painted.awa painted2.awa || fail "a layout of textures does not come back"
+run 0 particles painted.awa -o painted3.awa
+cmp -s painted.awa painted3.awa || fail "a layout of textures is not written"
+run 3 convert painted.awa painted.awn
+sed 's/awa 1/awa 7/' painted.awa >later.awa
+run 3 validate later.awa
+contains "a version that is not there" "line 1" "$(cat err)"
+run 0 render painted.awa --json -o painted.png
+contains "textures are drawn by splats" '"harris"' "$(cat out)"
+run 3 plan scene.json --set /texture=mine
+contains "a texture that is not there" "/texture" "$(cat err)"
+run 2 render painted.awa --set /display=solid -o display.png --nonsense
+run 3 render painted.awa --set /display=solid -o display.png
+for display in cubes quads billboards bounding_boxes show_texture; do
+    run 0 render painted.awa --set "/display=$display" -o display.png -o display.exr
+    cmp -s display.png painted.png && fail "$display is drawn as if it were lit"
+done
+if [ -e "$(dirname "$awan")/awan_pictures.so" ]; then
+    run 0 render scene.json --texture mine=painted.png --set /texture=mine -o mine.png
+    run 3 render scene.json --texture mine=scene.json --set /texture=mine -o mine.png
+    contains "no picture" "mine" "$(cat err)"
+    run 3 render scene.json --texture ../mine=painted.png -o mine.png
+    run 3 render scene.json --texture mine -o mine.png
+    run 5 render scene.json --texture mine=absent.png -o mine.png
+fi
 for file in scene.json layout.awn a.ply a.csv; do
     "$awan" particles - -o - --format csv <"$file" >out || fail "$file from standard input"
     [ "$file" = layout.awn ] || cmp -s a.csv out || fail "$file from standard input is another"

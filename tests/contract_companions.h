@@ -34,6 +34,11 @@ inline json ones_for(const json& list) {
     return json(list.size(), 1);
 }
 
+inline json one_cube() {
+    return json::parse(
+        R"([{"particles": 5, "size": [1, 1, 1], "center": [0, 0, 0], "radius": 1}])");
+}
+
 inline const Companion kCompanions[] = {
     // --- the scene
     {"Scene", "time", "moves clouds that change",
@@ -51,6 +56,22 @@ inline const Companion kCompanions[] = {
          document.erase("cubes");
          document["clouds"] = json::parse(R"([{"model": "ellipsoids", "ellipsoids": {}}])");
      }},
+    {"Scene", "texture", "there is something to paint",
+     [](json& document, json&) { document["cubes"] = one_cube(); }},
+    {"Scene", "billboards", "cubes without a texture have none",
+     [](json& document, json&) {
+         document["cubes"] = one_cube();
+         document["texture"] = "soft";
+     }},
+    {"Cube", "billboards", "cubes without a texture have none",
+     [](json& document, json&) { document["texture"] = "soft"; }},
+    {"CubesCloud", "billboards", "cubes without a texture have none",
+     [](json& document, json& cloud) {
+         document["texture"] = "soft";
+         cloud["cubes"] = one_cube();
+     }},
+    {"CubesCloud", "texture", "there is something to paint",
+     [](json&, json& cloud) { cloud["cubes"] = one_cube(); }},
     {"Camera", "", "the target differs from the eye",
      [](json&, json& camera) {
          camera["target"] = {2, 1, 1};

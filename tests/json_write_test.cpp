@@ -209,7 +209,7 @@ TEST(PlanToJson, IsFiniteJsonWithTheFieldsThatScriptsRead) {
     survey.eye_inside = true;
     Plan plan;
     for (int i = 0; i < kEffectCount; ++i)
-        plan.effects[static_cast<std::size_t>(i)] = {static_cast<Effect>(i), i % 2 == 0, i < 5,
+        plan.effects[static_cast<std::size_t>(i)] = {static_cast<Effect>(i), i % 2 == 0,
                                                      "because \"3 > 2\"", 0.25};
     plan.rung = "harris";
     plan.rung_reason = "cheapest under 50%";

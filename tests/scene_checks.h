@@ -64,11 +64,6 @@ inline void expect_invalid(std::string_view text, const std::string& pointer,
     expect_error(text, ErrorCode::kInvalidScene, pointer, words);
 }
 
-inline void expect_unsupported(std::string_view text, const std::string& pointer,
-                               std::initializer_list<const char*> words = {}) {
-    expect_error(text, ErrorCode::kUnsupported, pointer, words);
-}
-
 inline void expect_malformed(std::string_view text, std::initializer_list<const char*> words = {}) {
     expect_error(text, ErrorCode::kMalformed, "", words);
 }

@@ -189,17 +189,14 @@ TEST(Fingerprint, NoAccuracyIsTheDefaultAccuracy) {
               fingerprint(*read(scene_with(R"("accuracy": {"error": 0.1})"))));
 }
 
-// --- of the contract, but not of this version
+// --- all of the contract
 
-TEST(SceneJson, RefusesWhatThisVersionLacksAsUnsupported) {
-    expect_unsupported(cube_with(R"("texture": "puff")"), "/cubes/0/texture");
+TEST(SceneJson, TakesEveryEffect) {
     expect_invalid(scene_with(R"("ground": {"albedo": [0.1, 0.2, 1.3]})"), "/ground/albedo/2");
-    expect_unsupported(scene_with(R"("effects": {"texture": true})"), "/effects/texture");
-    for (const char* const word : {"false", "\"auto\""})
-        EXPECT_TRUE(read(scene_with(std::string(R"("effects": {"texture": )") + word + "}")).ok());
     for (const char* const effect :
          {"self_shadow", "multiple_scattering", "view_extinction", "sky_light", "ground_light",
-          "ground_shadow", "sun_color", "aerial_perspective", "light_shafts", "detail", "interior"})
+          "ground_shadow", "sun_color", "aerial_perspective", "light_shafts", "detail", "interior",
+          "texture"})
         EXPECT_TRUE(read(scene_with(std::string(R"("effects": {")") + effect + "\": true}")).ok())
             << effect;
 }

@@ -49,6 +49,11 @@ export async function presets() {
   return (await (await call("/v1/presets")).json()).presets;
 }
 
+// A picture as a texture of that name.
+export async function putTexture(name, file) {
+  return (await call(`/v1/textures/${encodeURIComponent(name)}`, { method: "PUT", body: file })).json();
+}
+
 export async function presetText(name) {
   return (await call(`/v1/presets/${encodeURIComponent(name)}`)).text();
 }

@@ -58,14 +58,16 @@ export function whyNoLayout(scene) {
   return "";
 }
 
-// The document of an .awn layout that the service has accepted.
-export function sceneFromAwn(text) {
-  const lines = text.replace(/^\uFEFF/, "").split(/\r?\n/).map((line) => line.split(/[\s,]+/).filter(Boolean).map(Number));
-  const numbers = lines.filter((line) => line.length > 0);
+// The document of a layout, .awn or .awa, that the service has accepted.
+export function sceneFromLayout(text) {
+  const words = text.replace(/^\uFEFF/, "").split(/\r?\n/).map((line) => line.split(/[\s,]+/).filter(Boolean));
+  const lines = words.filter((line) => line.length > 0 && line[0] !== "awa");
   return {
-    cubes: numbers.slice(2).map(([particles, lx, ly, lz, cx, cy, cz, radius]) => ({
-      particles, size: [lx, ly, lz], center: [cx, cy, cz], radius,
-    })),
+    cubes: lines.slice(2).map((line) => {
+      const [particles, lx, ly, lz, cx, cy, cz, radius] = line.slice(0, 8).map(Number);
+      const texture = line[8] ?? "none";
+      return { particles, size: [lx, ly, lz], center: [cx, cy, cz], radius, ...(texture === "none" ? {} : { texture }) };
+    }),
   };
 }
 

@@ -72,6 +72,7 @@ export function createFiles(store, { name, picture, failed, note }) {
     button("EXR", rendered("image/x-exr", ".exr"), { title: "Linear light, premultiplied" }),
     button("JSON", () => save(new Blob([store.text], { type: "application/json" }), name() + ".json"), { title: "This scene document" }),
     awn,
+    button(".awa", listed("text/x-awa", ".awa"), { title: "The layout with its textures" }),
     el("span", { class: "together" },
       el("span", { class: "label" }, "Particles"),
       button("JSON", listed("application/json", ".particles.json"), { "aria-label": "Particles as JSON" }),

@@ -2,10 +2,10 @@
 // particles are judged and read by the service, which knows every dialect of them (server/document/README.md).
 
 import * as api from "./api.js";
-import { sceneFromAwn } from "./document.js";
+import { sceneFromLayout } from "./document.js";
 import { compactJson, parseJson, prettyJson } from "./json_text.js";
 
-const TYPES = { awn: "text/x-awn", ply: "application/x-ply", csv: "text/csv", json: "application/json" };
+const TYPES = { awn: "text/x-awn", awa: "text/x-awa", ply: "application/x-ply", csv: "text/csv", json: "application/json" };
 
 // By its name, else by how it begins, as the service does.
 function kindOf(name, head) {
@@ -14,6 +14,7 @@ function kindOf(name, head) {
   const start = head.replace(/^\uFEFF/, "").trimStart();
   if (start.startsWith("{")) return "json";
   if (/^ply\r?\n/.test(start)) return "ply";
+  if (/^awa\s/.test(start)) return "awa";
   return /[a-z]/i.test(start.split(/\r?\n/)[0]) ? "csv" : "awn";
 }
 
@@ -42,10 +43,10 @@ export async function documentOf(file) {
     const answer = Array.isArray(scene.particles) && scene.cubes === undefined && scene.clouds === undefined;
     return { text: answer ? prettyJson(sceneOfParticles(scene)) + "\n" : text, title };
   }
-  if (kind === "awn") {
+  if (kind === "awn" || kind === "awa") {
     const text = await file.text();
-    await api.plan(text, { type: TYPES.awn });
-    return { text: prettyJson(sceneFromAwn(text)) + "\n", title };
+    await api.plan(text, { type: TYPES[kind] });
+    return { text: prettyJson(sceneFromLayout(text)) + "\n", title };
   }
   const answer = await api.particles(file, "application/json", { type: TYPES[kind] });
   return { text: compactJson(sceneOfParticles(JSON.parse(await answer.text()))) + "\n", title };

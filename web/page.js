@@ -223,7 +223,8 @@ function refreshControls() {
   time.refresh();
   panels.forEach((panel) => panel.refresh());
   accuracy.refresh();
-  accuracy.element.hidden = atOrDefault(store.scene, "/look") !== "physical"; // a look has no error
+  // Neither a look nor what is displayed has an error.
+  accuracy.element.hidden = atOrDefault(store.scene, "/look") !== "physical" || atOrDefault(store.scene, "/display") !== "lit";
   layout.refresh();
   figures.refresh();
   workspace.refresh();

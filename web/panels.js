@@ -6,6 +6,7 @@ import { at, cloudsOf, modelOf, withAt } from "./document.js";
 import { el } from "./dom.js";
 import { atOrDefault, fieldAt, standardAt } from "./schema.js";
 import { detailPanel, groundPanel, hazePanel } from "./surroundings.js";
+import { texturePanel } from "./textures.js";
 
 const turn = (degrees) => ((degrees % 360) + 360) % 360;
 const kFirstColor = [1, 1, 1];
@@ -207,6 +208,6 @@ export function createPanels(store, camera) {
   return [
     build(sunPanel(store), true), build(camera, open), build(skyPanel(store), open),
     build(matterPanel(store), open), build(groundPanel(store), false), build(hazePanel(store), false),
-    build(detailPanel(store), false), build(imagePanel(store), false),
+    build(detailPanel(store), false), build(texturePanel(store), false), build(imagePanel(store), false),
   ];
 }

@@ -114,7 +114,7 @@ export function createPanel(store, { actions, select, ids, items, selection, act
     strewn += 1;
     actions.change(...scattered(store.scene, ids(), many, out, strewn));
   });
-  const file = el("input", { type: "file", accept: ".json,.awn,application/json,text/x-awn", hidden: true, "aria-label": "File to insert" });
+  const file = el("input", { type: "file", accept: ".json,.awn,.awa,application/json,text/x-awn", hidden: true, "aria-label": "File to insert" });
   file.addEventListener("change", async () => {
     const [chosen] = file.files;
     file.value = "";

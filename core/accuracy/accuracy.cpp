@@ -181,6 +181,13 @@ Result<AccuracyReport> measure_accuracy(const Scene& scene, const AccuracyOption
     if (scene->look != Look::kPhysical)
         return Error{ErrorCode::kInvalidScene, "/look",
                      "a look has no error to measure; must be \"physical\""};
+    if (scene->display != Display::kLit)
+        return Error{ErrorCode::kInvalidScene, "/display",
+                     "only a lit picture has an error to measure; must be \"lit\""};
+    if (draws_textures(*scene))
+        return Error{ErrorCode::kInvalidScene, "/effects/texture",
+                     "a painted billboard has no truth and no error to measure; must be false in "
+                     "a scene with textures"};
     if (!scene->sequence) return measure_still(scene, options, render, progress, deadline);
     // Of a sequence one picture is measured, that of the scene's time.
     const auto still = validate(still_of(*scene, *scene->sequence, scene->time));

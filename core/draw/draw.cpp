@@ -7,6 +7,7 @@
 
 #include "core/draw/air_image.h"
 #include "core/draw/backdrop.h"
+#include "core/draw/billboards.h"
 #include "core/draw/splat_parts.h"
 #include "core/gl/programs.h"
 #include "core/light/sun_depth.h"
@@ -27,7 +28,8 @@ struct Drawing {
     const SplatSetting& splats;
     Device& device;
     const Deadline& deadline;
-    bool sky;  // the program draws the sky behind
+    bool sky;                          // the program draws the sky behind
+    const gl::TextureArray* textures;  // null: nothing is painted
 };
 
 void set_uniforms(const Drawing& drawing, const SplatWindow& window) {
@@ -125,14 +127,21 @@ Result<Image> draw_splats(const Drawing& drawing, const SplatWindow& window,
     image.pixels.resize(4 * image.pixel_count());
     const SplatList list = make_splats(drawing.splats, window, order);
     const gl::TexelBuffer splats{std::span<const Splat>(list.splats)};
-    const Device::Programs& programs = drawing.device.programs();
+    const gl::TexelBuffer paint{std::span<const PaintedSplat>(list.paint)};
+    Device::Programs& programs = drawing.device.programs();
     // A deep particle reaches farther than the 4 s within which the plan takes the eye to be inside: one behind the eye
     // would be seen in front of it.
     const bool half_lines =
         drawing.plan.on(Effect::kInterior) ||
         (list.reaches_eye &&
          drawing.scene->effects[static_cast<int>(Effect::kInterior)] != Switch::kOff);
-    (half_lines ? programs.splat_interior : programs.splat).use();
+    if (drawing.textures != nullptr) {
+        const auto painted = programs.painted(half_lines);
+        if (!painted.ok()) return painted.error();
+        (*painted)->use();
+    } else {
+        (half_lines ? programs.splat_interior : programs.splat).use();
+    }
     set_uniforms(drawing, window);
     std::vector<float> spare;
     const auto status = gl::for_each_region(
@@ -140,6 +149,8 @@ Result<Image> draw_splats(const Drawing& drawing, const SplatWindow& window,
         (image.height + kTileHeight - 1) / kTileHeight, 1, kMaxEntries, kMaxTiles, drawing.deadline,
         [&](const gl::TileRegion& region) -> Status {
             splats.bind(0);
+            paint.bind(1);
+            if (drawing.textures != nullptr) drawing.textures->bind(2);
             return draw_region(region, drawing.deadline, spare, image);
         });
     if (status) return *status;
@@ -149,8 +160,8 @@ Result<Image> draw_splats(const Drawing& drawing, const SplatWindow& window,
 // Draws a window, those parts of it on finer pixels that have matter below its own.
 Result<Image> draw_window(const Drawing& drawing, const SplatWindow& window,
                           std::vector<std::uint32_t> order, const SplatBudget& budget) {
-    SplatParts divided =
-        divide(drawing.splats.particles, drawing.splats.view, window, std::move(order), budget);
+    SplatParts divided = divide(drawing.splats.particles, drawing.textures != nullptr,
+                                drawing.splats.view, window, std::move(order), budget);
     auto image = draw_splats(drawing, window, divided.rest);
     if (!image.ok()) return image;
     for (SplatPart& part : divided.parts) {
@@ -188,8 +199,20 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
     const bool opaque = scene->image.background == Background::kSky;
     // The program draws no sky where something else is put behind the clouds below.
     const bool backdrop = opaque && wants_backdrop(scene, view);
-    const Drawing drawing{scene,  plan,     splats,
-                          device, deadline, opaque && !backdrop && haze == nullptr};
+    std::optional<gl::TextureArray> textures;
+    if (splats.levels) {
+        auto uploaded = timed_for(took, Effect::kTexture,
+                                  [&] { return upload_textures(scene, *splats.levels, deadline); });
+        if (!uploaded.ok()) return uploaded.error();
+        textures.emplace(*std::move(uploaded));
+    }
+    const Drawing drawing{scene,
+                          plan,
+                          splats,
+                          device,
+                          deadline,
+                          opaque && !backdrop && haze == nullptr,
+                          textures ? &*textures : nullptr};
     auto drawn = draw_window(drawing, whole_picture(view, scene->image),
                              drawing_order(scene, particles, view, plan),
                              splat_budget(scene->image, particles.size()));

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <numbers>
 
+#include "core/draw/billboards.h"
 #include "core/draw/march_levels.h"
 #include "core/survey/narrow.h"
 #include "core/survey/projection.h"
@@ -55,13 +57,16 @@ struct Placed {
     std::uint8_t level = 0;  // that a narrow particle asks for
 };
 
-Placed place(const ParticleSet& particles, std::size_t i, const View& view,
+Placed place(const ParticleSet& particles, std::size_t i, bool painted, const View& view,
              const SplatWindow& window) {
-    const Footprint own = footprint_of(particles, i, view);
+    Footprint own = footprint_of(particles, i, view);
     if (!own.seen) return {};
     Placed placed;
     const double pixel = window.gap() * own.q.z;
-    if (own.q.z > 0 && own.distance > own.reach && own.s < 3 * pixel)
+    const bool is_billboard = painted && particles.paint[i].texture != 0;
+    if (is_billboard)
+        own.reach = std::numbers::sqrt2 * std::max(kBillboardReach * own.s, pixel);
+    else if (own.q.z > 0 && own.distance > own.reach && own.s < 3 * pixel)
         placed.level = level_for(own.s / pixel, least_width(own.tau));
     placed.box = pixels_of(own, window, placed.level > 0 ? kMargin : 0);
     return placed;
@@ -135,8 +140,9 @@ SplatBudget splat_budget(const ImageSettings& image, std::size_t particles) {
             8.0 * static_cast<double>(particles) + (1 << 14)};
 }
 
-SplatParts divide(const ParticleSet& particles, const View& view, const SplatWindow& window,
-                  std::vector<std::uint32_t> order, const SplatBudget& budget) {
+SplatParts divide(const ParticleSet& particles, bool painted, const View& view,
+                  const SplatWindow& window, std::vector<std::uint32_t> order,
+                  const SplatBudget& budget) {
     std::vector<Placed> placed(order.size());
     Squares squares{
         (window.width + kSquare - 1) / kSquare, (window.height + kSquare - 1) / kSquare, {}};
@@ -144,7 +150,7 @@ SplatParts divide(const ParticleSet& particles, const View& view, const SplatWin
                         static_cast<std::size_t>(squares.down));
     bool any = false;
     for (std::size_t n = 0; n < order.size(); ++n) {
-        placed[n] = place(particles, order[n], view, window);
+        placed[n] = place(particles, order[n], painted, view, window);
         if (placed[n].level == 0) continue;
         any = any || placed[n].box.any();
         squares.visit(placed[n].box, [&](std::size_t at, const PixelBox& box) {

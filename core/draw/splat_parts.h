@@ -40,8 +40,10 @@ struct SplatParts {
 
 // What of a window to draw in parts: none where no particle's matter (order: indices, as they are drawn) is narrower
 // than its pixels call for. The same for the same arguments.
-SplatParts divide(const ParticleSet& particles, const View& view, const SplatWindow& window,
-                  std::vector<std::uint32_t> order, const SplatBudget& budget);
+// painted: particles that have paint are billboards, which have no need of finer pixels.
+SplatParts divide(const ParticleSet& particles, bool painted, const View& view,
+                  const SplatWindow& window, std::vector<std::uint32_t> order,
+                  const SplatBudget& budget);
 
 SplatWindow window_of(const SplatPart& part, const SplatWindow& in);
 

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/draw/air_image.h"
+#include "core/draw/billboards.h"
 #include "core/generate/gaussian.h"
 #include "core/scene/outside.h"
 #include "core/shaders/shared.h"
@@ -127,6 +128,36 @@ Seen see(const ParticleSet& particles, std::size_t i, const View& view, const Sp
     seen.reach = seen.s * cut;
     // In the picture's plane exp(-cut^2 / 2) of a Gaussian lies beyond the cut.
     seen.tau /= -std::expm1(-cut * cut / 2);
+    seen.tiles = tiles_of(seen, window);
+    return seen;
+}
+
+bool is_painted(const SplatSetting& setting, std::size_t i) {
+    return setting.levels && setting.particles.paint[i].texture != 0;
+}
+
+// Of a painted particle; tau: what its texture's opacity is multiplied by.
+Seen see_billboard(const SplatSetting& setting, std::size_t i, const SplatWindow& window,
+                   PaintedSplat& painted) {
+    const Footprint own = footprint_of(setting.particles, i, setting.view);
+    Seen seen{};
+    seen.q = own.q;
+    seen.distance = own.distance;
+    seen.s = std::max(own.s, 1e-12);
+    if (!own.seen) return seen;
+    const Paint& paint = setting.particles.paint[i];
+    const double pixel = window.gap() * std::max(0.0, own.q.z);
+    const double side = kBillboardReach * seen.s, half = std::max(side, pixel);
+    const double thinnest = setting.levels->depth_of(0);
+    seen.tau = side / half * (side / half) * std::min(1.0, own.distance / half) *
+               std::min(1.0, own.tau / thinnest);
+    const int layer = kDepthLevels * (paint.texture - 1) + setting.levels->level_of(own.tau);
+    const auto [across, up] = billboard_axes(own.q, half, paint, vertical_in(setting.view));
+    const double texel = 2 * half / kTextureSide;
+    const double level = pixel > texel ? std::log2(pixel / texel) : 0;
+    painted.across = glm::vec4(glm::dvec4(across / (half * half), layer));
+    painted.up = glm::vec4(glm::dvec4(up / (half * half), level));
+    seen.reach = std::numbers::sqrt2 * half;
     seen.tiles = tiles_of(seen, window);
     return seen;
 }
@@ -251,18 +282,24 @@ SplatSetting splat_setting(const Scene& scene, const ParticleSet& particles, con
                            const Plan& plan, const Lighting& lighting, const Air* air) {
     LightSources sources = light_sources(scene, plan);
     light_from_ground(scene, particles, lighting.ground, sources);
-    return {particles, view, lighting, air, plan.on(Effect::kViewExtinction), sources};
+    std::optional<DepthLevels> levels;
+    if (plan.on(Effect::kTexture)) levels = depth_levels(particles);
+    return {particles, view, lighting, air, plan.on(Effect::kViewExtinction), sources, levels};
 }
 
 SplatList make_splats(const SplatSetting& setting, const SplatWindow& window,
                       std::span<const std::uint32_t> order) {
-    const auto& [particles, view, lighting, air, sorted, sources] = setting;
+    const auto& [particles, view, lighting, air, sorted, sources, levels] = setting;
     SplatList list;
+    if (levels) list.paint.reserve(order.size());
     list.splats.reserve(order.size());
     list.tiles.reserve(order.size());
     std::size_t previous = particles.size();  // none
     for (const std::uint32_t i : order) {
-        const Seen seen = see(particles, i, view, window);
+        const bool is_billboard = is_painted(setting, i);
+        PaintedSplat painted;
+        const Seen seen = is_billboard ? see_billboard(setting, i, window, painted)
+                                       : see(particles, i, view, window);
         const gl::TileBox& tiles = seen.tiles;
         if (tiles.last_x < tiles.first_x || tiles.last_y < tiles.first_y) continue;
         if (seen.distance <= seen.reach) list.reaches_eye = true;
@@ -271,7 +308,7 @@ SplatList make_splats(const SplatSetting& setting, const SplatWindow& window,
         const ParticleLight* lit = lighting.particles.empty() ? nullptr : &lighting.particles[i];
         Splat splat = make_splat(seen, color, lit, view, window, sources);
         if (air != nullptr) see_through_air(*air, view, seen.q, splat);
-        if (sorted && previous < particles.size() &&
+        if (sorted && !is_billboard && previous < particles.size() &&
             particles.center[i] == particles.center[previous] &&
             particles.radius[i] == particles.radius[previous]) {
             merge(list.splats.back(), splat);
@@ -279,7 +316,8 @@ SplatList make_splats(const SplatSetting& setting, const SplatWindow& window,
         }
         list.splats.push_back(splat);
         list.tiles.push_back(tiles);
-        previous = i;
+        if (levels) list.paint.push_back(painted);
+        previous = is_billboard ? particles.size() : i;
     }
     return list;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,15 +14,35 @@
 
 namespace awan {
 
+inline constexpr int kDepthLevels = 64;
+// From the deepest billboard down to what is so many times as thin, in equal ratios: a depth is off by 5.7% at most.
+// Thinner ones are the thinnest, and so much less opaque, which is exact for them.
+inline constexpr double kDepthRange = 1000;
+
+// The optical depths, through a particle's centre, that textures are made for (billboards.h).
+struct DepthLevels {
+    double deepest = 0;
+
+    // 0 .. kDepthLevels - 1, the deepest last.
+    int level_of(double depth) const;
+    double depth_of(int level) const;
+};
+
 // Laid out as in splat.glsl (std430), which says what each holds.
 struct Splat {
     glm::vec4 place, matter, direct, other, change;
 };
 
+// How a splat is painted, laid out as in splat.glsl.
+struct PaintedSplat {
+    glm::vec4 across{0, 0, 0, -1}, up{0};
+};
+
 struct SplatList {
-    std::vector<Splat> splats;       // nearest first when sorted
-    std::vector<gl::TileBox> tiles;  // of kTileWidth x kTileHeight pixels, as long as splats
-    bool reaches_eye = false;        // the eye is within the reach of one of them
+    std::vector<Splat> splats;        // nearest first when sorted
+    std::vector<PaintedSplat> paint;  // as long as splats, or EMPTY where none is painted
+    std::vector<gl::TileBox> tiles;   // of kTileWidth x kTileHeight pixels, as long as splats
+    bool reaches_eye = false;         // the eye is within the reach of one of them
 };
 inline constexpr int kTileWidth = 8, kTileHeight = 16;  // as in splat.glsl
 
@@ -53,6 +74,8 @@ struct SplatSetting {
     const Air* air;  // the haze that they are seen through (air_image.h); null: none
     bool sorted;     // nearest first: effect view_extinction
     LightSources sources;
+    // The depths that textures are made for; none: particles are not painted.
+    std::optional<DepthLevels> levels;
 };
 SplatSetting splat_setting(const Scene& scene, const ParticleSet& particles, const View& view,
                            const Plan& plan, const Lighting& lighting, const Air* air = nullptr);
@@ -68,6 +91,9 @@ std::vector<std::uint32_t> drawing_order(const Scene& scene, const ParticleSet& 
 // independently of each other, too much where they overlap. That is why draw() draws such matter in finer windows.
 // With effect view_extinction, neighbours in the order with the same centre and radius are merged into one, so that it
 // does not matter which of them is drawn over which: optical depths add, light and colour are weighted by them.
+//
+// A painted particle is a billboard (billboards.h). One that is narrower than the window's pixels is widened to 2 of
+// them, and so much less opaque; one that is nearer to the eye than half its side fades, so that none is flown through.
 SplatList make_splats(const SplatSetting& setting, const SplatWindow& window,
                       std::span<const std::uint32_t> order);
 

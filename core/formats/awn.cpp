@@ -152,9 +152,9 @@ Result<std::string> write_awn(const SceneDraft& scene) {
         if (cube.density != 1)
             return too_rich(at + "/cubes/" + std::to_string(i) + "/density",
                             "a cube of an .awn layout has no density of its own");
-        if (cube.texture)
+        if (!texture_of(scene, cloud, &cube).empty())
             return too_rich(at + "/cubes/" + std::to_string(i) + "/texture",
-                            "a cube of an .awn layout has no texture");
+                            "a cube of an .awn layout has no texture; an .awa layout has");
         out += std::to_string(cube.particles);
         for (const double value : {cube.size.x, cube.size.y, cube.size.z, cube.center.x,
                                    cube.center.y, cube.center.z, cube.radius}) {

@@ -94,7 +94,8 @@ double auto_exposure(const Scene& scene) {
 }
 
 double exposure_of(const Scene& scene) {
-    return scene->image.exposure.value_or(auto_exposure(scene));
+    const bool lit = scene->display == Display::kLit;
+    return scene->image.exposure.value_or(lit ? auto_exposure(scene) : 0.0);
 }
 
 FilmSettings film_of(const Scene& scene) {

@@ -53,7 +53,7 @@ void set_exr_threads(int threads);
 // away from the light of a high one, three stops in four are made up for: the eye adapts, but evening stays evening.
 double auto_exposure(const Scene& scene);
 
-// The scene's own exposure, or that one, in stops.
+// The scene's own exposure, or that one, in stops; of what is displayed instead of lit, 0.
 double exposure_of(const Scene& scene);
 // With the tone curve that it names.
 FilmSettings film_of(const Scene& scene);

@@ -20,7 +20,6 @@ struct VdbGrid {
 using WriteVdb = const char*(const VdbGrid& grid,
                              void (*take)(void* to, const char* bytes, std::size_t size), void* to);
 inline constexpr const char* kWriteVdb = "awan_write_vdb";
-// The module's file, beside the program or in ../lib/awan.
 inline constexpr const char* kVdbModule = "awan_openvdb.so";
 
 }  // namespace awan

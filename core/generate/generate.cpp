@@ -32,6 +32,9 @@ struct Piece {
     std::size_t out;
     double density;
     Fill fill;
+    // Of its particles, but for what each has of its own.
+    Paint paint;
+    bool upright;
 };
 // Particles of a piece: about half a millisecond of work.
 constexpr std::uint64_t kPieceSize = 8192;
@@ -50,18 +53,38 @@ double density_of_cloud(const Scene& scene, std::size_t k) {
     const Cloud& cloud = scene->clouds[k];
     if (const auto given = density_of(*scene, cloud)) return *given;
     if (is_procedural(cloud)) return kDefaultDensity;
-    return auto_density(cloud, fill_of(*scene, cloud), keyed(seed_of(*scene, cloud), k));
+    const Fill fill = fill_of(*scene, cloud);
+    const std::uint64_t key = keyed(seed_of(*scene, cloud), k);
+    if (cloud.model != CloudModel::kCubes) return auto_density(cloud, fill, key);
+    Cloud filled = cloud;
+    for (Cube& cube : filled.cubes) cube.particles = particles_of(*scene, cloud, cube);
+    return auto_density(filled, fill, key);
+}
+
+// What the particles of a cube (null: of a cloud of another model) are painted with. textures: of the scene.
+void set_paint(const Scene& scene, const std::vector<std::string_view>& textures, const Cube* cube,
+               Piece& piece) {
+    const std::string_view hash = texture_of(*scene, *piece.cloud, cube);
+    const auto found = std::find(textures.begin(), textures.end(), hash);
+    piece.paint.texture =
+        hash.empty() ? std::uint8_t{0} : static_cast<std::uint8_t>(found - textures.begin() + 1);
+    piece.upright =
+        std::any_of(kOwnTextures.begin(), kOwnTextures.end(),
+                    [&](const OwnTexture& own) { return own.upright && hash == own.hash; });
 }
 
 // made: the particles of the clouds that are procedural, by the cloud's number.
 // densities: of each cloud.
 std::vector<Piece> cut_into_pieces(const Scene& scene, const std::vector<ModelParticles>& made,
-                                   const std::vector<double>& densities, std::size_t& total) {
+                                   const std::vector<double>& densities,
+                                   std::vector<std::size_t>& cloud_begin, std::size_t& total) {
     std::vector<Piece> pieces;
+    const std::vector<std::string_view> textures = textures_of(*scene);
     total = 0;
     for (std::size_t k = 0; k < scene->clouds.size(); ++k) {
         const Cloud& cloud = scene->clouds[k];
         const std::uint64_t key = keyed(seed_of(*scene, cloud), k);
+        cloud_begin.push_back(total);
         Piece piece{&cloud,
                     nullptr,
                     is_procedural(cloud) ? &made[k].particles : &cloud.ready,
@@ -70,18 +93,41 @@ std::vector<Piece> cut_into_pieces(const Scene& scene, const std::vector<ModelPa
                     0,
                     0,
                     made[k].extinctions ? 1.0 : densities[k],
-                    fill_of(*scene, cloud)};
+                    fill_of(*scene, cloud),
+                    {},
+                    false};
         if (cloud.model != CloudModel::kCubes) {
+            set_paint(scene, textures, nullptr, piece);
             add_pieces(pieces, piece, piece.ready->positions.size(), total);
             continue;
         }
         for (std::size_t c = 0; c < cloud.cubes.size(); ++c) {
             piece.cube = &cloud.cubes[c];
             piece.key = keyed(key, c);
-            add_pieces(pieces, piece, cloud.cubes[c].particles, total);
+            set_paint(scene, textures, piece.cube, piece);
+            add_pieces(pieces, piece, particles_of(*scene, cloud, *piece.cube), total);
         }
     }
+    cloud_begin.push_back(total);
     return pieces;
+}
+
+// Billboards of one texture are turned and mirrored by chance, so that their likeness does not show; those that have an
+// up by a sixteenth of a turn either way at most.
+constexpr std::uint64_t kPaintKey = 0x7061696e74;
+void paint_piece(const Piece& piece, ParticleSet& set) {
+    if (set.paint.empty()) return;
+    const std::uint64_t key = keyed(piece.key, kPaintKey);
+    std::size_t out = piece.out;
+    for (std::uint64_t i = piece.first; i < piece.last; ++i, ++out) {
+        const std::uint64_t bits = keyed(key, i);
+        Paint& paint = set.paint[out];
+        paint = piece.paint;
+        if (paint.texture == 0) continue;
+        paint.mirrored = (bits & 1u) != 0;
+        const auto turn = static_cast<std::uint16_t>(bits >> 16 & 0xffffu);
+        paint.turn = piece.upright ? static_cast<std::uint16_t>((turn >> 3) - 0x1000) : turn;
+    }
 }
 
 void fill_piece(const Piece& piece, double time, ParticleSet& set) {
@@ -158,7 +204,7 @@ Status run_models(const Scene& scene, int threads, const Deadline& deadline, boo
         const Cloud& cloud = scene->clouds[k];
         if (!is_procedural(cloud)) {
             total += cloud.ready.positions.size();
-            for (const Cube& cube : cloud.cubes) total += cube.particles;
+            for (const Cube& cube : cloud.cubes) total += particles_of(*scene, cloud, cube);
             continue;
         }
         const Motion motion = motion_of(cloud, clouds_time(*scene));
@@ -202,7 +248,8 @@ Result<ParticleSet> generate(const Scene& scene, int threads, const Deadline& de
     for (std::size_t k = 0; k < scene->clouds.size(); ++k)
         set.cloud_density.push_back(density_of_cloud(scene, k));
     std::size_t total = 0;
-    const std::vector<Piece> pieces = cut_into_pieces(scene, made, set.cloud_density, total);
+    const std::vector<Piece> pieces =
+        cut_into_pieces(scene, made, set.cloud_density, set.cloud_begin, total);
     set.center.resize(total);
     set.radius.resize(total);
     set.density.resize(total);
@@ -211,6 +258,7 @@ Result<ParticleSet> generate(const Scene& scene, int threads, const Deadline& de
             return cloud.model == CloudModel::kParticles && !cloud.ready.colors.empty();
         });
     if (colored) set.color.assign(total, glm::vec3(1));
+    if (!textures_of(*scene).empty()) set.paint.resize(total);
 
     std::atomic<bool> late{false};
     parallel_for(threads, pieces.size(), [&](std::size_t i) {
@@ -223,6 +271,7 @@ Result<ParticleSet> generate(const Scene& scene, int threads, const Deadline& de
         } else {
             copy_piece(pieces[i], clouds_time(*scene), set);
         }
+        paint_piece(pieces[i], set);
     });
     if (auto error = deadline.over()) return *error;
     return set;

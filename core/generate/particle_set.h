@@ -10,6 +10,16 @@ namespace awan {
 
 struct DetailField;
 
+// How a particle that is a billboard is painted.
+struct Paint {
+    // The place of its texture in textures_of(scene), counted from 1; 0: it is not painted.
+    std::uint8_t texture = 0;
+    // The texture is seen from behind: left is right.
+    bool mirrored = false;
+    // By how much it is turned about the line of sight, of 65536 of a full turn.
+    std::uint16_t turn = 0;
+};
+
 // Gaussian blobs of extinction: density * exp(-d^2 / (2 s^2)) per unit at distance d from the centre, s = radius / 2.
 // A structure of arrays, all of one length; clouds and cubes in the order of the scene.
 struct ParticleSet {
@@ -21,12 +31,16 @@ struct ParticleSet {
     std::vector<float> density;
     // 0..1, each multiplies the albedo. EMPTY when every particle is white.
     std::vector<glm::vec3> color;
+    // What each is painted with (scene/texture.h). EMPTY when none is.
+    std::vector<Paint> paint;
     // Structure finer than the particles (detail.h), for all rooms that see matter. Null where there is none: the
     // extinction is then the sum of the Gaussians.
     std::shared_ptr<const DetailField> detail;
 
     // Of each cloud of the scene, 1/unit: as given, or what was found for "auto".
     std::vector<double> cloud_density;
+    // The first particle of each cloud, and the end of the last.
+    std::vector<std::size_t> cloud_begin;
 
     // Of procedural clouds (ModelParticles in models.h): the largest of their errors, and what tells sets apart that
     // depend on the eye.

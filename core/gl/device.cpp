@@ -10,6 +10,31 @@
 
 namespace awan {
 
+namespace {
+
+template <typename Compile>
+Result<const gl::Program*> compiled(std::optional<gl::Program>& kept, const Compile& compile) {
+    if (!kept) {
+        auto program = compile();
+        if (!program.ok()) return program.error();
+        kept.emplace(*std::move(program));
+    }
+    return &*kept;
+}
+
+}  // namespace
+
+Result<const gl::Program*> Device::Programs::painted(bool interior) {
+    return compiled(late[interior ? 1 : 0], [&] {
+        return gl::Program::compute(
+            "splat.glsl", interior ? "#define PAINTED\n#define INTERIOR\n" : "#define PAINTED\n");
+    });
+}
+
+Result<const gl::Program*> Device::Programs::display() {
+    return compiled(late[2], [] { return gl::Program::drawing("display.glsl"); });
+}
+
 struct Device::State {
     // Declared first, so destroyed last: the programs need it.
     gl::EglContext context;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "core/base/embedded.h"
 
@@ -39,6 +41,38 @@ Result<std::string> shader_text(std::string_view name, int depth) {
 
 Error compile_error(std::string_view name, const char* log) {
     return {ErrorCode::kInternal, "", "shader " + std::string(name) + ": " + log};
+}
+
+// A compiled shader of that file, attached to the program.
+Status attach(GLuint program, GLenum kind, std::string_view name, std::string_view defines) {
+    auto text = shader_text(name, 0);
+    if (!text.ok()) return text.error();
+    const std::string whole = "#version 450 core\n" + std::string(defines) + *text;
+    const char* source = whole.c_str();
+    const GLuint shader = glCreateShader(kind);
+    glShaderSource(shader, 1, &source, nullptr);
+    glCompileShader(shader);
+    std::array<char, 2048> log{};
+    GLint good = GL_FALSE;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+    if (good == GL_TRUE)
+        glAttachShader(program, shader);
+    else
+        glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
+    // It lives as long as it is attached.
+    glDeleteShader(shader);
+    if (good == GL_TRUE) return std::nullopt;
+    return compile_error(name, log.data());
+}
+
+Status link(GLuint program, std::string_view name) {
+    glLinkProgram(program);
+    GLint good = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &good);
+    if (good == GL_TRUE) return std::nullopt;
+    std::array<char, 2048> log{};
+    glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), nullptr, log.data());
+    return compile_error(name, log.data());
 }
 
 }  // namespace
@@ -86,32 +120,44 @@ void TexelBuffer::bind(GLuint binding) const {
     glBindTextureUnit(binding, texture_);
 }
 
+TextureArray::TextureArray(int side, int layers) {
+    int levels = 1;
+    while (side >> levels > 0) ++levels;
+    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name_);
+    glTextureStorage3D(name_, levels, GL_R16F, side, side, layers);
+    glTextureParameteri(name_, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(name_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(name_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    glTextureParameteri(name_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+}
+
+TextureArray::~TextureArray() {
+    if (name_ != 0) glDeleteTextures(1, &name_);
+}
+
+void TextureArray::put(int layer, int level, std::span<const float> texels) {
+    const auto side = static_cast<GLsizei>(std::lround(std::sqrt(texels.size())));
+    glTextureSubImage3D(name_, level, 0, 0, layer, side, side, 1, GL_RED, GL_FLOAT, texels.data());
+}
+
+void TextureArray::bind(GLuint binding) const {
+    glBindTextureUnit(binding, name_);
+}
+
 Result<Program> Program::compute(std::string_view name, std::string_view defines) {
-    auto text = shader_text(name, 0);
-    if (!text.ok()) return text.error();
-    const std::string whole = "#version 450 core\n" + std::string(defines) + *text;
-    const char* source = whole.c_str();
-    const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
-    glShaderSource(shader, 1, &source, nullptr);
-    glCompileShader(shader);
-    std::array<char, 2048> log{};
-    GLint good = GL_FALSE;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
-    if (good != GL_TRUE) {
-        glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
-        glDeleteShader(shader);
-        return compile_error(name, log.data());
-    }
     Program program(glCreateProgram());
-    glAttachShader(program.name_, shader);
-    glLinkProgram(program.name_);
-    glDetachShader(program.name_, shader);
-    glDeleteShader(shader);
-    glGetProgramiv(program.name_, GL_LINK_STATUS, &good);
-    if (good != GL_TRUE) {
-        glGetProgramInfoLog(program.name_, static_cast<GLsizei>(log.size()), nullptr, log.data());
-        return compile_error(name, log.data());
-    }
+    if (Status wrong = attach(program.name_, GL_COMPUTE_SHADER, name, defines)) return *wrong;
+    if (Status wrong = link(program.name_, name)) return *wrong;
+    return program;
+}
+
+Result<Program> Program::drawing(std::string_view name) {
+    Program program(glCreateProgram());
+    for (const auto& [kind, defines] : {std::pair{GL_VERTEX_SHADER, "#define VERTEX\n"},
+                                        std::pair{GL_FRAGMENT_SHADER, "#define FRAGMENT\n"}})
+        if (Status wrong = attach(program.name_, static_cast<GLenum>(kind), name, defines))
+            return *wrong;
+    if (Status wrong = link(program.name_, name)) return *wrong;
     return program;
 }
 

@@ -61,12 +61,34 @@ class TexelBuffer {
     GLuint texture_ = 0;
 };
 
-// A compute program.
+// Layers of a square picture of one channel, half floats, each with its mip levels. Beyond its edge it is 0.
+class TextureArray {
+  public:
+    // side: a power of 2.
+    TextureArray(int side, int layers);
+    TextureArray(TextureArray&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+    TextureArray& operator=(TextureArray&&) = delete;
+    TextureArray(const TextureArray&) = delete;
+    TextureArray& operator=(const TextureArray&) = delete;
+    ~TextureArray();
+
+    // texels: (side >> level)^2 of them, the first row first.
+    void put(int layer, int level, std::span<const float> texels);
+    // Makes it the sampler of `layout(binding = ...) uniform sampler2DArray` in the shader.
+    void bind(GLuint binding) const;
+
+  private:
+    GLuint name_ = 0;
+};
+
+// A program of compute shaders, or of a vertex and a fragment shader.
 class Program {
   public:
     // `name`: a file of core/shaders; `defines`: text put before it. Lines `#include "other.glsl"`
     // are replaced by that file. Fails with kInternal and the compiler's log.
     static Result<Program> compute(std::string_view name, std::string_view defines = "");
+    // Both shaders from one file: VERTEX is defined for the one, FRAGMENT for the other.
+    static Result<Program> drawing(std::string_view name);
     Program(Program&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
     Program& operator=(Program&& other) noexcept;
     Program(const Program&) = delete;

@@ -1,6 +1,9 @@
 // The compiled programs of both passes. Private to core/gl, core/light and core/draw.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "core/gl/device.h"
 #include "core/gl/objects.h"
 
@@ -17,6 +20,15 @@ struct Device::Programs {
     gl::Program splat;
     // Pass 2: the same where the eye may be inside a particle.
     gl::Program splat_interior;
+
+    // Those that few pictures need, compiled when they are first asked for. Both fail as Program does.
+
+    // Pass 2 with textures on the billboards of some particles; the eye may be inside a particle or not.
+    Result<const gl::Program*> painted(bool interior);
+    // Triangles, for what is displayed instead of lit.
+    Result<const gl::Program*> display();
+
+    std::array<std::optional<gl::Program>, 3> late{};
 };
 
 }  // namespace awan

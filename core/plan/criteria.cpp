@@ -164,6 +164,16 @@ Criterion detail(const Scene& scene, const Survey& survey) {
                  scene->detail->automatic ? kLeastAutoBump : kLeastBump, left_out);
 }
 
+// What a picture loses without is not said: a painted square is no matter, and has no truth.
+Criterion texture(const Scene& scene) {
+    const std::size_t used = textures_of(*scene).size();
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    if (used == 0) return {false, 0, "nothing in the scene has a texture"};
+    return {true, unknown,
+            "the scene is painted with " + std::to_string(used) +
+                (used == 1 ? " texture" : " textures")};
+}
+
 Criterion of_matter(Effect effect, const Scene& scene, const Survey& survey, const Lights& lights) {
     const bool lit = lights.sun_shines || lights.sky_shines;
     switch (effect) {
@@ -196,7 +206,7 @@ Criterion of_matter(Effect effect, const Scene& scene, const Survey& survey, con
                        ? Criterion{true, 1, "the eye is within 4 s of a particle"}
                        : Criterion{false, 0, "the eye is more than 4 s away from every particle"};
         default:
-            return {false, 0, "textures are not in this version"};
+            return texture(scene);
     }
 }
 

@@ -67,6 +67,7 @@ double predicted_bytes(const Rung& rung, const Scene& scene, const Survey& surve
                    8e6 + 64 * particles;
         case Method::kPaths:
         case Method::kLook:  // never asked for (plan.cpp)
+        case Method::kDisplay:
             break;
     }
     return 32e6 + 64 * particles + 32 * figures[4];
@@ -104,6 +105,7 @@ const ErrorModel& error_model(const Rung& rung) {
             return rung.cells == 0 ? kSingleError : kTransportError;
         case Method::kPaths:
         case Method::kLook:  // never asked for (plan.cpp)
+        case Method::kDisplay:
             break;
     }
     return kPathNoise;
@@ -144,6 +146,7 @@ RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey
             ms += predicted_ms(kPathTime, times) * stretch(threads, 0);
             break;
         case Method::kLook:
+        case Method::kDisplay:
             break;
     }
     const double measure_ms = empty ? 0 : measuring_ms(rung, scene, survey, threads);

@@ -44,6 +44,14 @@ void leave_out_unseen_detail(Plan& plan, const Scene& scene, const Survey& surve
     detail.reason += ": nothing of it could be seen";
 }
 
+// Billboards are painted with something, even where they are asked for.
+void leave_out_missing_textures(Plan& plan, const Scene& scene) {
+    EffectDecision& texture = plan.of(Effect::kTexture);
+    if (!texture.on || draws_textures(*scene)) return;
+    texture.on = false;
+    texture.reason += ": there is none to draw";
+}
+
 // Shadows are seen in haze that is drawn.
 void join_shafts_to_haze(Plan& plan) {
     EffectDecision& shafts = plan.of(Effect::kLightShafts);
@@ -167,6 +175,7 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
         plan.samples =
             2 * static_cast<std::uint32_t>(std::clamp(pairs, 1.0, double{kMaxTruthSamples} / 2));
     }
+    const bool painted = plan.on(Effect::kTexture);
     std::vector<RungForecast> candidates;
     // Paths are for what is finer than the default: a scene that asks for nothing is not made to wait for them, nor one
     // that asks for the same in words.
@@ -181,6 +190,8 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
         }
         double& whole = plan.forecasts.back().error;
         if (whole > 0) whole = std::hypot(whole, survey.model_error);
+        if (painted && rung.method == Method::kSplats)
+            whole = std::numeric_limits<double>::quiet_NaN();
         if (rung.method == Method::kSplats ||
             (!wants_splats(scene) && (paths || rung.method != Method::kPaths)))
             candidates.push_back(plan.forecasts.back());
@@ -191,12 +202,17 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
         for (const RungForecast& candidate : plan.forecasts)
             if (*candidate.rung == *named) choice.forecast = candidate;
         choice.reason = "asked for by name";
+    } else if (painted) {
+        choice.forecast = plan.forecasts[static_cast<std::size_t>(RungId::kHarris)];
+        choice.reason =
+            "the scene is painted with textures, which only splats show: there is no truth that "
+            "the picture could be near to";
     } else if (accuracy.time_ms) {
         choice = best_in_time(*accuracy.time_ms, candidates);
     } else {
         choice = cheapest_within(wanted_error, candidates);
     }
-    if (!accuracy.rung && wants_splats(scene))
+    if (!accuracy.rung && !painted && wants_splats(scene))
         choice.reason += "; only the splats can leave out an effect that is switched off";
     plan.predicted = choice.forecast;
     plan.rung = choice.forecast.rung->name;
@@ -220,7 +236,7 @@ void fit_effects_to_rung(Plan& plan) {
                           decision.reason + ")";
     };
     const bool additive = rung.id == RungId::kAdditive;
-    if (rung.method == Method::kSplats) set(Effect::kDetail, false);
+    set(rung.method == Method::kSplats ? Effect::kDetail : Effect::kTexture, false);
     if (rung.id == RungId::kHarris) return;
     set(Effect::kSelfShadow, !additive);
     set(Effect::kMultipleScattering,
@@ -229,20 +245,36 @@ void fit_effects_to_rung(Plan& plan) {
     if (rung.method == Method::kMarch && rung.cells == 0) set(Effect::kSkyLight, false);
 }
 
-// A look is not lit: nothing is simulated. What it takes is added by who knows the looks (core/planning.cpp).
-Plan plan_look() {
+// What is not lit: nothing is simulated. `rung` takes the place of one of the ladder.
+Plan plan_unlit(const Rung& rung, const char* why_no_effect, const char* why) {
     Plan plan;
     for (int i = 0; i < kEffectCount; ++i) {
         EffectDecision& decision = plan.of(static_cast<Effect>(i));
         decision.effect = static_cast<Effect>(i);
-        decision.available = in_this_version(decision.effect);
-        decision.reason = "the scene asks for a look, which follows its own rules";
+        decision.reason = why_no_effect;
     }
-    const Rung& look = rung_of(RungId::kLook);
-    plan.predicted.rung = &look;
+    plan.predicted.rung = &rung;
     plan.predicted.error = std::numeric_limits<double>::quiet_NaN();
-    plan.rung = look.name;
-    plan.rung_reason = "the scene asks for a look: there is no truth to be near to";
+    plan.rung = rung.name;
+    plan.rung_reason = why;
+    return plan;
+}
+
+// What it takes is added by who knows the looks (core/planning.cpp).
+Plan plan_look() {
+    return plan_unlit(rung_of(RungId::kLook),
+                      "the scene asks for a look, which follows its own rules",
+                      "the scene asks for a look: there is no truth to be near to");
+}
+
+// About what the renderer takes for a billboard or a cube, and for a pixel (Mesa's, on one processor).
+constexpr double kDisplayedItem_ms = 2e-3, kDisplayedPixel_ms = 6e-5;
+
+Plan plan_display(const Scene& scene, const Survey& survey) {
+    Plan plan = plan_unlit(rung_of(RungId::kDisplay), "the scene is displayed, not lit",
+                           "the scene asks to be displayed: there is no truth to be near to");
+    plan.predicted.time_ms = kDisplayedItem_ms * static_cast<double>(survey.particles) +
+                             kDisplayedPixel_ms * scene->image.width * scene->image.height;
     return plan;
 }
 
@@ -252,7 +284,7 @@ bool wants_splats(const Scene& scene) {
     for (const Effect effect :
          {Effect::kSelfShadow, Effect::kMultipleScattering, Effect::kViewExtinction})
         if (scene->effects[static_cast<int>(effect)] == Switch::kOff) return true;
-    return false;
+    return draws_textures(*scene);
 }
 
 void plan_samples(Plan& plan, std::uint32_t samples, const Scene& scene, const Survey& survey,
@@ -275,6 +307,7 @@ void plan_samples(Plan& plan, std::uint32_t samples, const Scene& scene, const S
 }
 
 Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSpeed& speed) {
+    if (scene->display != Display::kLit) return plan_display(scene, survey);
     if (scene->look != Look::kPhysical) return plan_look();
     Plan plan;
     const std::array<Criterion, kEffectCount> own_of = criteria(scene, survey);
@@ -282,11 +315,6 @@ Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSp
         const auto effect = static_cast<Effect>(i);
         EffectDecision& decision = plan.of(static_cast<Effect>(i));
         decision.effect = effect;
-        decision.available = in_this_version(effect);
-        if (!decision.available) {
-            decision.reason = "textures are not in this version";
-            continue;
-        }
         const Criterion& own = own_of[static_cast<std::size_t>(i)];
         decision.left_out = own.left_out;
         switch (scene->effects[i]) {
@@ -305,6 +333,7 @@ Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSp
         }
     }
     leave_out_unseen_detail(plan, scene, survey);
+    leave_out_missing_textures(plan, scene);
     join_scattering_to_shadow(plan, scene);
     join_shafts_to_haze(plan);
     choose_rung(scene, survey, threads, speed, plan);

@@ -18,7 +18,6 @@ namespace awan {
 struct EffectDecision {
     Effect effect = Effect::kSelfShadow;
     bool on = false;
-    bool available = true;  // false: not in this version
     // One sentence, with the figure and the threshold.
     std::string reason;
     // About the relative error of a picture without it (core/plan/criteria.h).
@@ -48,8 +47,8 @@ struct Plan {
 // Longer paths than these are not chosen, only taken by name.
 inline constexpr double kPatience_ms = 20e3;
 
-// Whether the scene switches an effect off that only the splats can leave out: the other rungs follow all light there
-// is.
+// Whether the scene calls for what only splats show: an effect is switched off that the other rungs cannot leave out,
+// as they follow all light there is, or its billboards are painted.
 bool wants_splats(const Scene& scene);
 
 // Other paths a pixel for rung truth than the plan has, and what is predicted of it then; otherwise as plan().

@@ -113,6 +113,18 @@ constexpr Field kCloudFields[] = {
                          .wanted = "an integer from 0 to 18446744073709551615",
                          .says = "Instead of the scene's, for this cloud.",
                          .otherwise = "the scene's"}),
+    field<&Cloud::texture>({.name = "texture",
+                            .wanted = "the name of a texture",
+                            .says = "Of all its cubes, or of all its particles; instead of the "
+                                    "scene's, for this cloud.",
+                            .otherwise = "the scene's"}),
+    field<&Cloud::billboards>({.name = "billboards",
+                               .wanted = "an integer >= 0",
+                               .counts = at_most(limits::kMaxParticles),
+                               .says = "Billboards per box, of its cubes that have a texture; "
+                                       "instead of the scene's, for this cloud.",
+                               .otherwise = "the scene's",
+                               .of_model = of(CloudModel::kCubes)}),
 };
 static_assert(covers<Cloud>(kCloudFields));
 static_assert(covers_part<ReadyParticles>(kCloudFields, "ready"));

@@ -23,8 +23,10 @@ struct Cube {
     glm::dvec3 center{0};
     double radius = 0;
     double density = 1;
-    // Of the texture system; not in this version.
+    // What it is painted with (core/scene/texture.h), and how many billboards it has then in the place of particles.
+    // Where not given, the cloud's hold.
     std::optional<std::string> texture;
+    std::optional<std::uint64_t> billboards{};
 };
 
 inline constexpr Field kCubeFields[] = {
@@ -58,8 +60,16 @@ inline constexpr Field kCubeFields[] = {
                            .says = "Multiplies the cloud's."}),
     field<&Cube::texture>({.name = "texture",
                            .wanted = "the name of a texture",
-                           .says = "Part of the contract but not of this version (422).",
-                           .later = true}),
+                           .says = "What its billboards are painted with: soft, puff, "
+                                   "cauliflower, torn, wisp, hard, one that was uploaded, or a "
+                                   "texture's hash; none: they are particles.",
+                           .otherwise = "the cloud's"}),
+    field<&Cube::billboards>({.name = "billboards",
+                              .wanted = "an integer >= 0",
+                              .counts = at_most(limits::kMaxParticles),
+                              .says = "How many billboards a cube with a texture has, in the place "
+                                      "of its particles.",
+                              .otherwise = "the cloud's"}),
 };
 static_assert(covers<Cube>(kCubeFields));
 
@@ -121,6 +131,8 @@ struct Cloud {
     std::optional<Fill> fill;
     std::optional<double> density;
     std::optional<std::uint64_t> seed;
+    std::optional<std::string> texture;
+    std::optional<std::uint64_t> billboards;
 };
 
 // Its table is in cloud.cpp, as it needs the models'.

@@ -32,7 +32,7 @@ using Effects = std::array<Switch, kEffectCount>;
 
 // A row a switch, in the order of Effect.
 template <Effect effect>
-constexpr Field effect_field(const char* name, const char* says, bool later = false) {
+constexpr Field effect_field(const char* name, const char* says) {
     constexpr auto kIndex = static_cast<std::size_t>(effect);
     Access a;
     a.holds = Holds::kSwitch;
@@ -42,11 +42,7 @@ constexpr Field effect_field(const char* name, const char* says, bool later = fa
     };
     a.get = a.member;
     a.put = [](void* o) -> void* { return &(*static_cast<Effects*>(o))[kIndex]; };
-    return {{.name = name,
-             .wanted = R"(true, false or "auto")",
-             .absent = "auto",
-             .says = says,
-             .later = later},
+    return {{.name = name, .wanted = R"(true, false or "auto")", .absent = "auto", .says = says},
             a};
 }
 
@@ -66,7 +62,7 @@ inline constexpr Field kEffectFields[] = {
     effect_field<Effect::kDetail>("detail", "Structure finer than the particles."),
     effect_field<Effect::kInterior>("interior", "The eye is within the cloud."),
     effect_field<Effect::kTexture>(
-        "texture", "true is part of the contract but not of this version (422).", true),
+        "texture", "Particles of a texture are drawn as billboards that are painted with it."),
 };
 static_assert(std::size(kEffectFields) == kEffectCount);
 
@@ -85,10 +81,5 @@ constexpr const char* effect_name(Effect effect) {
     return kEffectFields[static_cast<std::size_t>(effect)].name;
 }
 std::optional<Effect> effect_from_name(std::string_view name);
-
-// Whether this version can run it; the others are never on, and forcing them is refused.
-constexpr bool in_this_version(Effect effect) {
-    return !kEffectFields[static_cast<std::size_t>(effect)].later;
-}
 
 }  // namespace awan

@@ -91,6 +91,10 @@ class Instead {
     void put(const Member& member, Fill value) {
         at(member) = &fills_.emplace_back(value);
     }
+    template <typename Member>
+    void put(const Member& member, std::string_view value) {
+        at(member) = &texts_.emplace_back(value);
+    }
     template <typename Member, typename Model>
     void put(const Member& member, std::shared_ptr<const Model> value) {
         at(member) = value.get();
@@ -117,6 +121,7 @@ class Instead {
     std::deque<glm::dvec3> vectors_;
     std::deque<std::uint64_t> integers_;
     std::deque<Fill> fills_;
+    std::deque<std::string> texts_;
     std::vector<std::shared_ptr<const void>> models_;
 };
 
@@ -208,6 +213,25 @@ void settle_model(Instead& instead, const Cloud& cloud) {
     }
 }
 
+// By whatever name and from wherever it comes, a texture is what it shows; billboards are particles.
+void settle_textures(Instead& instead, const SceneDraft& scene, const Cloud& cloud) {
+    const auto settle = [&](const auto& member, std::string_view hash) {
+        if (!hash.empty())
+            instead.put(member, hash);
+        else if (member)
+            instead.leave_out(member);
+    };
+    const bool cubes = cloud.model == CloudModel::kCubes;
+    settle(cloud.texture, cubes ? std::string_view() : texture_of(scene, cloud, nullptr));
+    if (cloud.billboards) instead.leave_out(cloud.billboards);
+    for (const Cube& cube : cloud.cubes) {
+        settle(cube.texture, texture_of(scene, cloud, &cube));
+        if (cube.billboards) instead.leave_out(cube.billboards);
+        const std::uint64_t particles = particles_of(scene, cloud, cube);
+        if (particles != cube.particles) instead.put(cube.particles, particles);
+    }
+}
+
 void settle_cloud(Instead& instead, const SceneDraft& scene, const Cloud& cloud) {
     leave_out_if_all(instead, cloud.ready.densities, 1.0f);
     leave_out_if_all(instead, cloud.ready.colors, glm::vec3(1.0f));
@@ -217,6 +241,7 @@ void settle_cloud(Instead& instead, const SceneDraft& scene, const Cloud& cloud)
     instead.put(cloud.fill, fill_of(scene, cloud));
     if (const auto density = density_of(scene, cloud)) instead.put(cloud.density, *density);
     instead.put(cloud.seed, seed_of(scene, cloud));
+    settle_textures(instead, scene, cloud);
 }
 
 void settle_lights(Instead& instead, const SceneDraft& scene) {
@@ -235,6 +260,8 @@ Instead settled(const SceneDraft& scene) {
     // Clouds have the scene's, and there is one way to list them.
     instead.leave_out(scene.fill);
     instead.leave_out(scene.density);
+    instead.leave_out(scene.texture);
+    instead.leave_out(scene.billboards);
     for (const Cloud& cloud : scene.clouds) settle_cloud(instead, scene, cloud);
     settle_lights(instead, scene);
     return instead;
@@ -285,6 +312,12 @@ std::string light_fingerprint(const Scene& scene) {
     instead.leave_out(scene->image);
     instead.leave_out(scene->accuracy);
     instead.leave_out(scene->look);
+    instead.leave_out(scene->display);
+    for (const Cloud& cloud : scene->clouds) {
+        instead.leave_out(cloud.texture);
+        for (const Cube& cube : cloud.cubes)
+            if (!texture_of(*scene, cloud, &cube).empty()) instead.leave_out(cube.texture);
+    }
     instead.leave_out(scene->sequence);
     for (const Switch& effect : scene->effects)
         if (!(&effect == &scene->effects[static_cast<std::size_t>(Effect::kSunColor)] &&

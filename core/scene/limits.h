@@ -15,6 +15,18 @@ inline constexpr std::uint64_t kMaxCubes = 10'000;
 // Clouds. A full sky is a few hundred.
 inline constexpr std::uint64_t kMaxClouds = 1'000;
 
+// Different textures in one scene. Each takes 2.7 MiB of the renderer's memory, and OpenGL 4.5 promises room for 2,048
+// layers, of which each has 64.
+inline constexpr std::size_t kMaxTextures = 16;
+// Pixels of a picture that a texture is made of, and along its side: 4096 x 4096 are 64 MiB while it is read, and are
+// brought down to 128 x 128.
+inline constexpr std::uint64_t kMaxTexturePixels = 1u << 24;
+inline constexpr std::uint64_t kMaxTexturePictureSide = 16'384;
+// Bytes of its file: as many uncompressed pixels of 4 bytes.
+inline constexpr std::uint64_t kMaxTextureBytes = 64u << 20;
+// Bytes of a texture's name.
+inline constexpr std::size_t kMaxTextureName = 64;
+
 // --- Lengths, in scene units
 
 // |coordinate|. Positions are kept in double and taken relative to the cloud before anything becomes float32. At 1e9 a

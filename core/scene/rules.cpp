@@ -18,10 +18,6 @@
 namespace awan {
 namespace {
 
-Error unsupported(std::string pointer, std::string message) {
-    return {ErrorCode::kUnsupported, std::move(pointer), std::move(message)};
-}
-
 // --- clouds
 
 // Running totals of a scene, to find the element that goes over a limit.
@@ -83,21 +79,33 @@ Status multiplied_density(double density, double cloud_density, Pointer pointer)
                                   to_text(density * cloud_density));
 }
 
-Status check_cube(const Cube& cube, const Placement& placement, double cloud_density,
-                  Totals& totals, const std::string& at) {
+// That there is a texture of that name.
+Status check_texture(const SceneDraft& draft, const std::optional<std::string>& name,
+                     const std::string& at) {
+    if (!name || *name == kNoTexture || !find_texture(draft, *name).empty()) return std::nullopt;
+    std::string known;
+    for (const OwnTexture& own : kOwnTextures) known += std::string(own.name) + ", ";
+    for (const auto& given : draft.textures) known += given->name + ", ";
+    return invalid(at + "/texture", "must be the name or the hash of a texture (" + known +
+                                        "none), or that of one that is uploaded");
+}
+
+Status check_cube(const SceneDraft& draft, const Cloud& cloud, const Cube& cube,
+                  const Placement& placement, double cloud_density, Totals& totals,
+                  const std::string& at) {
     if (++totals.cubes > limits::kMaxCubes)
         return invalid(
             at, "a scene may have at most " + std::to_string(limits::kMaxCubes) + " cubes in all");
-    if (Status wrong = add_particles(totals, cube.particles, at + "/particles")) return wrong;
+    if (Status wrong = check_texture(draft, cube.texture, at)) return wrong;
+    if (Status wrong = add_particles(totals, particles_of(draft, cloud, cube),
+                                     at + (cube.billboards ? "/billboards" : "/particles")))
+        return wrong;
     if (!placement.within_limits(cube.center)) return too_far(at + "/center");
     if (Status wrong = scaled_radius(cube.radius, placement.scale, [&] { return at + "/radius"; }))
         return wrong;
     if (Status wrong =
             multiplied_density(cube.density, cloud_density, [&] { return at + "/density"; }))
         return wrong;
-    if (cube.texture)
-        return unsupported(at + "/texture",
-                           "the texture system is not in this version; leave `texture` out");
     return std::nullopt;
 }
 
@@ -156,6 +164,7 @@ Status check_cloud(const SceneDraft& draft, std::size_t k, Totals& totals) {
     for (const double time : times_of(draft))
         if (!within_limits(cloud.translate + time * cloud.velocity))
             return too_far(at + "/velocity");
+    if (Status wrong = check_texture(draft, cloud.texture, at)) return wrong;
     const bool described[] = {cloud.automaton != nullptr, cloud.spheres != nullptr,
                               cloud.implicit != nullptr, cloud.ellipsoids != nullptr};
     constexpr CloudModel kOf[] = {CloudModel::kAutomaton, CloudModel::kSpheres,
@@ -172,7 +181,7 @@ Status check_cloud(const SceneDraft& draft, std::size_t k, Totals& totals) {
     if (cloud.model == CloudModel::kParticles)
         return check_ready(cloud.ready, placement, density, totals, at);
     for (std::size_t i = 0; i < cloud.cubes.size(); ++i)
-        if (Status wrong = check_cube(cloud.cubes[i], placement, density, totals,
+        if (Status wrong = check_cube(draft, cloud, cloud.cubes[i], placement, density, totals,
                                       at + "/cubes/" + std::to_string(i)))
             return wrong;
     return std::nullopt;
@@ -199,9 +208,14 @@ Status check_clouds(const SceneDraft& draft) {
     if (draft.top_level_cubes &&
         (draft.clouds.size() != 1 || draft.clouds[0].model != CloudModel::kCubes))
         return invalid("", "a scene needs `cubes` or `clouds`");
+    if (Status wrong = check_texture(draft, draft.texture, "")) return wrong;
     Totals totals;
     for (std::size_t k = 0; k < draft.clouds.size(); ++k)
         if (Status wrong = check_cloud(draft, k, totals)) return wrong;
+    if (const std::size_t used = textures_of(draft).size(); used > limits::kMaxTextures)
+        return invalid("", "a scene may be painted with at most " +
+                               std::to_string(limits::kMaxTextures) + " textures, not " +
+                               std::to_string(used));
     return std::nullopt;
 }
 
@@ -247,16 +261,6 @@ Status check_image(const ImageSettings& image) {
     return std::nullopt;
 }
 
-Status check_effects(const SceneDraft& draft) {
-    for (int i = 0; i < kEffectCount; ++i) {
-        const auto effect = static_cast<Effect>(i);
-        if (draft.effects[i] == Switch::kOn && !in_this_version(effect))
-            return unsupported(std::string("/effects/") + effect_name(effect),
-                               "is not in this version; give false or \"auto\"");
-    }
-    return std::nullopt;
-}
-
 Status check_accuracy(const Accuracy& accuracy) {
     const int given =
         accuracy.error.has_value() + accuracy.time_ms.has_value() + accuracy.rung.has_value();
@@ -280,7 +284,6 @@ Status check_rules(const SceneDraft& draft) {
     if (draft.sequence)
         if (Status wrong = check_camera_keys(draft.sequence->camera)) return wrong;
     if (Status wrong = check_look(draft)) return wrong;
-    if (Status wrong = check_effects(draft)) return wrong;
     return check_accuracy(draft.accuracy);
 }
 

@@ -36,6 +36,8 @@ constexpr std::array kLadder = {
 
 constexpr Rung kLook{RungId::kLook, "look", "what a published system drew, by its own rules",
                      Method::kLook, 0};
+constexpr Rung kDisplay{RungId::kDisplay, "display", "what the clouds are made of, drawn flat",
+                        Method::kDisplay, 0};
 
 constexpr bool each_stands_at_its_id() {
     for (std::size_t i = 0; i < kLadder.size(); ++i)
@@ -51,6 +53,7 @@ std::span<const Rung> ladder() {
 }
 
 const Rung& rung_of(RungId id) {
+    if (id == RungId::kDisplay) return kDisplay;
     return id == RungId::kLook ? kLook : kLadder[static_cast<std::size_t>(id)];
 }
 

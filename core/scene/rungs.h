@@ -15,7 +15,14 @@ enum class Method {
     kPaths,
     // The rules of a published system (core/looks/looks.h); no renderer, not on the ladder.
     kLook,
+    // What the clouds are made of, on the renderer (core/draw/display.h); not on the ladder.
+    kDisplay,
 };
+
+// Whether that needs a renderer.
+constexpr bool needs_renderer(Method method) {
+    return method == Method::kSplats || method == Method::kDisplay;
+}
 
 // Which rung it is: in the order of the ladder, the crudest first.
 enum class RungId {
@@ -28,8 +35,9 @@ enum class RungId {
     kTransport48,
     kTransport64,
     kTruth,
-    // What takes the place of a rung where a scene asks for a look; not on the ladder.
+    // What takes the place of a rung where a scene asks for a look, or to be displayed; not on the ladder.
     kLook,
+    kDisplay,
 };
 
 struct Rung {
@@ -47,7 +55,7 @@ struct Rung {
 // All rungs that a document can name, in the order of RungId.
 std::span<const Rung> ladder();
 
-// Any id, kLook too.
+// Any id, kLook and kDisplay too.
 const Rung& rung_of(RungId id);
 
 // Null: there is none of that name on the ladder.

@@ -18,7 +18,8 @@ const std::vector<Cube>* top_cubes(const SceneDraft& scene) {
     const Cloud& cloud = scene.clouds[0];
     const bool plain = cloud.model == CloudModel::kCubes && cloud.translate == glm::dvec3(0) &&
                        cloud.scale == 1 && cloud.rotate_y == 0 && cloud.velocity == glm::dvec3(0) &&
-                       !cloud.fill && !cloud.density && !cloud.seed;
+                       !cloud.fill && !cloud.density && !cloud.seed && !cloud.texture &&
+                       !cloud.billboards;
     return plain ? &cloud.cubes : nullptr;
 }
 
@@ -82,6 +83,19 @@ constexpr Field kSceneFields[] = {
         {.name = "seed",
          .wanted = "an integer from 0 to 18446744073709551615",
          .says = "Same scene and same seed: same particles, on every machine and thread count."}),
+    field<&SceneDraft::texture>(
+        {.name = "texture",
+         .wanted = "the name of a texture",
+         .says = "Of all clouds: their particles are billboards, squares that face the eye, "
+                 "painted with it: soft, puff, cauliflower, torn, wisp, hard, one that was "
+                 "uploaded, or a texture's hash.",
+         .otherwise = "none"}),
+    field<&SceneDraft::billboards>({.name = "billboards",
+                                    .wanted = "an integer >= 0",
+                                    .counts = at_most(limits::kMaxParticles),
+                                    .says = "Billboards per box: how many each cube with a texture "
+                                            "has, in the place of its particles.",
+                                    .otherwise = "as many as particles"}),
     field<&SceneDraft::density>(
         {.name = "density",
          .wanted = R"(a number >= 0 (extinction, 1/unit) or "auto")",
@@ -131,6 +145,13 @@ constexpr Field kSceneFields[] = {
                                       "clouds of model spheres, gardner for model ellipsoids. A "
                                       "look has no rungs and no stated error, and "
                                       "goes without accuracy."}),
+    field<&SceneDraft::display>(
+        {.name = "display",
+         .words = kDisplayWords,
+         .says = "What the picture shows: lit, the clouds by light; or, drawn flat, what they are "
+                 "made of: cubes, quads (textures on the cubes' faces), billboards, "
+                 "bounding_boxes, show_texture (each cube's texture by itself). Only lit has "
+                 "rungs and an error."}),
     field<&SceneDraft::time>(
         {.name = "time",
          .wanted = "a number (seconds)",
@@ -144,6 +165,8 @@ constexpr Field kSceneFields[] = {
          .says = "The times that belong together. An automatic camera then holds the clouds at all "
                  "of them, unless `camera` moves it, and rung, "
                  "effects and detail are settled for all; a render is still of one time, `time`."}),
+    outside_document<&SceneDraft::textures>(
+        "files beside the document; what is used of them is told apart by its hash"),
 };
 static_assert(covers<SceneDraft>(kSceneFields));
 
@@ -215,7 +238,7 @@ std::uint64_t particle_count(const SceneDraft& scene) {
     };
     for (const Cloud& cloud : scene.clouds) {
         if (cloud.model == CloudModel::kCubes)
-            for (const Cube& cube : cloud.cubes) add(cube.particles);
+            for (const Cube& cube : cloud.cubes) add(particles_of(scene, cloud, cube));
         else if (cloud.model == CloudModel::kParticles)
             add(cloud.ready.positions.size());
         else

@@ -20,6 +20,7 @@
 #include "core/scene/camera.h"
 #include "core/scene/cloud.h"
 #include "core/scene/detail.h"
+#include "core/scene/display.h"
 #include "core/scene/effects.h"
 #include "core/scene/ground.h"
 #include "core/scene/haze.h"
@@ -28,6 +29,7 @@
 #include "core/scene/sequence.h"
 #include "core/scene/sky.h"
 #include "core/scene/sun.h"
+#include "core/scene/texture.h"
 
 namespace awan {
 
@@ -47,6 +49,10 @@ struct SceneDraft {
     std::vector<Cloud> clouds;
     Fill fill = Fill::kCumulus;
     std::uint64_t seed = 1;
+    // What all clouds are painted with, and billboards per box. None: their particles are not painted; as many as a
+    // cube has particles.
+    std::optional<std::string> texture;
+    std::optional<std::uint64_t> billboards;
     // None: automatic.
     std::optional<double> density;
     Medium medium;
@@ -61,8 +67,11 @@ struct SceneDraft {
     Effects effects{};
     Accuracy accuracy;
     Look look = Look::kPhysical;
+    Display display = Display::kLit;
     double time = 0;
     std::optional<Sequence> sequence;
+    // Textures that came beside the document.
+    GivenTextures textures;
 };
 
 // In scene.cpp.

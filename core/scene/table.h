@@ -86,8 +86,6 @@ struct Row {
     const char* outside = nullptr;
     // The value of a Cloud's `model` to which the field belongs; none: to all.
     std::optional<int> of_model{};
-    // Part of the contract, but not of this version.
-    bool later = false;
     // Whether the rest of the object makes it mean nothing; null: it always means something.
     bool (*idle)(const void* object) = nullptr;
     // Names the member of which this is a part, where the document is flatter than the struct.

@@ -7,6 +7,10 @@
 //   tau exp(-|q x d|^2 / (2 s^2 |d|^2)),    q: from the eye to the centre,
 // and in a column |q x d|^2 = C (Y - Y0)^2 + m, without cancellation.
 //
+// Where the program is compiled with PAINTED, particles may be billboards: squares that face the eye, through the
+// particle's centre, and opaque as their texture says, which was made for about their optical depth
+// (draw/billboards.h).
+//
 // The program is compiled twice, since llvmpipe runs both sides of every branch: INTERIOR (effect `interior`) takes
 // only the half line before the eye, for all particles, the other the whole line. Light and phase function are
 // evaluated where the fragment is: at the point of the ray closest to the particle's centre.
@@ -22,7 +26,8 @@ struct Splat {
     // Its centre in the eye's frame (right, up, forward), and 1 / (2 s^2). Right and up count from the line through the
     // eye and the window's middle.
     vec4 place;
-    // Albedo * colour * the sun's irradiance / 4 pi, and the optical depth through the centre.
+    // Albedo * colour * the sun's irradiance / 4 pi, and the optical depth through the centre; of a billboard, what its
+    // texture's opacity is multiplied by.
     vec4 matter;
     // Sunlight that was not scattered on its way: gradient in the eye's frame, and the value extrapolated to the eye
     // (not the value at the centre).
@@ -33,6 +38,12 @@ struct Splat {
     vec4 change;
 };
 layout(binding = 0) uniform samplerBuffer splats;
+#ifdef PAINTED
+// A particle: two vec4s. The axes of its texture in the eye's frame, to its right and up, over the square of half the
+// square's side; with them the layer, or -1 where it is no billboard, and the mip level.
+layout(binding = 1) uniform samplerBuffer billboards;
+layout(binding = 2) uniform sampler2DArray textures;
+#endif
 layout(std430, binding = 1) readonly buffer TileBegin { uint tile_begin[]; };
 layout(std430, binding = 2) readonly buffer TileItems { uint tile_items[]; };
 layout(std430, binding = 3) buffer Picture { vec4 picture[]; };
@@ -81,6 +92,11 @@ struct Column {
     float X, local, aside, y0, a, m, along;
     // Two linear functions of Y, x + y Y: direct sunlight, and the factor on the other light.
     vec2 direct, change;
+#ifdef PAINTED
+    // The same of what the texture's coordinates are times d q, and of that product.
+    vec2 across, up, to_center;
+    float layer, level;
+#endif
 };
 
 Splat fetch(int at) {
@@ -124,6 +140,30 @@ Column on_column(Splat p, float local, float low, float high) {
     return k;
 }
 
+#ifdef PAINTED
+// A ray d meets the square's plane, which is at right angles to q, at t d with t = |q|^2 / (d q), and the axes are at
+// right angles to q: t (d axis) is the place on the square.
+void paint(int item, Splat p, inout Column k) {
+    vec4 across = texelFetch(billboards, item * 2), up = texelFetch(billboards, item * 2 + 1);
+    vec2 q = p.place.xy + p.place.z * middle;
+    float q2 = dot(q, q) + p.place.z * p.place.z;
+    k.across = q2 * vec2(across.x * k.X + across.z, across.y);
+    k.up = q2 * vec2(up.x * k.X + up.z, up.y);
+    k.to_center = vec2(k.along, q.y);
+    k.layer = across.w;
+    k.level = up.w;
+}
+
+// The first row of a texture is its highest. Behind the eye there is nothing; beside the square there is none of it,
+// and what would be infinite lies there.
+float opacity(Column k, float Y) {
+    float ahead = k.to_center.x + k.to_center.y * Y;
+    vec2 at = vec2(k.across.x + k.across.y * Y, -(k.up.x + k.up.y * Y)) / max(ahead, 1e-30);
+    at = clamp(0.5 + 0.5 * at, vec2(-1.0), vec2(2.0));
+    return ahead > 0.0 ? textureLod(textures, vec3(at, k.layer), k.level).x : 0.0;
+}
+#endif
+
 Pixels look(float X, float first_row) {
     Pixels px;
     vec4 row = vec4(first_row) + vec4(0.5, 1.5, 2.5, 3.5);
@@ -156,6 +196,10 @@ void blend(Splat p, Column k, inout Pixels px) {
     vec4 tau = p.matter.w * exp(-(k.a * off * off + k.m) * px.per_d2);
 #endif
     vec4 alpha = one_minus_exp(tau);
+#ifdef PAINTED
+    if (k.layer >= 0.0)
+        alpha = p.matter.w * vec4(opacity(k, px.Y.x), opacity(k, px.Y.y), opacity(k, px.Y.z), opacity(k, px.Y.w));
+#endif
     vec4 weight = extinguish ? px.left * alpha : alpha;
     px.left -= px.left * alpha;
     vec4 direct = weight * clamp(k.direct.x + k.direct.y * px.Y, 0.0, 1.0) * px.phase;
@@ -218,6 +262,9 @@ void main() {
     for (uint i = first; i < end; ++i) {
         Splat p = fetch(int(tile_items[i]) * 5);
         Column k = on_column(p, local, p3.Y.w, p0.Y.x);
+#ifdef PAINTED
+        paint(int(tile_items[i]), p, k);
+#endif
         blend(p, k, p0);
         blend(p, k, p1);
         blend(p, k, p2);

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/formats/awa.h"
 #include "core/formats/awn.h"
 #include "core/formats/particle_files.h"
 #include "core/formats/vdb_file.h"
@@ -48,8 +49,8 @@ constexpr double kVolumeWork = 1e10;
 // The particles of one scene to one file, as points or as the volume that they make.
 Status particles_to(const std::string& path, const std::string& format, const Scene& scene,
                     const ParticlesCommand& command) {
-    if (format == "awn") {
-        auto layout = write_awn(*scene);
+    if (format == "awn" || format == "awa") {
+        auto layout = format == "awn" ? write_awn(*scene) : write_awa(*scene);
         if (!layout) return layout.error();
         return write_output(path, *layout);
     }
@@ -96,7 +97,7 @@ Result<std::vector<Moment>> moments_of(const ParticlesCommand& command, const Sc
 
 int run_particles(const ParticlesCommand& command) {
     const auto format = output_format(command.output, command.format,
-                                      {"json", "csv", "ply", "awn", "glb", "vdb"}, "json");
+                                      {"json", "csv", "ply", "awn", "awa", "glb", "vdb"}, "json");
     if (!format) return bad_usage(format.error().message);
     const bool binary = *format == "ply" || *format == "glb" || *format == "vdb";
     if (binary && binary_to_terminal(command.output))
@@ -137,14 +138,15 @@ int run_plan(const PlanCommand& command) {
 }
 
 int run_convert(const ConvertCommand& command) {
-    const auto format = output_format(command.output, command.format, {"json", "awn"}, "json");
+    const auto format =
+        output_format(command.output, command.format, {"json", "awn", "awa"}, "json");
     if (!format) return bad_usage(format.error().message);
     if (const Status wrong = check_not_numbered(command.output)) return bad_usage(wrong->message);
     auto scene = read_valid_scene(command.input);
     if (!scene) return report_error(command.input.path, scene.error());
     std::string text;
-    if (*format == "awn") {
-        auto layout = write_awn(**scene);
+    if (*format == "awn" || *format == "awa") {
+        auto layout = *format == "awn" ? write_awn(**scene) : write_awa(**scene);
         if (!layout) return report_error(command.input.path, layout.error());
         text = std::move(layout).value();
     } else {

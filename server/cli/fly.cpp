@@ -31,8 +31,12 @@ std::optional<Failure> read_scenes(const FlyCommand& command, SceneDraft& draft)
     for (std::size_t i = 0; i < command.scenes.size(); ++i) {
         SceneInput input = command.input;
         if (i > 0)
-            input = SceneInput{
-                .path = "", .sets = {}, .seed = {}, .radius = command.input.radius, .state = ""};
+            input = SceneInput{.path = "",
+                               .sets = {},
+                               .seed = {},
+                               .radius = command.input.radius,
+                               .state = "",
+                               .textures = command.input.textures};
         input.path = command.scenes[i];
         auto read = read_scene_input(input);
         if (!read) return Failure{input.path, read.error()};

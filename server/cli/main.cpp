@@ -23,7 +23,7 @@ namespace {
 using namespace awan;
 
 constexpr const char* kSceneHelp =
-    "the scene: a .json, .awn, .ply or .csv file, or - for standard input";
+    "the scene: a .json, .awn, .awa, .ply or .csv file, or - for standard input";
 
 int processors() {
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -53,12 +53,19 @@ void add_threads(CLI::App& command, int& threads) {
     add(command, "--threads", threads, "threads that work on one scene")->check(CLI::Range(1, 256));
 }
 
+void add_textures(CLI::App& command, SceneInput& scene) {
+    add(command, "--texture", scene.textures,
+        "a picture that the scene may be painted with, as puff=my-puff.png; may be repeated")
+        ->allow_extra_args(false);
+}
+
 // The scene and what takes the place of values in it.
 void add_scene(CLI::App& command, SceneInput& scene, const std::string& name = "scene") {
     command.add_option(name, scene.path, kSceneHelp)->required();
     add(command, "--set", scene.sets,
         "a value of the document, as /sun/elevation=12 or /clouds/0/density=auto; may be repeated")
         ->allow_extra_args(false);
+    add_textures(command, scene);
     add(command, "--seed", scene.seed, "instead of the document's");
     add(command, "--radius", scene.radius,
         "of ready particles (.ply, .csv), in place of what the file says of it")
@@ -285,6 +292,7 @@ Run add_fly(CLI::App& app) {
     add(*fly, "--set", command->input.sets,
         "a value of the first document, as /sun/elevation=12; may be repeated")
         ->allow_extra_args(false);
+    add_textures(*fly, command->input);
     add(*fly, "--seed", command->input.seed, "instead of the first document's");
     add(*fly, "--radius", command->input.radius,
         "of ready particles (.ply, .csv), in place of what the file says of it")
@@ -347,11 +355,12 @@ Run add_particles(CLI::App& app) {
     CLI::App* particles = app.add_subcommand("particles", "a scene to its particles");
     add_scene(*particles, command->scene);
     add(*particles, "-o,--output", command->output,
-        "a .json, .csv, .ply, .awn, .glb (points) or .vdb (volume of extinction) file, or - for "
+        "a .json, .csv, .ply, .awn, .awa, .glb (points) or .vdb (volume of extinction) file, or - "
+        "for "
         "standard output");
     add(*particles, "--format", command->format,
-        "json, csv, ply, awn, glb or vdb, for standard output")
-        ->check(CLI::IsMember({"json", "csv", "ply", "awn", "glb", "vdb"}));
+        "json, csv, ply, awn, awa, glb or vdb, for standard output")
+        ->check(CLI::IsMember({"json", "csv", "ply", "awn", "awa", "glb", "vdb"}));
     add(*particles, "--voxels", command->voxels,
         "cells along the longest side of a .vdb; fewer where it would take long")
         ->check(CLI::Range(8, 1024));
@@ -393,10 +402,12 @@ Run add_convert(CLI::App& app) {
     auto command = std::make_shared<ConvertCommand>();
     CLI::App* convert = app.add_subcommand("convert", "a layout or particles to a scene, and back");
     add_scene(*convert, command->input, "input");
-    convert->add_option("output", command->output, "a .json or .awn file, or - for standard output")
+    convert
+        ->add_option("output", command->output,
+                     "a .json, .awn or .awa file, or - for standard output")
         ->required();
-    add(*convert, "--format", command->format, "json or awn, for standard output")
-        ->check(CLI::IsMember({"json", "awn"}));
+    add(*convert, "--format", command->format, "json, awn or awa, for standard output")
+        ->check(CLI::IsMember({"json", "awn", "awa"}));
     return [command] { return run_convert(*command); };
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "core/formats/texture_file.h"
 #include "core/scene/validate.h"
 #include "server/cli/files.h"
 #include "server/document/overrides.h"
@@ -36,6 +37,25 @@ Status apply_set(const std::string& set, SceneDraft& draft) {
                         std::string_view(set).substr(equals + 1), draft);
 }
 
+Error bad_texture(const std::string& given, const std::string& what) {
+    return {ErrorCode::kInvalidScene, "", "--texture " + given + ": " + what};
+}
+
+Status add_texture(const std::string& given, SceneDraft& draft) {
+    const std::size_t equals = given.find('=');
+    if (equals == std::string::npos)
+        return bad_texture(given, "must be a name and a file, puff=my-puff.png");
+    if (draft.textures.size() == limits::kMaxTextures)
+        return bad_texture(given, "is one too many; at most " +
+                                      std::to_string(limits::kMaxTextures) + " are allowed");
+    auto bytes = read_input(given.substr(equals + 1));
+    if (!bytes) return bytes.error();
+    auto texture = read_texture(given.substr(0, equals), *bytes);
+    if (!texture) return texture.error();
+    draft.textures.push_back(*std::move(texture));
+    return std::nullopt;
+}
+
 }  // namespace
 
 Result<SceneDraft> read_scene_input(const SceneInput& input) {
@@ -46,6 +66,8 @@ Result<SceneDraft> read_scene_input(const SceneInput& input) {
         std::fprintf(stderr, "awan: %s: %s\n", input.path.c_str(), note.c_str());
     for (const std::string& set : input.sets)
         if (const Status wrong = apply_set(set, *draft)) return *wrong;
+    for (const std::string& given : input.textures)
+        if (const Status wrong = add_texture(given, *draft)) return *wrong;
     if (input.seed) draft->seed = *input.seed;
     if (const Status wrong = begin_with_state(input.state, *draft)) return *wrong;
     return draft;
@@ -61,6 +83,8 @@ std::vector<std::string> files_of(const SceneInput& input) {
     std::vector<std::string> files;
     for (const std::string& path : {input.path, input.state})
         if (!path.empty() && path != "-") files.push_back(path);
+    for (const std::string& given : input.textures)
+        files.push_back(given.substr(given.find('=') + 1));
     return files;
 }
 

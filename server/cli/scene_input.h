@@ -20,6 +20,8 @@ struct SceneInput {
     std::optional<double> radius;
     // A file with the state of an automaton to begin with, or "".
     std::string state;
+    // "puff=my puff.png", in their order.
+    std::vector<std::string> textures{};
 };
 
 // Reads it; what was taken for what in a file of particles is said on standard error.

@@ -74,8 +74,8 @@ bool binary_to_terminal(const std::string& output) {
 }
 
 Status open_for(const Plan& plan, DeviceChoice choice, std::optional<Device>& device) {
-    const Rung* const rung = find_rung(plan.rung);
-    if (device || rung == nullptr || rung->method != Method::kSplats) return std::nullopt;
+    const Rung* const rung = plan.predicted.rung;
+    if (device || rung == nullptr || !needs_renderer(rung->method)) return std::nullopt;
     auto opened = Device::open(choice);
     if (!opened) return opened.error();
     device.emplace(*std::move(opened));

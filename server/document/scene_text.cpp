@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/formats/awa.h"
 #include "core/formats/awn.h"
 #include "core/formats/numbers.h"
 #include "core/formats/particle_files.h"
@@ -20,6 +21,8 @@ Result<SceneDraft> read_as(SceneFormat format, std::string_view bytes,
     switch (format) {
         case SceneFormat::kAwn:
             return read_awn(bytes);
+        case SceneFormat::kAwa:
+            return read_awa(bytes);
         case SceneFormat::kPly:
             return read_particles_ply(bytes, reading);
         case SceneFormat::kCsv:
@@ -65,6 +68,7 @@ std::optional<SceneFormat> scene_format_of_type(std::string_view media_type) {
     if (type == "application/json" || (type.starts_with("application/") && type.ends_with("+json")))
         return SceneFormat::kJson;
     if (type == "text/x-awn") return SceneFormat::kAwn;
+    if (type == "text/x-awa") return SceneFormat::kAwa;
     if (type == "application/x-ply") return SceneFormat::kPly;
     if (type == "text/csv" || type == "text/tab-separated-values") return SceneFormat::kCsv;
     return std::nullopt;
@@ -79,6 +83,7 @@ std::optional<SceneFormat> scene_format_of_name(std::string_view file_name) {
     if (ends_with(".gz")) file_name.remove_suffix(3);
     if (ends_with(".json")) return SceneFormat::kJson;
     if (ends_with(".awn")) return SceneFormat::kAwn;
+    if (ends_with(".awa")) return SceneFormat::kAwa;
     if (ends_with(".ply")) return SceneFormat::kPly;
     if (ends_with(".csv") || ends_with(".tsv") || ends_with(".xyz") || ends_with(".asc"))
         return SceneFormat::kCsv;
@@ -97,6 +102,7 @@ SceneFormat sniff_scene_format(std::string_view bytes) {
     if (bytes.front() == '{' || bytes.front() == '[' || bytes.front() == '"')
         return SceneFormat::kJson;
     if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return SceneFormat::kPly;
+    if (is_awa(bytes)) return SceneFormat::kAwa;
     const std::string_view line = bytes.substr(0, std::min(bytes.find('\n'), bytes.size()));
     // A layout's first line is numbers, whose only letter is the e of an exponent.
     const bool letters = std::any_of(line.begin(), line.end(), [](char c) {

@@ -85,9 +85,10 @@ std::string reference(const std::string& schema) {
     return R"({"$ref":"#/components/schemas/)" + schema + "\"}";
 }
 
-// A name; of a rung, one of those there are.
+// A name; of a rung, one of those there are; of a texture, those that are always there as examples.
 std::string text_schema(const Field& field) {
     if (std::string_view(field.name) == "rung") return reference("Rung");
+    if (std::string_view(field.name) == "texture") return reference("TextureName");
     return R"({"type":"string","maxLength":)" + std::to_string(limits::kMaxString) + '}';
 }
 
@@ -133,7 +134,7 @@ std::string value_schema(const Field& field, const void* standard, Schemas& sche
         case Holds::kText:
             return text_schema(field);
         case Holds::kSwitch:
-            return field.later ? R"({"type":"boolean","const":false})" : R"({"type":"boolean"})";
+            return R"({"type":"boolean"})";
         case Holds::kObject:
             return object_reference(field.access.table(), standard, schemas);
         case Holds::kObjects:
@@ -230,8 +231,7 @@ std::string object_members(const Table& table, const void* standards, std::optio
                            Schemas& schemas) {
     std::string properties, required;
     for (const Field& field : table.fields) {
-        if (!field.in_documents() || (field.later && field.access.holds != Holds::kSwitch))
-            continue;
+        if (!field.in_documents()) continue;
         if (field.of_model && field.of_model != model) continue;
         if (!properties.empty()) properties += ',';
         append_json_string(field.name, properties);
@@ -393,6 +393,12 @@ std::string scene_schemas() {
     std::vector<const char*> rungs;
     for (const Rung& rung : ladder()) rungs.push_back(rung.name);
     schemas["Rung"] = words_schema(rungs);
+    std::vector<const char*> textures;
+    for (const OwnTexture& own : kOwnTextures) textures.push_back(own.name);
+    schemas["TextureName"] =
+        R"({"type":"string","pattern":"^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$","examples":)" +
+        word_list(textures) +
+        R"(,"description":"Of one of these, of one that was uploaded, a texture's hash (32 hex digits), or none."})";
     std::string out;
     for (const auto& [schema, text] : schemas) {
         if (!out.empty()) out += ",\n";

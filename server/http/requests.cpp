@@ -98,7 +98,8 @@ void HttpServer::State::dispatch(Connection& c) {
     c.read_at = Clock::now();
     c.close_after = !c.head.keep_alive || ++c.served >= options.requests_per_connection ||
                     draining || c.in_reserve;
-    if (c.head.method != "POST" && !Service::waits_for_events(c.head.target))
+    if (c.head.method != "POST" && c.head.method != "PUT" &&
+        !Service::waits_for_events(c.head.target))
         return taken_back(c, answer(c, codec, true));
     c.with_worker = workers->push(&c);
     if (c.with_worker) return;

@@ -150,7 +150,7 @@ std::optional<Response> refuse_scene(Service::State& state, const Request& reque
         return refused;
     const WorkBudget::Lease reading = state.budget.take(reading_bytes(request.body.size()));
     if (!reading) return no_memory(state, request);
-    auto scene = read_request_scene(work.request);
+    auto scene = read_request_scene(state, work.request);
     if (!scene) {
         Error error = scene.error();
         error.pointer = "/scene" + error.pointer;

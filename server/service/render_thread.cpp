@@ -79,7 +79,7 @@ RenderOnProcessor processor_renderer(std::shared_ptr<LightCache> lights) {
 }
 
 bool needs_device(const Plan& plan) {
-    return plan.predicted.rung != nullptr && plan.predicted.rung->method == Method::kSplats;
+    return plan.predicted.rung != nullptr && needs_renderer(plan.predicted.rung->method);
 }
 
 struct RenderThread::State {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/formats/awa.h"
 #include "core/formats/awn.h"
 #include "core/formats/image_file.h"
 #include "core/formats/particle_files.h"
@@ -25,8 +26,9 @@ constexpr std::string_view kJson = "application/json";
 constexpr std::string_view kCsv = "text/csv";
 constexpr std::string_view kPly = "application/x-ply";
 constexpr std::string_view kAwn = "text/x-awn";
+constexpr std::string_view kAwa = "text/x-awa";
 
-constexpr std::array kParticleOffers = {kJson, kCsv, kPly, kAwn};
+constexpr std::array kParticleOffers = {kJson, kCsv, kPly, kAwn, kAwa};
 constexpr std::array kPlanOffers = {kJson};
 constexpr std::array kAccuracyOffers = {kJson, kCsv, std::string_view("image/png")};
 constexpr std::array<std::string_view, 2> kRenderOffers = {"image/png", "image/x-exr"};
@@ -81,8 +83,8 @@ Response answer_particles(Service::State& state, const Request& request, const S
     if (none_match_names(joined_header(request, "If-None-Match"), etag))
         return not_modified(etag, true);
     Response response = ok_answer(type, etag);
-    if (type == kAwn) {
-        auto layout = write_awn(*scene);
+    if (type == kAwn || type == kAwa) {
+        auto layout = type == kAwn ? write_awn(*scene) : write_awa(*scene);
         if (!layout) return fail(layout.error(), request);
         response.body = std::move(layout).value();
         return response;
@@ -135,8 +137,8 @@ Response answer_plan(Service::State& state, const Request& request, const Scene&
 
 }  // namespace
 
-Result<Scene> read_request_scene(const Request& request) {
-    auto read = read_scene_request(request);
+Result<Scene> read_request_scene(const Service::State& state, const Request& request) {
+    auto read = read_scene_request(request, state.textures.all());
     if (!read) return read.error();
     return std::move(read->scene);
 }
@@ -248,7 +250,7 @@ Response answer_scene_request(Service::State& state, const Request& request) {
     WorkBudget::Lease reading = state.budget.take(reading_bytes(unpacked_bytes(request)));
     if (!reading) return no_memory(state, request);
     if (auto refused = check_scene_body(request)) return *std::move(refused);
-    const auto read = read_scene_request(request);
+    const auto read = read_scene_request(request, state.textures.all());
     reading = {};
     if (!read) return fail(read.error(), request);
     const Scene& scene = read->scene;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/formats/quote.h"
+#include "core/formats/texture_file.h"
 #include "core/scene/validate.h"
 #include "server/document/scene_text.h"
 #include "server/document/text_bytes.h"
@@ -27,11 +28,12 @@ constexpr std::array<std::string_view, 5> kAccuracyNames = {"theme", "size", "sa
 // Of a picture that is rendered; a plot has no such thing.
 constexpr std::string_view kPng16Word = kImageFormatWords[static_cast<int>(ImageFormat::kPng16)];
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kFormats = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kFormats = {
     {{"json", "application/json"},
      {"csv", "text/csv"},
      {"ply", "application/x-ply"},
      {"awn", "text/x-awn"},
+     {"awa", "text/x-awa"},
      {"png", "image/png"},
      {kPng16Word, "image/png"},
      {"exr", "image/x-exr"}}};
@@ -75,6 +77,8 @@ struct SceneBytes {
     std::vector<std::pair<std::string, std::string>> fields;
     // Fields of a form that are named by a place in the document.
     std::vector<PlacedValue> placed;
+    // Files of a form.
+    GivenTextures textures;
 };
 
 // The format of a part by what says it best: its type, its file's name, its bytes.
@@ -106,15 +110,35 @@ Result<FormPart*> scene_part(std::vector<FormPart>& parts) {
     return Error{ErrorCode::kMalformed, "", "the form has no field `scene` (or `layout`)"};
 }
 
+// A texture is called as its file, without folder and ending.
+Status add_texture(const FormPart& part, GivenTextures& textures) {
+    // A page sends its chosen file, and if there is none, an empty one.
+    if (part.value.empty() && part.file_name.empty()) return std::nullopt;
+    if (textures.size() == limits::kMaxTextures)
+        return Error{
+            ErrorCode::kTooLarge, "",
+            "a form may have at most " + std::to_string(limits::kMaxTextures) + " textures"};
+    std::string_view name = part.file_name;
+    name.remove_prefix(name.find_last_of("/\\") + 1);
+    auto texture = read_texture(std::string(name.substr(0, name.rfind('.'))), part.value);
+    if (!texture) return texture.error();
+    textures.push_back(*std::move(texture));
+    return std::nullopt;
+}
+
 Result<SceneBytes> of_form(std::vector<FormPart> parts, SceneBytes scene) {
     for (FormPart& part : parts) {
         if (is_scene(part)) continue;
+        if (part.name == "texture") {
+            if (const Status wrong = add_texture(part, scene.textures)) return *wrong;
+            continue;
+        }
         const bool placed = part.name.starts_with('/');
         if (!placed && !is_override(part.name))
             return Error{ErrorCode::kMalformed, "",
                          "there is no field " + short_quote(part.name) +
-                             " in a form; there are scene (or layout), places in the document "
-                             "such as /sun/elevation, " +
+                             " in a form; there are scene (or layout), texture, places in the "
+                             "document such as /sun/elevation, " +
                              std::string(kOverrideNames)};
         // Fields that are left empty on a page say nothing.
         if (part.value.empty()) continue;
@@ -182,7 +206,7 @@ std::optional<Response> check_scene_body(const Request& request) {
         request);
 }
 
-Result<SceneRequest> read_scene_request(const Request& request) {
+Result<SceneRequest> read_scene_request(const Request& request, GivenTextures textures) {
     auto body = scene_bytes(request);
     if (!body) return body.error();
     auto overrides = read_overrides(body->fields);
@@ -195,6 +219,8 @@ Result<SceneRequest> read_scene_request(const Request& request) {
     body->bytes.reset();
     if (const Status wrong = set_in_scene(body->placed, *draft)) return *wrong;
     override_scene(*overrides, *draft);
+    draft->textures = std::move(body->textures);
+    draft->textures.insert(draft->textures.end(), textures.begin(), textures.end());
     auto scene = validate(*std::move(draft));
     if (!scene) return scene.error();
     return SceneRequest{*std::move(scene), *std::move(overrides), std::move(notes)};

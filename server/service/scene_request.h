@@ -28,7 +28,8 @@ struct SceneRequest {
     // What was taken for what in a file of particles, for Awan-Notes.
     std::vector<std::string> notes;
 };
-Result<SceneRequest> read_scene_request(const Request& request);
+// textures: that may be named, beside those that are in the form and Awan's own.
+Result<SceneRequest> read_scene_request(const Request& request, GivenTextures textures);
 
 // The offer that is answered: what `format` says ("" nothing), else what Accept prefers; nothing when neither fits.
 std::optional<std::string_view> chosen_offer(const Request& request, std::string_view format,

@@ -213,7 +213,7 @@ FlightReport flight_report_of(const JobWork& work, const SceneDraft& scene,
 
 Response answer_sequence(Service::State& state, const Request& request, const JobWork& work) {
     const auto start = Deadline::Clock::now();
-    auto scene = read_request_scene(request);
+    auto scene = read_request_scene(state, request);
     if (!scene) return fail(scene.error(), request);
     WorkBudget::Lease lease = state.budget.take(work_bytes(**scene, true));
     if (!lease) return no_memory(state, request);

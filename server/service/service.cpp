@@ -56,16 +56,19 @@ struct Route {
     const Page* page = nullptr;
     const Preset* preset = nullptr;
 
-    // Of jobs: one of them may be deleted.
+    // Of jobs: one of them may be deleted. Of textures: one may be put there too.
     bool job = false, deletable = false;
+    bool texture = false, puttable = false;
 
     std::string_view allow() const {
+        if (puttable) return "GET, HEAD, PUT, DELETE, OPTIONS";
         if (deletable) return "GET, HEAD, DELETE, OPTIONS";
         return post ? "POST, OPTIONS" : "GET, HEAD, OPTIONS";
     }
     bool takes(std::string_view method) const {
         if (post) return method == "POST";
-        return method == "GET" || method == "HEAD" || (deletable && method == "DELETE");
+        return method == "GET" || method == "HEAD" || (puttable && method == "PUT") ||
+               (deletable && method == "DELETE");
     }
 };
 
@@ -86,11 +89,22 @@ Route job_route(std::string_view rest) {
     return rest.substr(0, slash).empty() ? Route{} : route;
 }
 
+Route texture_route(std::string_view below) {
+    Route route{below.empty() ? "/v1/textures" : "/v1/textures/{name}", true, false};
+    route.texture = true;
+    route.deletable = route.puttable = !below.empty();
+    return route;
+}
+
 Route find_route(const Service::State& state, std::string_view path) {
     for (const std::string_view post : std::initializer_list<std::string_view>{
              "/v1/particles", "/v1/render", "/v1/plan", kAccuracyPath, kJobsPath})
         if (path == post) return {post, true, true};
     if (path.starts_with("/v1/jobs/")) return job_route(path.substr(9));
+    if (path == kTexturesPath) return texture_route("");
+    if (path.starts_with("/v1/textures/") && path.size() > 13 &&
+        path.substr(13).find('/') == std::string_view::npos)
+        return texture_route(path.substr(13));
     for (const std::string_view get :
          {"/healthz", "/readyz", "/metrics", "/version", "/v1/presets"})
         if (path == get) return {get, true, false};
@@ -223,14 +237,16 @@ std::optional<Response> check(const Service::State& state, const Route& route,
         response.headers.emplace_back("Allow", route.allow());
         return response;
     }
-    if (!route.post) return std::nullopt;
+    if (!route.post && request.method != "PUT") return std::nullopt;
     if (state.draining && !request.admitted)
         return problem_retry(503, "the server is stopping", kDrainRetrySeconds, request.id);
+    if (!route.post) return std::nullopt;
     return route.pattern == kJobsPath ? check_job_request(request) : check_scene_request(request);
 }
 
 Response route_answer(Service::State& state, const Route& route, const Request& request) {
     if (route.job) return tell_job(state, request);
+    if (route.texture) return answer_texture_request(state, request);
     if (!route.post) return get(state, route, request);
     return route.pattern == kJobsPath ? submit_job(state, request)
                                       : answer_scene_request(state, request);
@@ -333,7 +349,8 @@ Response Service::answer(const Request& request) {
     const auto start = Clock::now();
     Route route;
     Response response;
-    const InProgress counted(request.method == "POST" ? &state_->in_progress : nullptr);
+    const bool works = request.method == "POST" || request.method == "PUT";
+    const InProgress counted(works ? &state_->in_progress : nullptr);
     try {
         route = find_route(*state_, request.path);
         if (auto refused = check(*state_, route, request)) {

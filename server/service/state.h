@@ -12,6 +12,7 @@
 #include "server/service/pages.h"
 #include "server/service/result_cache.h"
 #include "server/service/service.h"
+#include "server/service/texture_store.h"
 #include "server/service/work_budget.h"
 
 namespace awan {
@@ -40,6 +41,7 @@ struct Service::State {
     std::mutex sweeping;
     // By when it is over, at most.
     std::atomic<Deadline::Clock::time_point> sweeps_until{Deadline::Clock::time_point::min()};
+    TextureStore textures;
     DetailTiles tiles;
     // Of the frames by which the rungs of sequences are settled: for the frames that are asked for next.
     LightCache settling_lights{limits::kSettlingLightBytes};
@@ -71,8 +73,12 @@ Status check_accuracy_query(const Request& request);
 Response answer_accuracy(Service::State& state, const Request& request, const Scene& scene,
                          std::string_view type);
 
+// /v1/textures and what is below it (texture_routes.cpp).
+inline constexpr std::string_view kTexturesPath = "/v1/textures";
+Response answer_texture_request(Service::State& state, const Request& request);
+
 // The scene of a request's body, by its Content-Type; then whether it can be.
-Result<Scene> read_request_scene(const Request& request);
+Result<Scene> read_request_scene(const Service::State& state, const Request& request);
 
 // /v1/jobs and what is below it (job_routes.cpp). answer_job_work runs a job.
 inline constexpr std::string_view kJobsPath = "/v1/jobs";

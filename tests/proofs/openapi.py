@@ -283,6 +283,7 @@ def try_posts(server, contract, path, operation, chance):
     slow = path == "/v1/accuracy"
     suffix = "?samples=2&size=16&runs=2" if slow else ""
     answers = {"application/json": json.dumps(SCENE), "text/x-awn": "20\n1\n20 2 1 2 0 0 0 .5\n",
+               "text/x-awa": "awa 1\n20\n1\n20 2 1 2 0 0 0 .5 none\n",
                "text/csv": "x,y,z,radius\n0,0,0,1\n1,1,1,.5\n",
                "application/x-ply": "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
                                     "property float z\nproperty float radius\nend_header\n0 0 0 1\n",

@@ -1,0 +1,15 @@
+// Awan's own textures, made by rule: no file is read for them.
+#pragma once
+
+#include "core/scene/texture.h"
+
+namespace awan {
+
+// The texture of that hash: one that came beside the scene, or one of Awan's own, which takes some 20 ms to make. Null
+// where there is none.
+std::shared_ptr<const Texture> texture_of_hash(const SceneDraft& scene, std::string_view hash);
+
+// What one of them holds (Texture::depth), the same bytes on every machine. place: in kOwnTextures.
+std::vector<std::uint8_t> own_texture_depth(std::size_t place);
+
+}  // namespace awan
