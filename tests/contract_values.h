@@ -35,6 +35,7 @@ class Values {
         const json& schema = *of.schema;
         if (schema.contains("const")) return schema.at("const");
         if (schema.contains("enum")) return schema.at("enum").at(0);
+        if (schema.contains("examples")) return schema.at("examples").at(0);
         const std::string type = schema.at("type").get<std::string>();
         if (type == "boolean") return false;
         if (type == "array") return list(of, least_length(schema));
@@ -61,6 +62,7 @@ class Values {
         const json& schema = *of.schema;
         if (schema.contains("const")) return {schema.at("const")};
         if (schema.contains("enum")) return schema.at("enum");
+        if (schema.contains("examples")) return schema.at("examples");
         const std::string type = schema.at("type").get<std::string>();
         if (type == "boolean") return {false, true};
         if (type == "object") return {smallest(of)};
@@ -186,7 +188,8 @@ class Values {
         const std::string type = schema.at("type").get<std::string>();
         if (schema.contains("const") && type == "number")
             return {{next(schema, schema.at("const").get<double>(), -1), ""}};
-        if (schema.contains("enum") || type == "boolean" || type == "object") return {};
+        if (schema.contains("enum") || type == "boolean" || type == "object" || type == "string")
+            return {};
         if (type != "array") return beyond_numbers(schema);
         const json& items = schema.at("items");
         std::vector<Wrong> all;

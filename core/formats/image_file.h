@@ -7,6 +7,7 @@
 
 #include "core/base/deadline.h"
 #include "core/base/image.h"
+#include "core/draw/layers.h"
 #include "core/formats/tone.h"
 #include "core/scene/scene.h"
 
@@ -39,9 +40,23 @@ struct PictureNotes {
     double error = 0, error_forecast = 0;
 };
 
-// Linear radiance, premultiplied alpha, channels R G B A, no tone curve, ZIP compression. Errors as of encode_png.
+// A further channel of an EXR: of every pixel, row by row from the top left, the value `apart` floats behind the last.
+struct ExrChannel {
+    // As compositing programs read it, "sun.R".
+    std::string name;
+    const float* first;
+    std::size_t apart = 1;
+    // It needs more than half floats have: it is of floats whatever the picture is of.
+    bool exact = false;
+};
+// Those of a picture's layers, which must outlive them: depth.Z, transmittance.Y, sun.R, sun.G, sun.B, ...
+std::vector<ExrChannel> channels_of(const PictureLayers& layers);
+
+// Linear radiance, premultiplied alpha, channels R G B A and `more`, no tone curve, ZIP compression. Errors as of
+// encode_png.
 Result<std::string> encode_exr(const Image& image, Precision precision,
-                               const PictureNotes& notes = {}, const Deadline& deadline = {});
+                               const PictureNotes& notes = {}, const Deadline& deadline = {},
+                               const std::vector<ExrChannel>& more = {});
 
 // How many threads pack EXR from now on, 1 to 256; before it is said, the caller alone. The bytes are the same. OpenEXR
 // has one set of threads for the whole process, so it is said where that begins, before anything is encoded.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/plan/criteria.h"
+#include "core/scene/layers.h"
 
 namespace awan {
 namespace {
@@ -181,8 +182,10 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
         }
         double& whole = plan.forecasts.back().error;
         if (whole > 0) whole = std::hypot(whole, survey.model_error);
-        if (rung.method == Method::kSplats ||
-            (!wants_splats(scene) && (paths || rung.method != Method::kPaths)))
+        if (wants_layers(scene)
+                ? rung.method == Method::kMarch
+                : rung.method == Method::kSplats ||
+                      (!wants_splats(scene) && (paths || rung.method != Method::kPaths)))
             candidates.push_back(plan.forecasts.back());
     }
     Choice choice;
@@ -253,6 +256,10 @@ bool wants_splats(const Scene& scene) {
          {Effect::kSelfShadow, Effect::kMultipleScattering, Effect::kViewExtinction})
         if (scene->effects[static_cast<int>(effect)] == Switch::kOff) return true;
     return false;
+}
+
+bool wants_layers(const Scene& scene) {
+    return read_layers(scene->image.layers).value_or(Layers{}).any();
 }
 
 void plan_samples(Plan& plan, std::uint32_t samples, const Scene& scene, const Survey& survey,

@@ -52,6 +52,9 @@ inline constexpr double kPatience_ms = 20e3;
 // is.
 bool wants_splats(const Scene& scene);
 
+// Whether its picture has layers (core/scene/layers.h), which only the march can tell apart.
+bool wants_layers(const Scene& scene);
+
 // Other paths a pixel for rung truth than the plan has, and what is predicted of it then; otherwise as plan().
 void plan_samples(Plan& plan, std::uint32_t samples, const Scene& scene, const Survey& survey,
                   int threads, const MachineSpeed& speed);

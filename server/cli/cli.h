@@ -36,6 +36,8 @@ struct RenderCommand {
     int columns = 0;
     // "", "sky", "transparent".
     std::string background;
+    // In place of the document's, as ImageSettings::layers.
+    std::optional<std::string> layers;
     // Of rung, error and time_ms at most one is set.
     std::optional<std::string> rung;
     std::optional<double> error, time_ms;

@@ -209,6 +209,9 @@ Run add_render(CLI::App& app) {
     add(*render, "--background", command->background,
         "sky or transparent, instead of the document's")
         ->check(CLI::IsMember({"sky", "transparent"}));
+    add(*render, "--layers", command->layers,
+        "of an .exr, channels beside the colours, instead of the document's: all, none, or some of "
+        "depth,transmittance,sun,sky,multiple,haze,background");
     CLI::Option* const rung = add(*render, "--rung", command->rung,
                                   "a rung of accuracy by name, instead of the document's accuracy");
     rung->check(CLI::IsMember(rung_names()));

@@ -91,7 +91,7 @@ class Maker:
         if kind == "boolean":
             return chance.random() < 0.5
         if kind == "string":
-            return "a"
+            return schema.get("default", "a")
         return None
 
     def object(self, schema, depth):
@@ -182,7 +182,7 @@ class Breaker:
             yield [1, 2], "an array"
         if "boolean" not in types:
             yield True, "a boolean"
-        if "string" not in types or all("enum" in kind for kind in kinds if kind.get("type") == "string"):
+        if "string" not in types or all("enum" in kind or "pattern" in kind for kind in kinds if kind.get("type") == "string"):
             yield "no such word", "a word"
         for kind in kinds:
             if kind.get("type") in ("number", "integer") and len(types) == 1 and "const" not in kind:

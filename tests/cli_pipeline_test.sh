@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# What a pipeline takes beside pictures, opened by programs that are not ours: layers. $1: the binary.
+set -uo pipefail
+. "$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/shell_checks.sh"
+awan=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+
+cat >scene.json <<'END_SCENE'
+{"cubes":[{"particles":60,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],"density":3,
+ "image":{"width":48,"height":32},"accuracy":{"rung":"transport-16"}}
+END_SCENE
+
+# --- layers
+run 0 render scene.json -o plain.exr --set /image/precision=float
+run 0 render scene.json -o layers.exr --layers all --set /image/precision=float
+oiiotool --info -v layers.exr >info || fail "oiiotool does not open layers"
+for channel in depth.Z transmittance.Y sun.R sky.G multiple.B haze.R background.B; do
+    contains "channel $channel" "$channel" "$(cat info)"
+done
+# OpenImageIO adds them up again.
+oiiotool layers.exr --ch R,G,B plain.exr --ch R,G,B --diff >diff || fail "layers change the picture: $(cat diff)"
+oiiotool layers.exr --ch sun.R,sun.G,sun.B layers.exr --ch sky.R,sky.G,sky.B --add \
+    layers.exr --ch multiple.R,multiple.G,multiple.B --add layers.exr --ch haze.R,haze.G,haze.B --add \
+    layers.exr --ch background.R,background.G,background.B \
+    layers.exr --ch transmittance.Y,transmittance.Y,transmittance.Y --mul --add \
+    layers.exr --ch R,G,B --fail 1e-5 --warn 1e-5 --diff >diff || fail "layers do not add up: $(cat diff)"
+run 0 render scene.json -o some.exr --layers depth,sun
+oiiotool --info -v some.exr >info
+contains "half floats, but for depth" "R (half), G (half), B (half), A (half), depth.Z (float), sun.R (half)" \
+    "$(sed 's/sun.B (half), sun.G/sun.G/' info)"
+grep -q sky info && fail "a layer that nobody asked for"
+run 0 render scene.json -o some.exr -o view.png --layers depth
+run 2 render scene.json -o view.png --layers depth
+contains "layers are of EXR" "--layers none" "$(cat err)"
+run 2 render scene.json -o view.png --set /image/layers=all
+run 0 render scene.json -o view.png --set /image/layers=all --layers none
+run 3 render scene.json -o some.exr --layers all --rung truth
+contains "a rung that cannot" "rung truth cannot" "$(cat err)"
+run 3 render scene.json -o some.exr --layers all,none
+contains "which there are" "/image/layers" "$(cat err)"
+
+[ "$failures" -eq 0 ] && echo "all well" || exit 1
