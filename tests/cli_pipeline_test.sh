@@ -41,4 +41,32 @@ contains "a rung that cannot" "rung truth cannot" "$(cat err)"
 run 3 render scene.json -o some.exr --layers all,none
 contains "which there are" "/image/layers" "$(cat err)"
 
+# --- the sky
+run 0 sky scene.json -o sky.exr --width 256 --set /sun/azimuth=90 --set /sun/elevation=30
+oiiotool --info -v sky.exr >info || fail "oiiotool does not open the sky"
+contains "twice as wide as high" "256 x  128" "$(cat info)"
+contains "a map of all around" "latlong" "$(tr 'L' 'l' <info)"
+contains "where the sun is" "awan:sun_direction: 0.866025, 0.5," "$(cat info)"
+contains "what it sends" "awan:sun_irradiance" "$(cat info)"
+run 0 sky scene.json -o - --format png
+contains "a PNG" "PNG" "$(head -c 4 out | tr -d '\0')"
+run 2 sky scene.json -o sky.exr --width 255
+run 2 sky scene.json -o sky.jpg
+run 3 sky scene.json -o sky.exr --set /sun/elevation=1000
+
+# --- light in a volume
+if [ -e "$(dirname "$awan")/awan_openvdb.so" ]; then
+    run 0 particles scene.json -o plain.vdb --voxels 24
+    run 0 particles scene.json -o lit.vdb --voxels 24 --light
+    vdb_print -l lit.vdb >info 2>&1 || fail "vdb_print does not open it: $(cat info)"
+    contains "matter" "Name: density" "$(cat info)"
+    contains "light" "Name: light" "$(cat info)"
+    same "two grids of floats" 2 "$(grep -c "Type: float" info)"
+    vdb_print lit.vdb >brief 2>&1
+    same "in the same cells" 1 "$(grep -E '^(density|light) ' brief | awk '{print $3, $4, $5, $6, $7}' | sort -u | wc -l)"
+fi
+run 2 particles scene.json -o lit.ply --light
+run 3 particles scene.json -o lit.vdb --light --set /accuracy/rung=single
+contains "a rung without a grid" "/accuracy/rung" "$(cat err)"
+
 [ "$failures" -eq 0 ] && echo "all well" || exit 1

@@ -111,6 +111,23 @@ TEST_F(SceneRequestTest, LayersComeAsExrAndAreRefusedAsPng) {
     EXPECT_EQ(ask(service, "/v1/plan", {}, layered).status, 200);
 }
 
+TEST_F(SceneRequestTest, TheSkyComesAsAMap) {
+    const Response map = ask(service, "/v1/sky", {{"width", "16"}});
+    ASSERT_EQ(map.status, 200) << map.body;
+    EXPECT_EQ(map.header("Content-Type"), "image/x-exr");
+    EXPECT_NE(map.body.find("awan:sun_direction"), std::string::npos);
+    const Response png = ask(service, "/v1/sky", {{"width", "16"}, {"format", "png"}});
+    EXPECT_EQ(png.header("Content-Type"), "image/png");
+    // Its size, at byte 16.
+    EXPECT_EQ(png.body.substr(16, 8), std::string("\0\0\0\x10\0\0\0\x08", 8));
+    EXPECT_NE(map.header("ETag"), ask(service, "/v1/sky", {{"width", "18"}}).header("ETag"));
+    for (const char* const width : {"15", "0", "8194"})
+        expect_problem(ask(service, "/v1/sky", {{"width", width}}), 400);
+    // What would mean nothing is not ignored.
+    expect_problem(ask(service, "/v1/sky", {{"rung", "harris"}}), 400);
+    expect_problem(ask(service, "/v1/sky", {{"format", "csv"}}), 400);
+}
+
 TEST_F(SceneRequestTest, ASlashTooManyIsAnotherPath) {
     Request request = make_request("POST", "/v1/render/", kScene);
     request.query = {{"width", "8"}, {"rung", "a b"}};

@@ -5,8 +5,10 @@
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfThreading.h>
+#include <ImfVecAttribute.h>
 #include <half.h>
 
 #include <algorithm>
@@ -59,6 +61,14 @@ Imf::Header header_of(const Image& image, const std::vector<ExrChannel>& channel
     for (const ExrChannel& channel : channels)
         header.channels().insert(channel.name, Imf::Channel(type_of(channel, precision)));
     header.insert("Software", Imf::StringAttribute("Awan " AWAN_VERSION));
+    if (notes.sky) {
+        Imf::addEnvmap(header, Imf::ENVMAP_LATLONG);
+        const auto vector = [&](const char* name, const glm::dvec3& v) {
+            header.insert(name, Imf::V3fAttribute(Imath::V3f(Imath::V3d(v.x, v.y, v.z))));
+        };
+        vector("awan:sun_direction", notes.sky->to_sun);
+        vector("awan:sun_irradiance", notes.sky->sun);
+    }
     if (notes.rung.empty()) return header;
     header.insert("awan:rung", Imf::StringAttribute(notes.rung));
     const auto note = [&](const char* name, double value) {

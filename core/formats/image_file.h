@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,12 @@ Status check_pixels(const Image& image);
 // detail and would spend their bits on dither.
 std::vector<std::uint8_t> display_pixels(const Image& image, const FilmSettings& film);
 
+// What the header of a sky's map says: awan:sun_direction (unit, towards it) and awan:sun_irradiance (r g b, at normal
+// incidence), of the sun that the map lacks. OpenEXR's own `envmap` says that it is one.
+struct SkyNotes {
+    glm::dvec3 to_sun{0, 1, 0}, sun{0};
+};
+
 // How a picture came about, kept in its file as the attributes awan:rung, awan:error and awan:error_forecast. Of
 // numbers that are not finite nothing is kept.
 struct PictureNotes {
@@ -38,7 +46,10 @@ struct PictureNotes {
     std::string rung;
     // As stated, and what the plan expected.
     double error = 0, error_forecast = 0;
+    // Of a map of the sky alone (core/draw/sky_map.h).
+    std::optional<SkyNotes> sky{};
 };
+PictureNotes sky_notes_of(const Scene& scene);
 
 // A further channel of an EXR: of every pixel, row by row from the top left, the value `apart` floats behind the last.
 struct ExrChannel {

@@ -107,6 +107,8 @@ struct ParticlesCommand {
     std::string format;
     // Cells along the longest side of a volume.
     int voxels = 128;
+    // Whether that has the light too.
+    bool light = false;
     // Seconds, in place of the document's.
     std::optional<double> time;
     // Of the scene's sequence: "", "all", "3", "0-11,20".
@@ -116,6 +118,18 @@ struct ParticlesCommand {
     int threads = 1;
 };
 int run_particles(const ParticlesCommand& command);
+
+// A map of the scene's sky.
+struct SkyCommand {
+    SceneInput scene;
+    std::string output;
+    // "", "exr", "png".
+    std::string format;
+    // Pixels, even; half as high.
+    int width = limits::kSkyMapWidth;
+    int threads = 1;
+};
+int run_sky(const SkyCommand& command);
 
 struct PlanCommand {
     SceneInput scene;

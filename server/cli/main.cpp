@@ -358,6 +358,12 @@ Run add_particles(CLI::App& app) {
     add(*particles, "--voxels", command->voxels,
         "cells along the longest side of a .vdb; fewer where it would take long")
         ->check(CLI::Range(8, 1024));
+    particles
+        ->add_flag(
+            "--light", command->light,
+            "of a .vdb: a grid `light` beside `density`, the mean radiance that matter sends "
+            "out per optical depth")
+        ->envname("AWAN_LIGHT");
     add(*particles, "--time", command->time, "seconds, instead of the document's");
     add(*particles, "--frames", command->frames,
         "of the scene's sequence, to numbered files: all, or numbers from 0 as 3, 0-11,20 or "
@@ -366,6 +372,26 @@ Run add_particles(CLI::App& app) {
     add_state(*particles, command->scene);
     add_threads(*particles, command->threads);
     return [command] { return run_particles(*command); };
+}
+
+Run add_sky(CLI::App& app) {
+    auto command = std::make_shared<SkyCommand>();
+    command->threads = processors();
+    CLI::App* sky = app.add_subcommand(
+        "sky", "a scene's sky all around, without sun and clouds, as an environment map");
+    add_scene(*sky, command->scene);
+    add(*sky, "-o,--output", command->output, "an .exr or a .png file, or - for standard output")
+        ->required();
+    add(*sky, "--format", command->format, "exr or png, for standard output")
+        ->check(CLI::IsMember({"exr", "png"}));
+    add(*sky, "--width", command->width, "pixels, an even number; the map is half as high")
+        ->check(CLI::Range(2, limits::kMaxImageSide));
+    add_threads(*sky, command->threads);
+    sky->footer(
+        "Equirectangular: +y is up, +z (azimuth 0) in the middle, +x (azimuth 90) a quarter from\n"
+        "the left. The EXR's header has the sun's direction and irradiance (awan:sun_direction,\n"
+        "awan:sun_irradiance), for a light of its own.");
+    return [command] { return run_sky(*command); };
 }
 
 Run add_plan(CLI::App& app) {
@@ -474,6 +500,7 @@ int main(int argc, char** argv) {
                                                     {"fly", add_fly(app)},
                                                     {"accuracy", add_accuracy(app)},
                                                     {"particles", add_particles(app)},
+                                                    {"sky", add_sky(app)},
                                                     {"plan", add_plan(app)},
                                                     {"convert", add_convert(app)},
                                                     {"state", add_state_command(app)},

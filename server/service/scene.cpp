@@ -43,6 +43,7 @@ constexpr std::uint64_t kManyParticles = 200'000;
 std::span<const std::string_view> offers_of(std::string_view path) {
     if (path == "/v1/particles") return kParticleOffers;
     if (path == "/v1/render") return kRenderOffers;
+    if (path == kSkyPath) return kRenderOffersExrFirst;
     if (path == kAccuracyPath) return kAccuracyOffers;
     return kPlanOffers;
 }
@@ -224,9 +225,11 @@ std::span<const std::string_view> offers_of(std::string_view path, const Scene& 
 }
 
 Response answer_as(Service::State& state, const Request& request, const Scene& scene,
-                   std::string_view type, Lanes::Pass& pass) {
+                   const Overrides& overrides, std::string_view type, Lanes::Pass& pass) {
     if (request.path == "/v1/render") return answer_render(state, request, scene, type, pass);
     if (request.path == "/v1/plan") return answer_plan(state, request, scene, pass);
+    if (request.path == kSkyPath)
+        return answer_sky(state, request, scene, overrides.width, type, pass);
     if (request.path == kAccuracyPath) {
         // A sweep takes long, and there is one at most: others compute beside it.
         pass.leave();
@@ -283,7 +286,7 @@ Response answer_scene_request(Service::State& state, const Request& request) {
     if (!type)
         return not_offered(request, 400,
                            "the field `format` names none of what can be answered here:");
-    Response response = answer_as(state, request, scene, *type, pass);
+    Response response = answer_as(state, request, scene, read->overrides, *type, pass);
     const std::string notes = notes_header(read->notes);
     if (!notes.empty()) response.headers.emplace_back("Awan-Notes", notes);
     return response;

@@ -65,6 +65,11 @@ Response not_modified(std::string_view etag, bool varies);
 std::optional<Response> check_scene_request(const Request& request);
 Response answer_scene_request(Service::State& state, const Request& request);
 
+// POST /v1/sky: its map as `type`, `width` pixels wide; none: limits::kSkyMapWidth.
+inline constexpr std::string_view kSkyPath = "/v1/sky";
+Response answer_sky(Service::State& state, const Request& request, const Scene& scene,
+                    std::optional<int> width, std::string_view type, const Lanes::Pass& pass);
+
 // POST /v1/accuracy: its query, and its answer as `type`.
 inline constexpr std::string_view kAccuracyPath = "/v1/accuracy";
 Status check_accuracy_query(const Request& request);
