@@ -61,12 +61,46 @@ if [ -e "$(dirname "$awan")/awan_openvdb.so" ]; then
     vdb_print -l lit.vdb >info 2>&1 || fail "vdb_print does not open it: $(cat info)"
     contains "matter" "Name: density" "$(cat info)"
     contains "light" "Name: light" "$(cat info)"
-    same "two grids of floats" 2 "$(grep -c "Type: float" info)"
+    same "two grids of floats" 2 "$(grep -c "Type: Tree_float" info)"
     vdb_print lit.vdb >brief 2>&1
     same "in the same cells" 1 "$(grep -E '^(density|light) ' brief | awk '{print $3, $4, $5, $6, $7}' | sort -u | wc -l)"
 fi
 run 2 particles scene.json -o lit.ply --light
 run 3 particles scene.json -o lit.vdb --light --set /accuracy/rung=single
 contains "a rung without a grid" "/accuracy/rung" "$(cat err)"
+
+# --- an impostor
+float=(--set /image/precision=float)
+run 0 impostor scene.json -o atlas.exr --views 3 --size 24 "${float[@]}"
+oiiotool --info -v atlas.exr >info || fail "oiiotool does not open the atlas"
+contains "all views" "72 x   72" "$(cat info)"
+contains "depth and alpha" "R, G, B, A, depth.Z" "$(cat info)"
+# Each view is the picture of its camera.
+python3 - "$awan" <<'END_PYTHON' || fail "views of the atlas"
+import json, math, subprocess, sys
+layout = json.load(open("atlas.json"))
+assert layout["image"] == "atlas.exr" and layout["mapping"] == "hemi-octahedral" and layout["depth"], layout
+assert len(layout["frames"]) == 9
+for number in (0, 4, 5):
+    frame = layout["frames"][number]
+    assert abs(math.hypot(*frame["direction"]) - 1) < 1e-9
+    for axis in range(3):
+        there = layout["center"][axis] + layout["distance"] * frame["direction"][axis]
+        assert abs(there - frame["eye"][axis]) < 1e-9 * layout["distance"]
+    camera = {"eye": frame["eye"], "target": layout["center"], "up": frame["up"], "fov": layout["fov"]}
+    scene = json.load(open("scene.json"))
+    scene["camera"] = camera
+    scene["image"] = {"width": 24, "height": 24, "background": "transparent", "precision": "float", "layers": "depth"}
+    json.dump(scene, open("view.json", "w"))
+    subprocess.run([sys.argv[1], "render", "view.json", "-o", "view.exr"], check=True, stdout=subprocess.DEVNULL)
+    cut = "24x24+%d+%d" % (frame["x"], frame["y"])
+    subprocess.run(["oiiotool", "atlas.exr", "--cut", cut, "view.exr", "--fail", "0", "--warn", "0", "--diff"],
+                   check=True, stdout=subprocess.DEVNULL)
+END_PYTHON
+run 0 impostor scene.json -o atlas.png --views 2 --size 8 --full
+contains "from below too" '"mapping":"octahedral"' "$(tr -d ' ' <atlas.json)"
+run 2 impostor scene.json -o - --format png
+run 2 impostor scene.json -o atlas.png --views 1
+run 3 impostor scene.json -o atlas.png --views 32 --size 512
 
 [ "$failures" -eq 0 ] && echo "all well" || exit 1

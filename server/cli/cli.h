@@ -9,6 +9,7 @@
 
 #include "core/base/result.h"
 #include "core/gl/device.h"
+#include "core/impostor.h"
 #include "server/cli/scene_input.h"
 #include "server/http/server.h"
 
@@ -130,6 +131,18 @@ struct SkyCommand {
     int threads = 1;
 };
 int run_sky(const SkyCommand& command);
+
+// A scene from many sides.
+struct ImpostorCommand {
+    SceneInput scene;
+    std::string output;
+    // "", "png", "exr".
+    std::string format;
+    ImpostorWish wish;
+    int threads = 1;
+    DeviceChoice device = DeviceChoice::kAuto;
+};
+int run_impostor(const ImpostorCommand& command);
 
 struct PlanCommand {
     SceneInput scene;

@@ -394,6 +394,34 @@ Run add_sky(CLI::App& app) {
     return [command] { return run_sky(*command); };
 }
 
+Run add_impostor(CLI::App& app) {
+    auto command = std::make_shared<ImpostorCommand>();
+    auto full = std::make_shared<bool>(false);
+    command->threads = processors();
+    CLI::App* impostor = app.add_subcommand(
+        "impostor", "a scene from many sides on one atlas, for cards in a game engine");
+    add_scene(*impostor, command->scene);
+    add(*impostor, "-o,--output", command->output,
+        "a .png or an .exr (with depth) file; its layout goes to the .json beside it")
+        ->required();
+    add(*impostor, "--format", command->format, "png or exr; must agree with the file's name")
+        ->check(CLI::IsMember({"png", "exr"}));
+    add(*impostor, "--views", command->wish.views, "along a side of the atlas")
+        ->check(CLI::Range(2, kMostImpostorViews));
+    add(*impostor, "--size", command->wish.size, "pixels of a view's side")
+        ->check(CLI::Range(1, kMostImpostorSize));
+    impostor
+        ->add_flag("--full", *full,
+                   "from below too: octahedral instead of hemi-octahedral, down to the horizon")
+        ->envname("AWAN_FULL");
+    add_threads(*impostor, command->threads);
+    add_device(*impostor, command->device);
+    return [command, full] {
+        if (*full) command->wish.mapping = ImpostorMapping::kSphere;
+        return run_impostor(*command);
+    };
+}
+
 Run add_plan(CLI::App& app) {
     auto command = std::make_shared<PlanCommand>();
     command->threads = processors();
@@ -501,6 +529,7 @@ int main(int argc, char** argv) {
                                                     {"accuracy", add_accuracy(app)},
                                                     {"particles", add_particles(app)},
                                                     {"sky", add_sky(app)},
+                                                    {"impostor", add_impostor(app)},
                                                     {"plan", add_plan(app)},
                                                     {"convert", add_convert(app)},
                                                     {"state", add_state_command(app)},

@@ -90,6 +90,8 @@ Response answer_job_work(Service::State& state, const JobWork& work, const Reque
 // a sheet and its layout in one, "flipbook"; of a flight also only its report, "json", which is in its archive too
 // (sequence_job.cpp).
 Response answer_sequence(Service::State& state, const Request& request, const JobWork& work);
+// A job of kind impostor (impostor_job.cpp).
+Response answer_impostor(Service::State& state, const Request& request, const JobWork& work);
 
 // Draws what is planned: with the device, in whose line it waits while another computes in its lane, or in its lane.
 // pass: in a lane, before and after. `refused`: what is to be said where it got no lane; then there is no picture.
