@@ -59,14 +59,18 @@ TEST(LightVolume, IsTheSkysWhereNothingIsAbsorbed) {
             draft.sky.intensity = 0.5;
             const Volume volume = volume_of(draft);
             std::size_t filled = 0;
+            double sum = 0;
             for (std::size_t i = 0; i < volume.light.size(); ++i) {
                 if (!(volume.density.extinction[i] > 0)) {
                     ASSERT_EQ(volume.light[i], 0);
                     continue;
                 }
                 ++filled;
-                ASSERT_NEAR(volume.light[i], 0.5F, 0.025F) << density << ' ' << g;
+                sum += static_cast<double>(volume.light[i]);
+                // A grid by itself is some percent too dark where matter is deep (core/README.md).
+                ASSERT_NEAR(volume.light[i], 0.5F, 0.05F) << density << ' ' << g;
             }
+            EXPECT_NEAR(sum / static_cast<double>(filled), 0.5, density < 1 ? 0.002 : 0.02) << g;
             EXPECT_GT(filled, 1000U);
         }
 }

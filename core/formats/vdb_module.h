@@ -16,7 +16,8 @@ struct VdbGrid {
     double cell;
 };
 
-// Gives the bytes of a file with these grids to take(to, ...), one after the other. Null, or what went wrong (for ever valid).
+// Gives the bytes of a file with these grids to take(to, ...), one after the other. Null, or what went wrong (for ever
+// valid).
 using WriteVdb = const char*(const VdbGrid* grids, std::size_t count,
                              void (*take)(void* to, const char* bytes, std::size_t size), void* to);
 inline constexpr const char* kWriteVdb = "awan_write_vdb";

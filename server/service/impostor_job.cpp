@@ -35,7 +35,8 @@ Drawn draw_view(Service::State& state, const Request& request, const Scene& scen
     if (!planned) return {std::nullopt, planned.error()};
     planned->is_unmeasured = true;
     Request inner = request;
-    inner.progress = {};  // a view's own is not that of the whole
+    // A view's own progress is not that of the whole.
+    inner.progress = {};
     return draw_in_lanes(state, inner, scene, *std::move(planned), 0, pass);
 }
 
