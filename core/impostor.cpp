@@ -65,7 +65,11 @@ Result<Impostor> impostor_of(const Scene& scene, const ImpostorWish& wish, bool 
     if (particles->size() > 0) {
         const Bounds bounds = bounds_of(*particles);
         impostor.center = 0.5 * (bounds.min + bounds.max);
-        impostor.radius = std::max(0.5 * glm::length(bounds.max - bounds.min), 1e-6);
+        impostor.radius = 0;
+        for (std::size_t i = 0; i < particles->size(); ++i)
+            impostor.radius =
+                std::max(impostor.radius, glm::length(particles->center[i] - impostor.center) +
+                                              static_cast<double>(particles->radius[i]));
     }
     impostor.distance = impostor.radius / std::sin(glm::radians(kImpostorFov) / 2);
     SceneDraft draft = shared_draft(scene, wish, with_depth);

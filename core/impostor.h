@@ -49,9 +49,9 @@ struct Impostor {
     std::vector<ImpostorView> views;  // row by row from the top
 };
 
-// The views are over nothing and without haze, of the scene's rung, or of kImpostorRung. with_depth: they have the layer
-// `depth`, unless their rung has none. Errors: of generate(); kInvalidScene where the eyes would stand beyond the
-// limits; kTooLarge, the atlas.
+// The views are over nothing and without haze, of the scene's rung, or of kImpostorRung. with_depth: they have the
+// layer `depth`, unless their rung has none. The sphere holds every particle's radius. Errors: of generate();
+// kInvalidScene where the eyes would stand beyond the limits; kTooLarge, the atlas.
 Result<Impostor> impostor_of(const Scene& scene, const ImpostorWish& wish, bool with_depth,
                              int threads, const Deadline& deadline);
 
