@@ -294,7 +294,8 @@ bool holds(double error, const Scene& scene) {
 
 bool paths_may_hold(const Scene& scene, const Plan& plan) {
     // Paths are for what is finer than the default: a scene that asks for nothing is not made to wait for them.
-    if (scene->accuracy.error.value_or(kDefaultError) >= kDefaultError || wants_splats(scene))
+    if (scene->accuracy.error.value_or(kDefaultError) >= kDefaultError || wants_splats(scene) ||
+        wants_layers(scene))
         return false;
     for (const RungForecast& forecast : plan.forecasts)
         if (forecast.rung->method == Method::kPaths) return forecast.time_ms <= kPatience_ms;

@@ -12,9 +12,11 @@
 #include "core/draw/draw.h"
 #include "core/draw/march.h"
 #include "core/light/light.h"
+#include "core/light/once_scattered.h"
 #include "core/light/transport.h"
 #include "core/looks/looks.h"
 #include "core/plan/step_times.h"
+#include "core/scene/layers.h"
 #include "core/sequence.h"
 #include "core/truth/path_tracer.h"
 
@@ -48,14 +50,30 @@ Status march_light(const Scene& scene, const Planned& planned, const TransportLi
                    const Tools& tools, const Deadline& deadline, Rendered& rendered) {
     MarchSettings settings;
     settings.eye_effects = planned.plan.eye_effects();
+    const Layers layers = read_layers(scene->image.layers).value_or(Layers{});
+    MarchedBeside beside;
+    std::optional<LightsOnce> once;
+    if (layers.any_light()) {
+        TransportSettings sky = planned.plan.transport;
+        sky.cells = rendered.rung->cells;
+        double light_ms = 0;
+        auto of_sky = timed(light_ms, [&] {
+            return sky_once(scene, planned.particles, planned.survey, sky, tools.threads, deadline);
+        });
+        if (!of_sky.ok()) return of_sky.error();
+        rendered.times.light_ms += light_ms;
+        once = LightsOnce{sun_once(light), *std::move(of_sky)};
+    }
     double draw_ms = 0;
     auto image = timed(draw_ms, [&] {
         return march(scene, planned.particles, planned.survey.view, light, settings, tools.threads,
-                     deadline, &rendered.times.effects);
+                     deadline, &rendered.times.effects, layers.any() ? &beside : nullptr,
+                     once ? &*once : nullptr);
     });
     if (!image.ok()) return image.error();
     rendered.times.draw_ms += draw_ms;
     rendered.image = *std::move(image);
+    if (layers.any()) rendered.layers = layers_of(rendered.image, beside, layers);
     return std::nullopt;
 }
 

@@ -6,6 +6,7 @@
 #include "core/base/deadline.h"
 #include "core/base/image.h"
 #include "core/base/progress.h"
+#include "core/draw/layers.h"
 #include "core/formats/image_file.h"
 #include "core/generate/detail.h"
 #include "core/gl/device.h"
@@ -27,6 +28,8 @@ struct Rendered {
     // time that the scene asks for is too short or nobody wants it, and plan.predicted.error is all that is known; or
     // there is none (a look).
     double stated_error = 0;
+    // Those that the scene asks for (core/scene/layers.h).
+    PictureLayers layers{};
 };
 
 // What its file keeps of it.

@@ -93,6 +93,11 @@ inline constexpr std::size_t kDiskWaitingBytes = 64u << 20;
 // Bytes of lights that are kept to settle the rungs of sequences: a few dozen coarse grids, or one of the finest.
 inline constexpr std::size_t kSettlingLightBytes = 64u << 20;
 
+// --- Maps
+
+// Pixels across a map of the sky, where nobody says.
+inline constexpr int kSkyMapWidth = 1024;
+
 // --- Pieces
 
 // Particles in one piece of a streamed answer: about 400 KiB of JSON.

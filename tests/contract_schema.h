@@ -119,6 +119,9 @@ class Contract {
             return !value.is_string() ||
                    std::regex_search(value.get<std::string>(), std::regex(says.get<std::string>()));
         if (word == "enum") return std::find(says.begin(), says.end(), value) != says.end();
+        if (word == "pattern")
+            return !value.is_string() ||
+                   std::regex_search(value.get<std::string>(), std::regex(says.get<std::string>()));
         if (word == "minimum") return !value.is_number() || value >= says;
         if (word == "exclusiveMinimum") return !value.is_number() || value > says;
         if (word == "maximum") return !value.is_number() || value <= says;

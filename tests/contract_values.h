@@ -189,7 +189,7 @@ class Values {
         if (schema.contains("const") && type == "number")
             return {{next(schema, schema.at("const").get<double>(), -1), ""}};
         if (schema.contains("enum") || schema.contains("examples") || type == "boolean" ||
-            type == "object")
+            type == "object" || type == "string")
             return {};
         if (type != "array") return beyond_numbers(schema);
         const json& items = schema.at("items");

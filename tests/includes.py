@@ -26,7 +26,7 @@ ORDER = [
     ["core/planning"],
     ["core/climb"],
     ["core/sequence"],
-    ["core/flight_path"],
+    ["core/flight_path", "core/impostor"],
     ["core/pipeline"],
     ["core/accuracy"],
     ["server/document"],

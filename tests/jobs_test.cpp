@@ -157,6 +157,29 @@ TEST_F(JobsTest, SequencesBecomeAnimations) {
     EXPECT_EQ(renderer.begun(), 3);
 }
 
+TEST_F(JobsTest, ImpostorsAreAnAtlasAndItsLayout) {
+    const auto impostor = [](const std::string& more) {
+        return R"({"kind":"impostor",)" + more + R"("scene":)" + std::string(kScene) + "}";
+    };
+    const json job = submit(impostor(R"("views":3,"size":8,"mapping":"octahedral",)"));
+    ASSERT_TRUE(reaches(job, "done")) << state_of(job);
+    EXPECT_EQ(renderer.begun(), 9);
+    const Response archive = get(job["result"]);
+    EXPECT_EQ(archive.header("Content-Type"), "application/zip");
+    EXPECT_NE(archive.body.find("impostor.png"), std::string::npos);
+    EXPECT_NE(archive.body.find(R"("mapping":"octahedral","views":3,"size":8)"), std::string::npos);
+    const auto refused = [&](const std::string& more, const char* pointer) {
+        expect_problem(post("/v1/jobs", impostor(more)), 422, pointer);
+    };
+    refused(R"("views":1,)", "/views");
+    refused(R"("size":4096,)", "/size");
+    refused(R"("views":32,"size":512,)", "/size");
+    refused(R"("mapping":"cube",)", "/mapping");
+    expect_problem(
+        post("/v1/jobs", R"({"kind":"render","views":3,"scene":)" + std::string(kScene) + "}"), 422,
+        "/views");
+}
+
 TEST_F(JobsTest, FlightsAreAnimationsAndReports) {
     const auto fly = [](const std::string& more) {
         return R"({"kind":"fly",)" + more + R"("scene":)" + std::string(kScene) + "}";

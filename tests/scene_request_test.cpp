@@ -93,6 +93,41 @@ TEST_F(SceneRequestTest, TypesHaveOtherNames) {
     expect_problem(post("/v1/plan", kScene, {}, "application/xml"), 415);
 }
 
+TEST_F(SceneRequestTest, LayersComeAsExrAndAreRefusedAsPng) {
+    const std::string layered =
+        R"({"cubes":[],"image":{"width":4,"height":4,"layers":"all"},"accuracy":{"rung":"single"}})";
+    const Headers json = {{"Content-Type", "application/json"}};
+    EXPECT_EQ(ask(service, "/v1/render", {}, layered).header("Content-Type"), "image/x-exr");
+    EXPECT_EQ(ask(service, "/v1/render", {{"layers", "depth"}, {"rung", "single"}})
+                  .header("Content-Type"),
+              "image/x-exr");
+    const Headers png = {{"Content-Type", "application/json"}, {"Accept", "image/png"}};
+    expect_problem(ask(service, "/v1/render", {}, layered, png), 406, "/image/layers");
+    expect_problem(ask(service, "/v1/render", {{"format", "png"}}, layered), 400, "/image/layers");
+    EXPECT_EQ(ask(service, "/v1/render", {{"layers", "none"}}, layered, png).status, 200);
+    expect_problem(ask(service, "/v1/render", {{"layers", "sum"}}, layered, json), 400);
+    // The document's rung is harris.
+    expect_problem(ask(service, "/v1/render", {{"layers", "sun"}}), 422, "/image/layers");
+    EXPECT_EQ(ask(service, "/v1/plan", {}, layered).status, 200);
+}
+
+TEST_F(SceneRequestTest, TheSkyComesAsAMap) {
+    const Response map = ask(service, "/v1/sky", {{"width", "16"}});
+    ASSERT_EQ(map.status, 200) << map.body;
+    EXPECT_EQ(map.header("Content-Type"), "image/x-exr");
+    EXPECT_NE(map.body.find("awan:sun_direction"), std::string::npos);
+    const Response png = ask(service, "/v1/sky", {{"width", "16"}, {"format", "png"}});
+    EXPECT_EQ(png.header("Content-Type"), "image/png");
+    // Its size, at byte 16.
+    EXPECT_EQ(png.body.substr(16, 8), std::string("\0\0\0\x10\0\0\0\x08", 8));
+    EXPECT_NE(map.header("ETag"), ask(service, "/v1/sky", {{"width", "18"}}).header("ETag"));
+    for (const char* const width : {"15", "0", "8194"})
+        expect_problem(ask(service, "/v1/sky", {{"width", width}}), 400);
+    // What would mean nothing is not ignored.
+    expect_problem(ask(service, "/v1/sky", {{"rung", "harris"}}), 400);
+    expect_problem(ask(service, "/v1/sky", {{"format", "csv"}}), 400);
+}
+
 TEST_F(SceneRequestTest, ASlashTooManyIsAnotherPath) {
     Request request = make_request("POST", "/v1/render/", kScene);
     request.query = {{"width", "8"}, {"rung", "a b"}};

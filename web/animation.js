@@ -32,7 +32,7 @@ export function createAnimation(store, { save, failed, note }) {
     line.hidden = false;
     bar.value = 0;
     try {
-      place = await api.beginJob(`{"kind": "sequence", "format": "webp", "scene": ${store.text}}`, { signal });
+      place = await api.beginJob(`{"kind": "sequence", "format": "webp", "scene": ${api.withoutLayers(store.text)}}`, { signal });
       for (;;) {
         const job = await api.job(place, { signal });
         bar.value = job.progress;

@@ -28,7 +28,7 @@ export async function copy(text) {
 // that it can be shown: the shell has it in a variable.
 export function curlCommand(text, origin) {
   return [
-    `curl -sS --fail-with-body '${origin}/v1/render' \\`,
+    `curl -sS --fail-with-body '${origin}${api.renderPath(text, "image/png")}' \\`,
     ...(hasToken() ? ['  -H "Authorization: Bearer $AWAN_TOKEN" \\'] : []),
     "  -H 'Content-Type: application/json' -H 'Accept: image/png' \\",
     "  -o cloud.png --data-binary @- <<'END_OF_SCENE'",

@@ -51,6 +51,7 @@ Result<Scene> reference_sized(const Scene& scene, PictureSize size) {
     draft.image.width = size.width;
     draft.image.height = size.height;
     draft.image.background = Background::kTransparent;
+    draft.image.layers = "none";
     return validate(std::move(draft));
 }
 

@@ -18,6 +18,7 @@ constexpr double kEnoughMs = 3000;
 Result<Scene> with_rung(const Scene& scene, const Rung& rung) {
     SceneDraft draft = *scene;
     draft.accuracy = {{}, {}, rung.name};
+    draft.image.layers = "none";
     return validate(std::move(draft));
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <mutex>
+#include <optional>
+#include <span>
 
 #include "core/base/parallel.h"
 #include "core/draw/behind_peak.h"
@@ -166,7 +168,8 @@ std::optional<Air> air_of(const Scene& scene, const View& view, const TransportL
 }
 
 // Marches all blocks; false: the deadline passed.
-bool march_blocks(const MarchScene& scene, int threads, const Deadline& deadline, Image& image) {
+bool march_blocks(const MarchScene& scene, int threads, const Deadline& deadline, Image& image,
+                  std::span<MarchedAlong> along = {}) {
     Rooms rooms;
     std::atomic<bool> late = false;
     for_each_block(*scene.seen, image.width, image.height, threads,
@@ -176,17 +179,88 @@ bool march_blocks(const MarchScene& scene, int threads, const Deadline& deadline
                            return;
                        }
                        BlockRoomPtr room = rooms.take();
-                       march_block(scene, x, y, items, *room, image);
+                       march_block(scene, x, y, items, *room, image, along);
                        rooms.give(std::move(room));
                    });
     return !late;
 }
 
+// Haze that only dims.
+Air dark(Air air) {
+    air.ambient = air.sun = glm::dvec3(0);
+    return air;
+}
+
+Image blank(const MarchScene& scene) {
+    Image image{scene.width, scene.height, false, {}};
+    image.pixels.resize(4 * image.pixel_count());
+    return image;
+}
+
+// What is marched beside a picture. It refers to all that it is made from.
+class Beside {
+  public:
+    // `picture`: what the picture is marched through.
+    Beside(const Scene& scene, const ParticleSet& particles, const MarchSettings& settings,
+           int threads, const MarchScene& picture, const LightsOnce* lights)
+        : picture_(picture), with_light_(lights != nullptr) {
+        if (picture.air != nullptr) air_ = dark(*picture.air);
+        const auto in_light = [&](const TransportLight& light) {
+            MarchScene other = scene_of(scene, picture.view, light, particles, *picture.seen,
+                                        settings.step_error, threads);
+            other.sky.backdrop = picture.sky.backdrop;  // rays end at its ground
+            other.air = air_ ? &*air_ : nullptr;
+            return other;
+        };
+        // In the picture's own light, so that its steps are the picture's.
+        MarchScene measured = picture;
+        measured.sky.behind = measured.sky.peak = false;
+        measured.measures = true;
+        along.push_back({measured, blank(picture)});
+        if (lights == nullptr) return;
+        along.push_back({in_light(lights->sun), blank(picture)});
+        along.push_back({in_light(lights->sky), blank(picture)});
+        along.back().scene.sun = glm::vec3(0);
+        if (!air_) return;
+        MarchScene all = picture;
+        all.air = &*air_;
+        all.sky.behind = false;
+        along.push_back({all, blank(picture)});
+    }
+    Beside(const Beside&) = delete;
+    Beside& operator=(const Beside&) = delete;
+
+    // False: the deadline passed.
+    bool take(int threads, const Deadline& deadline, MarchedBeside& to) {
+        to.distance = std::move(along[0].image);
+        if (with_light_) {
+            to.sun = std::move(along[1].image);
+            to.sky = std::move(along[2].image);
+            if (air_) to.all = std::move(along[3].image);
+        }
+        to.behind = blank(picture_);
+        if (!picture_.sky.behind) return true;
+        MarchScene bare = picture_;
+        const std::vector<SeenParticle> none;
+        bare.seen = &none;
+        bare.air = air_ ? &*air_ : nullptr;
+        return march_blocks(bare, threads, deadline, to.behind);
+    }
+
+    std::vector<MarchedAlong> along;
+
+  private:
+    const MarchScene& picture_;
+    const bool with_light_;
+    std::optional<Air> air_;
+};
+
 }  // namespace
 
 Result<Image> march(const Scene& scene, const ParticleSet& particles, const View& view,
                     const TransportLight& light, const MarchSettings& settings, int threads,
-                    const Deadline& deadline, EffectTimes* times) {
+                    const Deadline& deadline, EffectTimes* times, MarchedBeside* beside,
+                    const LightsOnce* lights) {
     EffectTimes took;
     if (auto error = deadline.over()) return *error;
     const bool behind = scene->image.background == Background::kSky;
@@ -211,7 +285,12 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     const std::optional<Air> air = air_of(scene, view, light, settings, threads, took);
     if (air) march.air = &*air;
 
-    if (!march_blocks(march, threads, deadline, image))
+    std::optional<Beside> others;
+    if (beside != nullptr) others.emplace(scene, particles, settings, threads, march, lights);
+    if (!march_blocks(march, threads, deadline, image,
+                      others ? std::span<MarchedAlong>(others->along) : std::span<MarchedAlong>()))
+        if (auto error = deadline.over()) return *error;
+    if (others && !others->take(threads, deadline, *beside))
         if (auto error = deadline.over()) return *error;
     if (times != nullptr) times->add(took);
     return image;

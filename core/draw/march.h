@@ -15,10 +15,29 @@ struct MarchSettings {
     EyeEffects eye_effects{};
 };
 
+// The sun's light and the sky's, each as the matter scatters it exactly once (core/light/once_scattered.h).
+struct LightsOnce {
+    TransportLight sun, sky;
+};
+
+// What is found beside a picture, along its very rays. Over nothing: alpha = 1 - transmittance.
+struct MarchedBeside {
+    // What comes of LightsOnce, dimmed by clouds and haze. EMPTY where these were not given.
+    Image sun, sky;
+    // All light of the clouds alone, dimmed by haze. EMPTY without haze, and where LightsOnce were not given.
+    Image all;
+    // Red: the mean distance at which the clouds stop the ray's light, scene units, times alpha; haze does not count.
+    Image distance;
+    // What stands behind the clouds, dimmed by haze alone; black where the picture is over nothing.
+    Image behind;
+};
+
 // The same picture for every number of threads. times: what it took is added to them; may be null.
+// beside: filled, unless it is null; its light where `lights` is given. The picture stays the same.
 // Errors: kOverDeadline, kCancelled.
 Result<Image> march(const Scene& scene, const ParticleSet& particles, const View& view,
                     const TransportLight& light, const MarchSettings& settings, int threads,
-                    const Deadline& deadline, EffectTimes* times = nullptr);
+                    const Deadline& deadline, EffectTimes* times = nullptr,
+                    MarchedBeside* beside = nullptr, const LightsOnce* lights = nullptr);
 
 }  // namespace awan

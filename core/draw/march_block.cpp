@@ -135,11 +135,14 @@ class BlockMarch {
             behind.once = once;
             behind.often = often;
         }
-        if (scene_.air != nullptr)
+        if (scene_.air != nullptr && !scene_.measures)
             kernels_.finish_air(scene_, air_tile(*scene_.air, room_.places[t]), block_.sun, up,
                                 behind, room_.tiles[t], to);
         else
             kernels_.finish(scene_, up, behind, room_.tiles[t], to);
+        if (scene_.measures)
+            for (int lane = 0; lane < simd::kLanes; ++lane)
+                to[lane][0] = room_.tiles[t].seen_air[lane];
     }
 
     bool any_alive() const {
@@ -266,7 +269,8 @@ class BlockMarch {
         if (spacing >= 0) look_up_corners(scene_, block_, samples, spacing, room_);
         const double ratio = progress.marched / progress.step;
         const double seam = std::min((ratio * ratio - 1) / 24, 0.25);
-        const bool haze = scene_.air != nullptr, albedo = !scene_.light.light->albedo.empty();
+        const bool haze = scene_.air != nullptr || scene_.measures,
+                   albedo = !scene_.light.light->albedo.empty();
         for (int t = 0; t < kTiles; ++t) {
             Tile& tile = room_.tiles[t];
             if (!has_matter(tile, count)) continue;
@@ -338,46 +342,66 @@ class BlockMarch {
 }  // namespace
 
 void march_block(const MarchScene& scene, int block_x, int block_y,
-                 const std::vector<std::uint32_t>& items, BlockRoom& room, Image& image) {
+                 const std::vector<std::uint32_t>& items, BlockRoom& room, Image& image,
+                 std::span<MarchedAlong> along) {
     const std::vector<FineTile> fine = fine_tiles(scene, block_x, block_y, items);
-    BlockMarch block(scene, place_block(scene, block_x, block_y, room), room);
-    for (const FineTile& one : fine) {
-        const int across = static_cast<int>(one.place.x) / kTileSide % 4,
-                  down = static_cast<int>(one.place.y) / kTileSide % 4;
-        room.tiles[down * 4 + across].alive = false;
-    }
-    if (!items.empty()) block.run(items);
-    // Of tiles that are divided, what stands behind the cloud.
-    block.draw(image);
+    const auto draw_pixels = [&](const MarchScene& of, Image& to) {
+        BlockMarch block(of, place_block(of, block_x, block_y, room), room);
+        for (const FineTile& one : fine) {
+            const int across = static_cast<int>(one.place.x) / kTileSide % 4,
+                      down = static_cast<int>(one.place.y) / kTileSide % 4;
+            room.tiles[down * 4 + across].alive = false;
+        }
+        if (!items.empty()) block.run(items);
+        // Of tiles that are divided, what stands behind the cloud.
+        block.draw(to);
+    };
+    draw_pixels(scene, image);
+    for (MarchedAlong& one : along) draw_pixels(one.scene, one.image);
     if (items.empty()) return;
 
-    FinePixels pixels;
-    const auto march_part = [&](std::span<const TilePlace> places,
-                                const std::vector<std::uint32_t>& part_items, FinePixels& to) {
-        BlockMarch part(scene, place_block(scene, block_x, block_y, places, room), room);
-        part.run(part_items);
-        part.add_to(to);
+    // Finer rays, of the picture and of what is marched along with it.
+    struct Finer {
+        FinePixels of_picture;
+        std::vector<FinePixels> of_along;
     };
-    const auto march_all = [&](const std::vector<TilePlace>& places, FinePixels& to) {
+    const auto march_part = [&](std::span<const TilePlace> places,
+                                const std::vector<std::uint32_t>& part_items, Finer& to) {
+        const auto march_one = [&](const MarchScene& of, FinePixels& pixels) {
+            BlockMarch part(of, place_block(of, block_x, block_y, places, room), room);
+            part.run(part_items);
+            part.add_to(pixels);
+        };
+        march_one(scene, to.of_picture);
+        for (std::size_t i = 0; i < along.size(); ++i) march_one(along[i].scene, to.of_along[i]);
+    };
+    const auto march_all = [&](const std::vector<TilePlace>& places, Finer& to) {
         const std::span<const TilePlace> all(places);
         for (std::size_t first = 0; first < all.size(); first += kTiles)
             march_part(all.subspan(first, std::min<std::size_t>(kTiles, all.size() - first)), items,
                        to);
     };
     const int left = block_x * kBlockSide, top = block_y * kBlockSide;
+    const auto draw_finer = [&](const Finer& finer) {
+        finer.of_picture.draw(left, top, image);
+        for (std::size_t i = 0; i < along.size(); ++i)
+            finer.of_along[i].draw(left, top, along[i].image);
+    };
     const bool lumps = scene.detail != nullptr;
+    Finer pixels{{}, std::vector<FinePixels>(along.size())};
     march_all(sharp_places(image, left, top, fine, lumps ? kMostSharpOfLumps : kTiles), pixels);
     for (std::size_t first = 0; first < fine.size();) {
         const FineBatch batch = batch_from(fine, first);
         march_part(batch.places, batch.items, pixels);
         first += batch.places.size();
     }
-    pixels.draw(left, top, image);
+    draw_finer(pixels);
     if (!lumps) return;
-    FinePixels finest;
-    march_all(pixels.sharp_places(left, top, brightest_pixel(image, left, top), kMostSharpOfLumps),
+    Finer finest{{}, std::vector<FinePixels>(along.size())};
+    march_all(pixels.of_picture.sharp_places(left, top, brightest_pixel(image, left, top),
+                                             kMostSharpOfLumps),
               finest);
-    finest.draw(left, top, image);
+    draw_finer(finest);
 }
 
 }  // namespace awan

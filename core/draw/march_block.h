@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/base/image.h"
@@ -18,8 +19,16 @@ struct BlockRoomDelete {
 using BlockRoomPtr = std::unique_ptr<BlockRoom, BlockRoomDelete>;
 BlockRoomPtr make_block_room();
 
-// Draws the block's pixels. `items`: the particles that it sees, indices into scene.seen, nearest first; may be empty.
+// The same matter in another light, or measured, along the very rays of a picture, and what comes of it.
+struct MarchedAlong {
+    MarchScene scene;
+    Image image;
+};
+
+// Draws the block's pixels, and those of what is marched along with it: where the picture changes sharply, all have
+// finer rays. `items`: the particles that it sees, indices into scene.seen, nearest first; may be empty.
 void march_block(const MarchScene& scene, int block_x, int block_y,
-                 const std::vector<std::uint32_t>& items, BlockRoom& room, Image& image);
+                 const std::vector<std::uint32_t>& items, BlockRoom& room, Image& image,
+                 std::span<MarchedAlong> along = {});
 
 }  // namespace awan

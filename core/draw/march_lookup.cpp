@@ -32,9 +32,13 @@ void look_up(const MarchScene& scene, double x, double y, const SampleRange& sam
 
 void look_up_air(const MarchScene& scene, double x, double y, const SampleRange& samples,
                  LightAt* out) {
-    if (scene.air == nullptr) return;
+    const int count = samples.last - samples.first + 1;
+    for (int k = 0; scene.measures && k < count; ++k)
+        out[k + 1].air =
+            static_cast<float>(samples.base + (samples.first + k + 0.5) * samples.step);
+    if (scene.air == nullptr || scene.measures) return;
     air_along(*scene.air, x, y, samples.base + (samples.first + 0.5) * samples.step, samples.step,
-              samples.last - samples.first + 1, out + 1);
+              count, out + 1);
 }
 
 }  // namespace

@@ -57,6 +57,8 @@ struct MarchScene {
     SkyBehind sky;
     const DetailField* detail = nullptr;  // null: there is none
     const Air* air = nullptr;             // null: there is no haze
+    // Instead of light, finds how far away rays end: red is the mean distance to where their light stops, times alpha.
+    bool measures = false;
     bool cut = false;  // whether rays end at backdrop->distance: there is matter below the ground
 };
 

@@ -93,6 +93,13 @@ double auto_exposure(const Scene& scene) {
     return std::clamp(stops, -limits::kMaxExposure, limits::kMaxExposure);
 }
 
+PictureNotes sky_notes_of(const Scene& scene) {
+    const Outside outside = outside_of(scene);
+    PictureNotes notes;
+    notes.sky = SkyNotes{outside.to_sun, outside.sun};
+    return notes;
+}
+
 double exposure_of(const Scene& scene) {
     const bool lit = scene->display == Display::kLit;
     return scene->image.exposure.value_or(lit ? auto_exposure(scene) : 0.0);

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/deadline.h"
 #include "core/base/image.h"
+#include "core/draw/layers.h"
 #include "core/formats/tone.h"
 #include "core/scene/scene.h"
 
@@ -30,6 +33,12 @@ Status check_pixels(const Image& image);
 // detail and would spend their bits on dither.
 std::vector<std::uint8_t> display_pixels(const Image& image, const FilmSettings& film);
 
+// What the header of a sky's map says: awan:sun_direction (unit, towards it) and awan:sun_irradiance (r g b, at normal
+// incidence), of the sun that the map lacks. OpenEXR's own `envmap` says that it is one.
+struct SkyNotes {
+    glm::dvec3 to_sun{0, 1, 0}, sun{0};
+};
+
 // How a picture came about, kept in its file as the attributes awan:rung, awan:error and awan:error_forecast. Of
 // numbers that are not finite nothing is kept.
 struct PictureNotes {
@@ -37,11 +46,28 @@ struct PictureNotes {
     std::string rung;
     // As stated, and what the plan expected.
     double error = 0, error_forecast = 0;
+    // Of a map of the sky alone (core/draw/sky_map.h).
+    std::optional<SkyNotes> sky{};
 };
+PictureNotes sky_notes_of(const Scene& scene);
 
-// Linear radiance, premultiplied alpha, channels R G B A, no tone curve, ZIP compression. Errors as of encode_png.
+// A further channel of an EXR: of every pixel, row by row from the top left, the value `apart` floats behind the last.
+struct ExrChannel {
+    // As compositing programs read it, "sun.R".
+    std::string name;
+    const float* first;
+    std::size_t apart = 1;
+    // It needs more than half floats have: it is of floats whatever the picture is of.
+    bool exact = false;
+};
+// Those of a picture's layers, which must outlive them: depth.Z, transmittance.Y, sun.R, sun.G, sun.B, ...
+std::vector<ExrChannel> channels_of(const PictureLayers& layers);
+
+// Linear radiance, premultiplied alpha, channels R G B A and `more`, no tone curve, ZIP compression. Errors as of
+// encode_png.
 Result<std::string> encode_exr(const Image& image, Precision precision,
-                               const PictureNotes& notes = {}, const Deadline& deadline = {});
+                               const PictureNotes& notes = {}, const Deadline& deadline = {},
+                               const std::vector<ExrChannel>& more = {});
 
 // How many threads pack EXR from now on, 1 to 256; before it is said, the caller alone. The bytes are the same. OpenEXR
 // has one set of threads for the whole process, so it is said where that begins, before anything is encoded.

@@ -16,8 +16,9 @@ struct VdbGrid {
     double cell;
 };
 
-// Gives the file's bytes to take(to, ...), one after the other. Null, or what went wrong (for ever valid).
-using WriteVdb = const char*(const VdbGrid& grid,
+// Gives the bytes of a file with these grids to take(to, ...), one after the other. Null, or what went wrong (for ever
+// valid).
+using WriteVdb = const char*(const VdbGrid* grids, std::size_t count,
                              void (*take)(void* to, const char* bytes, std::size_t size), void* to);
 inline constexpr const char* kWriteVdb = "awan_write_vdb";
 inline constexpr const char* kVdbModule = "awan_openvdb.so";

@@ -73,6 +73,7 @@ Result<SolvedBand> solve_band(const BandProblem& problem, const Ordinates& ordin
     std::vector<float> right(source.size());
     sweep(matter.grid, ordinates, {source}, problem.inflow, threads, space, {right},
           problem.from_below);
+    if (problem.once) return SolvedBand{band_of(problem, right), 1, 0};
 
     const Sharpening sharpening = make_sharpening(matter.grid, ordinates);
     std::vector<float> first(cells), even(cells);

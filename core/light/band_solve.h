@@ -28,6 +28,8 @@ struct BandProblem {
     std::function<void(std::span<const float> unsettled, std::span<float> addition)> spread{};
     double tolerance = 1e-3;  // of the residual, relative to the source
     int max_sweeps = 40;
+    // Only light that has not been scattered before: the source function of what it scatters once.
+    bool once = false;
 };
 
 struct SolvedBand {

@@ -4,16 +4,28 @@
 
 namespace awan {
 
-ScatteringSplit split_scattering(const Medium& medium) {
+namespace {
+
+// f: the peak's share.
+ScatteringSplit split_by(const Medium& medium, double f) {
     ScatteringSplit split;
     split.albedo = medium.albedo;
-    const double f = medium.g > 0 ? phase_moment(medium, kOrders) : 0;
     split.peak_share = f;
     for (std::size_t l = 0; l < kOrders; ++l)
         split.moment[l] = (phase_moment(medium, static_cast<int>(l)) - f) / (1 - f);
     const bool isotropic = medium.g == 0 && medium.phase == PhaseFunction::kHenyeyGreenstein;
     split.harmonics = isotropic ? 1 : kHarmonics;
     return split;
+}
+
+}  // namespace
+
+ScatteringSplit split_scattering(const Medium& medium) {
+    return split_by(medium, medium.g > 0 ? phase_moment(medium, kOrders) : 0);
+}
+
+ScatteringSplit whole_scattering(const Medium& medium) {
+    return split_by(medium, 0);
 }
 
 }  // namespace awan

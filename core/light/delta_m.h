@@ -29,4 +29,7 @@ struct ScatteringSplit {
 
 ScatteringSplit split_scattering(const Medium& medium);
 
+// The phase function up to order L as it is, with nothing taken for a peak: for light that scatters once.
+ScatteringSplit whole_scattering(const Medium& medium);
+
 }  // namespace awan

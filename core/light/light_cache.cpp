@@ -10,8 +10,8 @@ namespace awan {
 // The settings are taken apart by name, so that one that is added to them does not compile until it is in the key.
 std::string light_key(const Scene& scene, const TransportSettings& settings, std::uint64_t variant,
                       const DetailField* detail) {
-    const auto& [cells, sun_cells, tolerance, max_sweeps, sky, ground, ground_shadow, last,
-                 islands] = settings;
+    const auto& [cells, sun_cells, tolerance, max_sweeps, sky, ground, ground_shadow, sky_once,
+                 last, islands] = settings;
     std::string key = light_fingerprint(scene);
     const auto add = [&](std::uint64_t value) { key += ':' + std::to_string(value); };
     add(variant);
@@ -22,6 +22,7 @@ std::string light_key(const Scene& scene, const TransportSettings& settings, std
     add(sky ? 1 : 0);
     add(ground ? 1 : 0);
     add(ground_shadow ? 1 : 0);
+    add(sky_once ? 1 : 0);
     add(last ? 1 : 0);
     add(islands.size());
     for (const auto& [own_cells, own_sun_cells] : islands) {

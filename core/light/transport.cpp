@@ -34,7 +34,8 @@ struct PartSolve {
     const Deadline& deadline;
 
     Outside outside = outside_of(scene);
-    ScatteringSplit split = split_scattering(scene->medium);
+    ScatteringSplit split =
+        settings.sky_once ? whole_scattering(scene->medium) : split_scattering(scene->medium);
     bool over_ground = has_ground(*scene, bounds_of(part.own));
     bool colored = !part.all.color.empty();
     // A part of a scene has the ground's light from the solve of the whole.
@@ -104,6 +105,7 @@ Result<SolvedBand> band_of(const PartSolve& solve, const Shine& shine, std::size
     problem.guess = std::move(guess);
     problem.tolerance = (shine.beam ? 1 : kSkyTolerance) * solve.settings.tolerance;
     problem.max_sweeps = solve.settings.max_sweeps;
+    problem.once = solve.settings.sky_once;
     auto solved = solve_band(problem, solve.ordinates, solve.threads, solve.deadline);
     if (!solved.ok()) return solved;
     solved->band.color = shine.color;
@@ -292,6 +294,7 @@ Result<TransportLight> solve_grid(PartSolve solve) {
     light.ground.into_cloud = solve.own_ground() && solve.settings.ground;
     if (solve.settings.cells == 0) return without_grid(solve, std::move(light));
 
+    if (solve.settings.sky_once) solve.outside.sun = glm::dvec3(0);
     if (Status failed = prepare_grid(solve, light)) return *failed;
     if (has_bands_of_coarser(solve, light)) {
         light.bands = solve.coarser->bands;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/plan/criteria.h"
+#include "core/scene/layers.h"
 
 namespace awan {
 namespace {
@@ -192,8 +193,10 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
         if (whole > 0) whole = std::hypot(whole, survey.model_error);
         if (painted && rung.method == Method::kSplats)
             whole = std::numeric_limits<double>::quiet_NaN();
-        if (rung.method == Method::kSplats ||
-            (!wants_splats(scene) && (paths || rung.method != Method::kPaths)))
+        if (wants_layers(scene)
+                ? rung.method == Method::kMarch
+                : rung.method == Method::kSplats ||
+                      (!wants_splats(scene) && (paths || rung.method != Method::kPaths)))
             candidates.push_back(plan.forecasts.back());
     }
     Choice choice;
@@ -285,6 +288,10 @@ bool wants_splats(const Scene& scene) {
          {Effect::kSelfShadow, Effect::kMultipleScattering, Effect::kViewExtinction})
         if (scene->effects[static_cast<int>(effect)] == Switch::kOff) return true;
     return draws_textures(*scene);
+}
+
+bool wants_layers(const Scene& scene) {
+    return read_layers(scene->image.layers).value_or(Layers{}).any();
 }
 
 void plan_samples(Plan& plan, std::uint32_t samples, const Scene& scene, const Survey& survey,

@@ -51,6 +51,9 @@ inline constexpr double kPatience_ms = 20e3;
 // as they follow all light there is, or its billboards are painted.
 bool wants_splats(const Scene& scene);
 
+// Whether its picture has layers (core/scene/layers.h), which only the march can tell apart.
+bool wants_layers(const Scene& scene);
+
 // Other paths a pixel for rung truth than the plan has, and what is predicted of it then; otherwise as plan().
 void plan_samples(Plan& plan, std::uint32_t samples, const Scene& scene, const Survey& survey,
                   int threads, const MachineSpeed& speed);

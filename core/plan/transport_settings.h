@@ -30,6 +30,8 @@ struct TransportSettings {
     bool ground = false;
     // Whether the cloud shades the ground and sends it light of its own.
     bool ground_shadow = false;
+    // The sky's light alone, and of that only what the matter scatters exactly once.
+    bool sky_once = false;
     // Whether no finer grid goes on from this one.
     bool last = false;
     // One for each of Survey::islands; EMPTY: one grid holds all.

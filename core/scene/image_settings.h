@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/scene/limits.h"
 #include "core/scene/table.h"
@@ -32,6 +33,8 @@ struct ImageSettings {
     // None: automatic (core/formats/image_file.h).
     std::optional<double> exposure;
     Tone tone = Tone::kNeutral;
+    // As read_layers() reads it (layers.h).
+    std::string layers = "none";
 };
 
 inline constexpr Field kImageFields[] = {
@@ -69,6 +72,12 @@ inline constexpr Field kImageFields[] = {
                                      "cyan or magenta on its way to white."}),
     field<&ImageSettings::precision>(
         {.name = "precision", .words = kPrecisionWords, .says = "Of EXR's samples."}),
+    field<&ImageSettings::layers>(
+        {.name = "layers",
+         .wanted = R"("all", "none" or names of layers with commas between them)",
+         .says = "Of EXR, more channels beside the colours: all, none, or some of depth, "
+                 "transmittance, sun, sky, multiple, haze and background with commas between them. "
+                 "A picture with layers is an EXR; the rungs single and transport-* have them."}),
 };
 static_assert(covers<ImageSettings>(kImageFields));
 

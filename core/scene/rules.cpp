@@ -11,6 +11,7 @@
 #include "core/scene/checks.h"
 #include "core/scene/ellipsoids.h"
 #include "core/scene/implicit.h"
+#include "core/scene/layers.h"
 #include "core/scene/limits.h"
 #include "core/scene/rungs.h"
 #include "core/scene/spheres.h"
@@ -261,6 +262,32 @@ Status check_image(const ImageSettings& image) {
     return std::nullopt;
 }
 
+// Whether what is asked for can be told apart: only the march can.
+Status check_layers(const SceneDraft& draft) {
+    const auto layers = read_layers(draft.image.layers);
+    if (!layers) return invalid("/image/layers", "must be " + std::string(kLayersWanted));
+    if (!layers->any()) return std::nullopt;
+    constexpr const char* kWho =
+        "; leave `layers` out, or ask for one of the rungs single and transport-*";
+    if (draft.look != Look::kPhysical)
+        return invalid("/image/layers",
+                       std::string("the look ") + kLookWords[static_cast<int>(draft.look)] +
+                           " is not made of light, and cannot be taken apart into layers");
+    const Rung* const rung = draft.accuracy.rung ? find_rung(*draft.accuracy.rung) : nullptr;
+    if (rung != nullptr && rung->method != Method::kMarch)
+        return invalid("/image/layers", std::string("rung ") + rung->name +
+                                            " cannot take its light apart into layers" + kWho);
+    for (const Effect effect :
+         {Effect::kSelfShadow, Effect::kMultipleScattering, Effect::kViewExtinction})
+        if (draft.effects[static_cast<int>(effect)] == Switch::kOff && rung == nullptr)
+            return invalid("/image/layers", std::string("without the effect ") +
+                                                effect_name(effect) +
+                                                " the picture is of splats, which cannot take "
+                                                "their light apart into layers" +
+                                                kWho);
+    return std::nullopt;
+}
+
 Status check_accuracy(const Accuracy& accuracy) {
     const int given =
         accuracy.error.has_value() + accuracy.time_ms.has_value() + accuracy.rung.has_value();
@@ -284,7 +311,8 @@ Status check_rules(const SceneDraft& draft) {
     if (draft.sequence)
         if (Status wrong = check_camera_keys(draft.sequence->camera)) return wrong;
     if (Status wrong = check_look(draft)) return wrong;
-    return check_accuracy(draft.accuracy);
+    if (Status wrong = check_accuracy(draft.accuracy)) return wrong;
+    return check_layers(draft);
 }
 
 }  // namespace awan

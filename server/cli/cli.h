@@ -9,6 +9,7 @@
 
 #include "core/base/result.h"
 #include "core/gl/device.h"
+#include "core/impostor.h"
 #include "server/cli/scene_input.h"
 #include "server/http/server.h"
 
@@ -36,6 +37,8 @@ struct RenderCommand {
     int columns = 0;
     // "", "sky", "transparent".
     std::string background;
+    // In place of the document's, as ImageSettings::layers.
+    std::optional<std::string> layers;
     // Of rung, error and time_ms at most one is set.
     std::optional<std::string> rung;
     std::optional<double> error, time_ms;
@@ -105,6 +108,8 @@ struct ParticlesCommand {
     std::string format;
     // Cells along the longest side of a volume.
     int voxels = 128;
+    // Whether that has the light too.
+    bool light = false;
     // Seconds, in place of the document's.
     std::optional<double> time;
     // Of the scene's sequence: "", "all", "3", "0-11,20".
@@ -114,6 +119,30 @@ struct ParticlesCommand {
     int threads = 1;
 };
 int run_particles(const ParticlesCommand& command);
+
+// A map of the scene's sky.
+struct SkyCommand {
+    SceneInput scene;
+    std::string output;
+    // "", "exr", "png".
+    std::string format;
+    // Pixels, even; half as high.
+    int width = limits::kSkyMapWidth;
+    int threads = 1;
+};
+int run_sky(const SkyCommand& command);
+
+// A scene from many sides.
+struct ImpostorCommand {
+    SceneInput scene;
+    std::string output;
+    // "", "png", "exr".
+    std::string format;
+    ImpostorWish wish;
+    int threads = 1;
+    DeviceChoice device = DeviceChoice::kAuto;
+};
+int run_impostor(const ImpostorCommand& command);
 
 struct PlanCommand {
     SceneInput scene;

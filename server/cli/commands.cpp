@@ -13,6 +13,7 @@
 #include "server/cli/cli.h"
 #include "server/cli/files.h"
 #include "server/cli/frames.h"
+#include "server/cli/lit_volume.h"
 #include "server/cli/support.h"
 #include "server/document/json.h"
 #include "server/service/problem.h"
@@ -53,6 +54,11 @@ Status particles_to(const std::string& path, const std::string& format, const Sc
         auto layout = format == "awn" ? write_awn(*scene) : write_awa(*scene);
         if (!layout) return layout.error();
         return write_output(path, *layout);
+    }
+    if (command.light) {
+        auto bytes = encode_lit_vdb(scene, command.voxels, kVolumeWork, command.threads);
+        if (!bytes) return bytes.error();
+        return write_output(path, *bytes);
     }
     auto particles = generate(scene, command.threads, Deadline{});
     if (!particles) return particles.error();
@@ -99,6 +105,7 @@ int run_particles(const ParticlesCommand& command) {
     const auto format = output_format(command.output, command.format,
                                       {"json", "csv", "ply", "awn", "awa", "glb", "vdb"}, "json");
     if (!format) return bad_usage(format.error().message);
+    if (command.light && *format != "vdb") return bad_usage("--light is of a .vdb");
     const bool binary = *format == "ply" || *format == "glb" || *format == "vdb";
     if (binary && binary_to_terminal(command.output))
         return bad_usage("-o -: " + *format + " is not written to a terminal");

@@ -170,6 +170,9 @@ int run_fly(const FlyCommand& command) {
     const RenderCommand render = drawing(command);
     auto targets = targets_of(render, "png");
     if (!targets) return bad_usage(targets.error().message);
+    // Animations and reports have no use for them.
+    const auto is_exr = [](const Target& target) { return target.format == "exr"; };
+    if (std::none_of(targets->begin(), targets->end(), is_exr)) draft.image.layers = "none";
     Work work(render, *std::move(targets));
     if (command.timeout_seconds > 0)
         work.deadline.until = start + std::chrono::duration_cast<Clock::duration>(

@@ -216,6 +216,9 @@ Run add_render(CLI::App& app) {
     add(*render, "--background", command->background,
         "sky or transparent, instead of the document's")
         ->check(CLI::IsMember({"sky", "transparent"}));
+    add(*render, "--layers", command->layers,
+        "of an .exr, channels beside the colours, instead of the document's: all, none, or some of "
+        "depth,transmittance,sun,sky,multiple,haze,background");
     CLI::Option* const rung = add(*render, "--rung", command->rung,
                                   "a rung of accuracy by name, instead of the document's accuracy");
     rung->check(CLI::IsMember(rung_names()));
@@ -364,6 +367,12 @@ Run add_particles(CLI::App& app) {
     add(*particles, "--voxels", command->voxels,
         "cells along the longest side of a .vdb; fewer where it would take long")
         ->check(CLI::Range(8, 1024));
+    particles
+        ->add_flag(
+            "--light", command->light,
+            "of a .vdb: a grid `light` beside `density`, the mean radiance that matter sends "
+            "out per optical depth")
+        ->envname("AWAN_LIGHT");
     add(*particles, "--time", command->time, "seconds, instead of the document's");
     add(*particles, "--frames", command->frames,
         "of the scene's sequence, to numbered files: all, or numbers from 0 as 3, 0-11,20 or "
@@ -372,6 +381,54 @@ Run add_particles(CLI::App& app) {
     add_state(*particles, command->scene);
     add_threads(*particles, command->threads);
     return [command] { return run_particles(*command); };
+}
+
+Run add_sky(CLI::App& app) {
+    auto command = std::make_shared<SkyCommand>();
+    command->threads = processors();
+    CLI::App* sky = app.add_subcommand(
+        "sky", "a scene's sky all around, without sun and clouds, as an environment map");
+    add_scene(*sky, command->scene);
+    add(*sky, "-o,--output", command->output, "an .exr or a .png file, or - for standard output")
+        ->required();
+    add(*sky, "--format", command->format, "exr or png, for standard output")
+        ->check(CLI::IsMember({"exr", "png"}));
+    add(*sky, "--width", command->width, "pixels, an even number; the map is half as high")
+        ->check(CLI::Range(2, limits::kMaxImageSide));
+    add_threads(*sky, command->threads);
+    sky->footer(
+        "Equirectangular: +y is up, +z (azimuth 0) in the middle, +x (azimuth 90) a quarter from\n"
+        "the left. The EXR's header has the sun's direction and irradiance (awan:sun_direction,\n"
+        "awan:sun_irradiance), for a light of its own.");
+    return [command] { return run_sky(*command); };
+}
+
+Run add_impostor(CLI::App& app) {
+    auto command = std::make_shared<ImpostorCommand>();
+    auto full = std::make_shared<bool>(false);
+    command->threads = processors();
+    CLI::App* impostor = app.add_subcommand(
+        "impostor", "a scene from many sides on one atlas, for cards in a game engine");
+    add_scene(*impostor, command->scene);
+    add(*impostor, "-o,--output", command->output,
+        "a .png or an .exr (with depth) file; its layout goes to the .json beside it")
+        ->required();
+    add(*impostor, "--format", command->format, "png or exr; must agree with the file's name")
+        ->check(CLI::IsMember({"png", "exr"}));
+    add(*impostor, "--views", command->wish.views, "along a side of the atlas")
+        ->check(CLI::Range(2, kMostImpostorViews));
+    add(*impostor, "--size", command->wish.size, "pixels of a view's side")
+        ->check(CLI::Range(1, kMostImpostorSize));
+    impostor
+        ->add_flag("--full", *full,
+                   "from below too: octahedral instead of hemi-octahedral, down to the horizon")
+        ->envname("AWAN_FULL");
+    add_threads(*impostor, command->threads);
+    add_device(*impostor, command->device);
+    return [command, full] {
+        if (*full) command->wish.mapping = ImpostorMapping::kSphere;
+        return run_impostor(*command);
+    };
 }
 
 Run add_plan(CLI::App& app) {
@@ -482,6 +539,8 @@ int main(int argc, char** argv) {
                                                     {"fly", add_fly(app)},
                                                     {"accuracy", add_accuracy(app)},
                                                     {"particles", add_particles(app)},
+                                                    {"sky", add_sky(app)},
+                                                    {"impostor", add_impostor(app)},
                                                     {"plan", add_plan(app)},
                                                     {"convert", add_convert(app)},
                                                     {"state", add_state_command(app)},

@@ -23,7 +23,8 @@ Result<std::string> encode(const Rendered& rendered, const Scene& scene, const s
                            int bits, int threads) {
     if (format == "exr") {
         if (rendered.image.pixel_count() >= kLargePicture) set_exr_threads(threads);
-        return encode_exr(rendered.image, scene->image.precision, notes_of(rendered));
+        return encode_exr(rendered.image, scene->image.precision, notes_of(rendered), {},
+                          channels_of(rendered.layers));
     }
     return encode_png(rendered.image, film_of(scene), bits);
 }

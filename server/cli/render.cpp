@@ -1,6 +1,7 @@
 // awan render: a scene to its picture, or its sequence to frames.
 #include <algorithm>
 
+#include "core/scene/layers.h"
 #include "core/scene/validate.h"
 #include "server/cli/cli.h"
 #include "server/cli/files.h"
@@ -40,6 +41,7 @@ void apply_flags(const RenderCommand& command, SceneDraft& draft) {
         draft.accuracy = {command.error, command.time_ms, command.rung};
     if (command.background == "sky") image.background = Background::kSky;
     if (command.background == "transparent") image.background = Background::kTransparent;
+    if (command.layers) image.layers = *command.layers;
     if (command.time) draft.time = *command.time;
 }
 
@@ -81,6 +83,11 @@ int run_render(const RenderCommand& command) {
     draft->image.format = std::any_of(targets->begin(), targets->end(), is_exr) ? ImageFormat::kExr
                           : bits == 16 ? ImageFormat::kPng16
                                        : ImageFormat::kPng;
+    const auto holds_layers = [&](const Target& target) { return is_exr(target) && !target.sheet; };
+    if (read_layers(draft->image.layers).value_or(Layers{}).any() &&
+        std::none_of(targets->begin(), targets->end(), holds_layers))
+        return bad_usage("layers (" + draft->image.layers +
+                         ") are written to an .exr alone: give -o one, or --layers none");
     const auto is_standard = [](const Target& target) { return target.path == "-"; };
     const auto is_sheet = [](const Target& target) { return target.sheet; };
     if (command.flipbook && std::none_of(targets->begin(), targets->end(), is_sheet))

@@ -18,6 +18,8 @@ struct JobText {
     std::string_view format;
     // Of a flight, as they stand: words without their quotes, a number; "" where there is none.
     std::string_view path, mode, frames, rung;
+    // Of an impostor, likewise.
+    std::string_view views, size, mapping;
 };
 
 // Only the outer object is read; what stands in `scene` is parse_scene()'s business. Costs no memory, whatever the

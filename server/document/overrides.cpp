@@ -6,14 +6,16 @@
 #include <limits>
 
 #include "core/formats/numbers.h"
+#include "core/scene/layers.h"
 #include "core/scene/limits.h"
 #include "core/scene/rungs.h"
 
 namespace awan {
 namespace {
 
-constexpr std::array<std::string_view, 9> kNames = {
-    "width", "height", "format", "background", "seed", "error", "time_ms", "rung", "radius"};
+constexpr std::array<std::string_view, 10> kNames = {"width",  "height", "format", "background",
+                                                     "layers", "seed",   "error",  "time_ms",
+                                                     "rung",   "radius"};
 
 Error wrong_value(std::string_view name, const std::string& wanted, std::string_view value) {
     return {ErrorCode::kMalformed, "",
@@ -60,6 +62,9 @@ Status read_one(std::string_view name, std::string_view value, Overrides& to) {
         if (value != "sky" && value != "transparent")
             return wrong_value(name, "sky or transparent", value);
         to.background = value == "sky" ? Background::kSky : Background::kTransparent;
+    } else if (name == "layers") {
+        if (!read_layers(value)) return wrong_value(name, std::string(kLayersWanted), value);
+        to.layers = value;
     } else if (name == "seed") {
         to.seed = read_number<std::uint64_t>(value);
         if (!to.seed) return wrong_value(name, "an integer from 0 to 18446744073709551615", value);
@@ -95,6 +100,7 @@ void override_scene(const Overrides& overrides, SceneDraft& draft) {
     if (overrides.width) image.width = *overrides.width;
     if (overrides.height) image.height = *overrides.height;
     if (overrides.background) image.background = *overrides.background;
+    if (overrides.layers) image.layers = *overrides.layers;
     for (std::size_t i = 0; i < std::size(kImageFormatWords); ++i)
         if (overrides.format == kImageFormatWords[i]) image.format = static_cast<ImageFormat>(i);
     if (overrides.seed) draft.seed = *overrides.seed;

@@ -19,6 +19,8 @@ struct Overrides {
     // Of the answer: a word that its route knows, such as png or csv.
     std::optional<std::string> format;
     std::optional<Background> background;
+    // As ImageSettings::layers.
+    std::optional<std::string> layers;
     std::optional<std::uint64_t> seed;
     // At most one of the three: what is asked of accuracy, in place of the document's.
     std::optional<double> error, time_ms;
@@ -29,7 +31,7 @@ struct Overrides {
 
 // "width, height, ...": the names that there are.
 inline constexpr std::string_view kOverrideNames =
-    "width, height, format, background, seed, error, time_ms, rung, radius";
+    "width, height, format, background, layers, seed, error, time_ms, rung, radius";
 bool is_override(std::string_view name);
 
 // From names and values as they come in a query; others than overrides are passed over. Errors are kMalformed, with the

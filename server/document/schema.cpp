@@ -6,6 +6,7 @@
 
 #include "core/scene/fingerprint.h"
 #include "core/scene/implicit.h"
+#include "core/scene/layers.h"
 #include "core/scene/limits.h"
 #include "core/scene/rungs.h"
 #include "core/scene/scene.h"
@@ -85,9 +86,18 @@ std::string reference(const std::string& schema) {
     return R"({"$ref":"#/components/schemas/)" + schema + "\"}";
 }
 
+std::string layers_schema() {
+    std::string names;
+    for (const char* const word : kLayerWords)
+        names += (names.empty() ? "" : "|") + std::string(word);
+    return R"({"type":"string","pattern":"^(all|none|()" + names + ")(,(" + names +
+           R"())*)$","examples":["none","all","depth,sun"]})";
+}
+
 // A name; of a rung, one of those there are; of a texture, those that are always there as examples.
 std::string text_schema(const Field& field) {
     if (std::string_view(field.name) == "rung") return reference("Rung");
+    if (std::string_view(field.name) == "layers") return layers_schema();
     if (std::string_view(field.name) == "texture") return reference("TextureName");
     return R"({"type":"string","maxLength":)" + std::to_string(limits::kMaxString) + '}';
 }
@@ -194,6 +204,9 @@ void add_default(const Field& field, const void* standards, std::string& out) {
             break;
         case Holds::kWord:
             if (value) words("default", field.words[field.access.word(value)], out);
+            break;
+        case Holds::kText:
+            if (value) words("default", static_cast<const std::string*>(value)->c_str(), out);
             break;
         case Holds::kSwitch:
             words("default", "auto", out);

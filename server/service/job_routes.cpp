@@ -38,7 +38,8 @@ const std::vector<JobKind>& job_kinds() {
          {{"webp", "image/webp"},
           {"apng", "image/apng"},
           {"zip", "application/zip"},
-          {"json", "application/json"}}}};
+          {"json", "application/json"}}},
+        {"impostor", "", {{"zip", "application/zip"}}}};
     return kinds;
 }
 
@@ -95,12 +96,46 @@ Result<FlightWish> flight_wish(const JobText& text) {
     return wish;
 }
 
+Result<int> count_at(std::string_view text, int least, int most, int usual, const char* pointer) {
+    if (text.empty()) return usual;
+    const auto count = read_number<int>(text);
+    if (count && *count >= least && *count <= most) return *count;
+    return wrong(pointer, "must be an integer from " + std::to_string(least) + " to " +
+                              std::to_string(most));
+}
+
+Result<ImpostorWish> impostor_wish(const JobText& text) {
+    ImpostorWish wish;
+    if (text.kind != "impostor") {
+        for (const auto& [value, pointer] :
+             {std::pair(text.views, "/views"), std::pair(text.size, "/size"),
+              std::pair(text.mapping, "/mapping")})
+            if (!value.empty()) return wrong(pointer, "is of jobs of kind impostor");
+        return wish;
+    }
+    const auto views = count_at(text.views, 2, kMostImpostorViews, wish.views, "/views");
+    if (!views) return views.error();
+    const auto size = count_at(text.size, 1, kMostImpostorSize, wish.size, "/size");
+    if (!size) return size.error();
+    wish.views = *views;
+    wish.size = *size;
+    if (wish.views * wish.size > limits::kMaxImageSide)
+        return wrong("/size", "times views must be at most " +
+                                  std::to_string(limits::kMaxImageSide) + " pixels");
+    if (!text.mapping.empty()) {
+        const auto mapping = word_at(text.mapping, kImpostorWords, "/mapping");
+        if (!mapping) return mapping.error();
+        wish.mapping = static_cast<ImpostorMapping>(*mapping);
+    }
+    return wish;
+}
+
 // The request whose answer is the job's result.
 Result<JobWork> work_of(const JobText& text, const Request& request) {
     const auto kind = std::find_if(job_kinds().begin(), job_kinds().end(),
                                    [&](const JobKind& k) { return k.name == text.kind; });
     if (kind == job_kinds().end())
-        return wrong("/kind", R"(must be "render", "accuracy", "sequence" or "fly")");
+        return wrong("/kind", R"(must be "render", "accuracy", "sequence", "fly" or "impostor")");
     const auto format = text.format.empty()
                             ? kind->formats.begin()
                             : std::find_if(kind->formats.begin(), kind->formats.end(),
@@ -113,7 +148,10 @@ Result<JobWork> work_of(const JobText& text, const Request& request) {
     }
     auto flight = flight_wish(text);
     if (!flight) return flight.error();
+    const auto impostor = impostor_wish(text);
+    if (!impostor) return impostor.error();
     JobWork work;
+    work.impostor = *impostor;
     work.flight = *std::move(flight);
     work.id = request_id_from("");
     work.kind = text.kind;
@@ -297,6 +335,7 @@ Response tell_job(Service::State& state, const Request& request) {
 
 Response answer_job_work(Service::State& state, const JobWork& work, const Request& request) {
     if (work.kind == "sequence" || work.kind == "fly") return answer_sequence(state, request, work);
+    if (work.kind == "impostor") return answer_impostor(state, request, work);
     return answer_scene_request(state, request);
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/flight_path.h"
+#include "core/impostor.h"
 #include "server/service/service.h"
 
 namespace awan {
@@ -33,6 +34,7 @@ struct JobWork {
     std::string idempotency_key, digest;
     // Of a flight.
     FlightWish flight{};
+    ImpostorWish impostor{};
 };
 
 struct JobView {

@@ -217,7 +217,8 @@ std::string server_timing(std::span<const std::pair<const char*, double>> millis
 Result<std::string> encode_picture(const Rendered& rendered, const Scene& scene,
                                    std::string_view type, const Deadline& deadline) {
     if (type == kExr)
-        return encode_exr(rendered.image, scene->image.precision, notes_of(rendered), deadline);
+        return encode_exr(rendered.image, scene->image.precision, notes_of(rendered), deadline,
+                          channels_of(rendered.layers));
     return encode_png(rendered.image, film_of(scene),
                       scene->image.format == ImageFormat::kPng16 ? 16 : 8, deadline);
 }

@@ -34,6 +34,8 @@ constexpr std::array kAccuracyOffers = {kJson, kCsv, std::string_view("image/png
 constexpr std::array<std::string_view, 2> kRenderOffers = {"image/png", "image/x-exr"};
 // Where the document prefers it.
 constexpr std::array<std::string_view, 2> kRenderOffersExrFirst = {"image/x-exr", "image/png"};
+// Of a picture with layers.
+constexpr std::array<std::string_view, 1> kLayerOffers = {"image/x-exr"};
 
 // Documents over this many bytes, or scenes over this many particles, and sequences, whose rung is settled on three of
 // their frames, take long before anything is planned.
@@ -43,6 +45,7 @@ constexpr std::uint64_t kManyParticles = 200'000;
 std::span<const std::string_view> offers_of(std::string_view path) {
     if (path == "/v1/particles") return kParticleOffers;
     if (path == "/v1/render") return kRenderOffers;
+    if (path == kSkyPath) return kRenderOffersExrFirst;
     if (path == kAccuracyPath) return kAccuracyOffers;
     return kPlanOffers;
 }
@@ -211,10 +214,24 @@ Response not_offered(const Request& request, int status, std::string_view what) 
     return problem(status, detail, "", request.id);
 }
 
+bool has_layers(std::string_view path, const Scene& scene) {
+    return path == "/v1/render" && wants_layers(scene);
+}
+
+// What there is of a scene, in the order that its document prefers.
+std::span<const std::string_view> offers_of(std::string_view path, const Scene& scene) {
+    if (has_layers(path, scene)) return kLayerOffers;
+    if (path == "/v1/render" && scene->image.format == ImageFormat::kExr)
+        return kRenderOffersExrFirst;
+    return offers_of(path);
+}
+
 Response answer_as(Service::State& state, const Request& request, const Scene& scene,
-                   std::string_view type, Lanes::Pass& pass) {
+                   const Overrides& overrides, std::string_view type, Lanes::Pass& pass) {
     if (request.path == "/v1/render") return answer_render(state, request, scene, type, pass);
     if (request.path == "/v1/plan") return answer_plan(state, request, scene, pass);
+    if (request.path == kSkyPath)
+        return answer_sky(state, request, scene, overrides.width, type, pass);
     if (request.path == kAccuracyPath) {
         // A sweep takes long, and there is one at most: others compute beside it.
         pass.leave();
@@ -261,15 +278,17 @@ Response answer_scene_request(Service::State& state, const Request& request) {
                                       Weight::kLong, request))
             return std::move(*refused);
 
-    // What the client asks for; where it has no preference, what the document says.
-    const bool exr = request.path == "/v1/render" && scene->image.format == ImageFormat::kExr;
-    const auto type = chosen_offer(
-        request, read->overrides.format.value_or(""),
-        exr ? std::span<const std::string_view>(kRenderOffersExrFirst) : offers_of(request.path));
+    const std::string format = read->overrides.format.value_or("");
+    const auto type = chosen_offer(request, format, offers_of(request.path, scene));
+    if (!type && has_layers(request.path, scene))
+        return problem(format.empty() ? 406 : 400,
+                       "only an EXR holds layers (" + scene->image.layers +
+                           "): ask for image/x-exr, or with layers=none for a picture without them",
+                       "/image/layers", request.id);
     if (!type)
         return not_offered(request, 400,
                            "the field `format` names none of what can be answered here:");
-    Response response = answer_as(state, request, scene, *type, pass);
+    Response response = answer_as(state, request, scene, read->overrides, *type, pass);
     const std::string notes = notes_header(read->notes);
     if (!notes.empty()) response.headers.emplace_back("Awan-Notes", notes);
     return response;

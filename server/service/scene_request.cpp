@@ -45,6 +45,10 @@ bool is_form(std::string_view type) {
 Status check_names(const Request& request) {
     const bool accuracy = request.path == kAccuracyPath;
     for (const auto& [name, value] : request.query) {
+        if (request.path == kSkyPath && name != "width" && name != "format")
+            return Error{ErrorCode::kMalformed, "",
+                         "there is no query parameter " + short_quote(name) +
+                             " of a map; there are width and format"};
         if (is_override(name)) continue;
         if (accuracy &&
             std::find(kAccuracyNames.begin(), kAccuracyNames.end(), name) != kAccuracyNames.end())

@@ -34,6 +34,9 @@ class Reel {
     // format: "webp", "apng", "zip", "flipbook", or of a flight "json": its report alone.
     static Result<Reel> begin(const std::string& format, const Scene& scene) {
         Reel reel;
+        if (wants_layers(scene) && format != "zip")
+            return in_scene({ErrorCode::kInvalidScene, "/image/layers",
+                             "only EXRs hold layers: ask for the format \"zip\", or for none"});
         if (format == "json") return reel;
         const std::uint64_t frames = scene->sequence->frames;
         if (format == "zip" || format == "flipbook") {
@@ -69,7 +72,7 @@ class Reel {
             return std::nullopt;
         }
         if (!archive_) return std::nullopt;
-        const bool exr = scene->image.format == ImageFormat::kExr;
+        const bool exr = scene->image.format == ImageFormat::kExr || wants_layers(scene);
         auto bytes = encode_picture(rendered, scene, exr ? "image/x-exr" : "image/png", deadline);
         if (!bytes) return bytes.error();
         return archive_->add(frame_name(frame, exr ? "exr" : "png"), *bytes);

@@ -98,7 +98,7 @@ Route texture_route(std::string_view below) {
 
 Route find_route(const Service::State& state, std::string_view path) {
     for (const std::string_view post : std::initializer_list<std::string_view>{
-             "/v1/particles", "/v1/render", "/v1/plan", kAccuracyPath, kJobsPath})
+             "/v1/particles", "/v1/render", "/v1/plan", kSkyPath, kAccuracyPath, kJobsPath})
         if (path == post) return {post, true, true};
     if (path.starts_with("/v1/jobs/")) return job_route(path.substr(9));
     if (path == kTexturesPath) return texture_route("");

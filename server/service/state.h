@@ -67,6 +67,11 @@ Response not_modified(std::string_view etag, bool varies);
 std::optional<Response> check_scene_request(const Request& request);
 Response answer_scene_request(Service::State& state, const Request& request);
 
+// POST /v1/sky: its map as `type`, `width` pixels wide; none: limits::kSkyMapWidth.
+inline constexpr std::string_view kSkyPath = "/v1/sky";
+Response answer_sky(Service::State& state, const Request& request, const Scene& scene,
+                    std::optional<int> width, std::string_view type, const Lanes::Pass& pass);
+
 // POST /v1/accuracy: its query, and its answer as `type`.
 inline constexpr std::string_view kAccuracyPath = "/v1/accuracy";
 Status check_accuracy_query(const Request& request);
@@ -91,6 +96,8 @@ Response answer_job_work(Service::State& state, const JobWork& work, const Reque
 // a sheet and its layout in one, "flipbook"; of a flight also only its report, "json", which is in its archive too
 // (sequence_job.cpp).
 Response answer_sequence(Service::State& state, const Request& request, const JobWork& work);
+// A job of kind impostor (impostor_job.cpp).
+Response answer_impostor(Service::State& state, const Request& request, const JobWork& work);
 
 // Draws what is planned: with the device, in whose line it waits while another computes in its lane, or in its lane.
 // pass: in a lane, before and after. `refused`: what is to be said where it got no lane; then there is no picture.

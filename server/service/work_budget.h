@@ -89,7 +89,10 @@ inline std::size_t reading_bytes(std::size_t body_bytes) {
 // An estimate of what a scene takes while it is worked on.
 inline std::size_t work_bytes(const SceneDraft& scene, bool with_image) {
     const auto side = [](int pixels) { return static_cast<std::size_t>(std::max(pixels, 0)); };
-    const std::size_t pixels = with_image ? side(scene.image.width) * side(scene.image.height) : 0;
+    // Layers are marched as up to five more pictures.
+    const std::size_t pictures = scene.image.layers == "none" ? 1 : 6;
+    const std::size_t pixels =
+        with_image ? pictures * side(scene.image.width) * side(scene.image.height) : 0;
     return static_cast<std::size_t>(particle_count(scene)) * limits::kBytesPerParticle +
            pixels * limits::kBytesPerPixel;
 }

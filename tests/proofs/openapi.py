@@ -55,7 +55,8 @@ def number(schema, chance):
     low = schema.get("minimum", schema.get("exclusiveMinimum", -10))
     high = schema.get("maximum", 100)
     if schema["type"] == "integer":
-        return chance.choice([low, min(low + 1, high), chance.randint(low, min(high, low + 20))])
+        value = chance.choice([low, min(low + 1, high), chance.randint(low, min(high, low + 20))])
+        return value - value % schema.get("multipleOf", 1)
     value = chance.choice([1.0, chance.uniform(0, 2), chance.uniform(-5, 5)])
     value = min(max(value, low), high)
     return value if value != schema.get("exclusiveMinimum") else min(low + 0.5, high)
@@ -91,7 +92,7 @@ class Maker:
         if kind == "boolean":
             return chance.random() < 0.5
         if kind == "string":
-            return "a"
+            return schema.get("default", schema.get("examples", ["a"])[0])
         return None
 
     def object(self, schema, depth):
@@ -182,7 +183,7 @@ class Breaker:
             yield [1, 2], "an array"
         if "boolean" not in types:
             yield True, "a boolean"
-        if "string" not in types or all("enum" in kind for kind in kinds if kind.get("type") == "string"):
+        if "string" not in types or all("enum" in kind or "pattern" in kind for kind in kinds if kind.get("type") == "string"):
             yield "no such word", "a word"
         for kind in kinds:
             if kind.get("type") in ("number", "integer") and len(types) == 1 and "const" not in kind:

@@ -31,33 +31,38 @@ class Taker final : public std::streambuf {
     void* to_;
 };
 
+openvdb::GridBase::Ptr made_of(const awan::VdbGrid& grid) {
+    openvdb::FloatGrid::Ptr made = openvdb::FloatGrid::create(0.0f);
+    made->setName(grid.name);
+    made->setGridClass(openvdb::GRID_FOG_VOLUME);
+    // A value stands in the middle of its cell.
+    openvdb::math::Transform::Ptr place =
+        openvdb::math::Transform::createLinearTransform(grid.cell);
+    const double half = 0.5 * grid.cell;
+    place->postTranslate({grid.origin[0] + half, grid.origin[1] + half, grid.origin[2] + half});
+    made->setTransform(place);
+    const openvdb::CoordBBox box({0, 0, 0},
+                                 {grid.cells[0] - 1, grid.cells[1] - 1, grid.cells[2] - 1});
+    openvdb::tools::Dense<const float, openvdb::tools::LayoutXYZ> dense(box, grid.values);
+    openvdb::tools::copyFromDense(dense, *made, 0.0f, true);
+    return made;
+}
+
 }  // namespace
 
-extern "C" const char* awan_write_vdb(const awan::VdbGrid& grid,
+extern "C" const char* awan_write_vdb(const awan::VdbGrid* grids, std::size_t count,
                                       void (*take)(void*, const char*, std::size_t), void* to) {
     static std::string message;
     try {
         openvdb::initialize();
-        openvdb::FloatGrid::Ptr made = openvdb::FloatGrid::create(0.0f);
-        made->setName(grid.name);
-        made->setGridClass(openvdb::GRID_FOG_VOLUME);
-        // A value stands in the middle of its cell.
-        openvdb::math::Transform::Ptr place =
-            openvdb::math::Transform::createLinearTransform(grid.cell);
-        const double half = 0.5 * grid.cell;
-        place->postTranslate({grid.origin[0] + half, grid.origin[1] + half, grid.origin[2] + half});
-        made->setTransform(place);
-        const openvdb::CoordBBox box({0, 0, 0},
-                                     {grid.cells[0] - 1, grid.cells[1] - 1, grid.cells[2] - 1});
-        openvdb::tools::Dense<const float, openvdb::tools::LayoutXYZ> dense(box, grid.values);
-        openvdb::tools::copyFromDense(dense, *made, 0.0f, true);
+        openvdb::GridPtrVec made;
+        for (std::size_t i = 0; i < count; ++i) made.push_back(made_of(grids[i]));
         Taker taker(take, to);
         std::ostream out(&taker);
         openvdb::io::Stream stream(out);
-        openvdb::GridPtrVec grids{made};
         openvdb::MetaMap meta;
         meta.insertMeta("creator", openvdb::StringMetadata("Awan " AWAN_VERSION));
-        stream.write(grids, meta);
+        stream.write(made, meta);
         if (!out) return "the file could not be written";
     } catch (const std::exception& e) {
         message = e.what();

@@ -1,0 +1,37 @@
+// awan sky: the scene's sky all around, a map for image based lighting.
+#include "core/draw/sky_map.h"
+
+#include "core/formats/image_file.h"
+#include "core/scene/validate.h"
+#include "server/cli/cli.h"
+#include "server/cli/files.h"
+#include "server/cli/support.h"
+
+namespace awan {
+
+int run_sky(const SkyCommand& command) {
+    if (command.width % 2 != 0)
+        return bad_usage("--width " + std::to_string(command.width) +
+                         ": a map is twice as wide as it is high; give an even number");
+    const auto format = output_format(command.output, command.format, {"exr", "png"}, "exr");
+    if (!format) return bad_usage(format.error().message);
+    if (binary_to_terminal(command.output))
+        return bad_usage("-o -: an image is not written to a terminal");
+    auto draft = read_scene_input(command.scene);
+    if (!draft) return report_error(command.scene.path, draft.error());
+    auto scene = validate(*std::move(draft));
+    if (!scene) return report_error(command.scene.path, scene.error());
+    if (const Status failed = check_writable(command.output)) return report_error("", *failed);
+    const auto map = sky_map(*scene, command.width, command.threads, {});
+    if (!map) return report_error(command.scene.path, map.error());
+    set_exr_threads(command.threads);
+    const auto bytes = *format == "exr"
+                           ? encode_exr(*map, (*scene)->image.precision, sky_notes_of(*scene))
+                           : encode_png(*map, film_of(*scene));
+    if (!bytes) return report_error(command.scene.path, bytes.error());
+    if (const Status failed = write_output(command.output, *bytes))
+        return report_error("", *failed);
+    return kExitFine;
+}
+
+}  // namespace awan
