@@ -161,8 +161,14 @@ Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles,
                                const TruthOptions& options, const Progress& progress,
                                const Deadline& deadline) {
     TruthImage truth = empty_image(scene->image);
+    // Paths meet the particles as they are, wherever they were merged.
+    ParticleSet whole;
+    if (particles.whole) {
+        whole = *particles.whole;
+        whole.detail = particles.detail;
+    }
     const auto matter =
-        truth::make_matter(particles, sun_direction(scene->sun), options.threads, deadline);
+        truth::make_matter(particles.whole ? whole : particles, sun_direction(scene->sun), options.threads, deadline);
     if (!matter.ok()) return matter.error();
     const Setting setting = truth::setting_of(scene, *matter, options);
     const auto air = options.eye_effects.aerial_perspective
