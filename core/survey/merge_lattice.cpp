@@ -7,6 +7,7 @@
 #include <memory>
 #include <unordered_map>
 
+#include "core/base/instruction_sets.h"
 #include "core/base/parallel.h"
 #include "core/generate/gaussian.h"
 
@@ -46,11 +47,12 @@ struct OnLattice {
     glm::dvec3 place;    // in cells
     glm::ivec3 nearest;  // node
 };
-OnLattice on_lattice(const ParticleSet& particles, std::size_t i, const MergeScales& scales,
-                     double per_cell) {
+AWAN_INLINE OnLattice on_lattice(const ParticleSet& particles, std::size_t i,
+                                 const MergeScales& scales, double per_cell) {
     OnLattice on;
     on.place = (particles.center[i] - scales.origin) * per_cell;
-    on.nearest = glm::ivec3(glm::floor(on.place + 0.5));
+    // Places are above 0: truncating is rounding down, without a call.
+    on.nearest = glm::ivec3(on.place + 0.5);
     return on;
 }
 
@@ -111,11 +113,13 @@ Rim rim_of(const ParticleSet& particles, const MergeScales& scales, const MergeB
             shares_of(on.place[axis] - on.nearest[axis], spread, shares[axis]);
         const double mass = mass_at(particles, i);
         const glm::ivec3 low = on.nearest - corner - kNodesReached;
-        for (int z = 0; z < 5; ++z)
-            for (int y = 0; y < 5; ++y) {
+        // Without spread the outer shares are 0.
+        const int from = spread > 0 ? 0 : 1, to_end = 5 - from;
+        for (int z = from; z < to_end; ++z)
+            for (int y = from; y < to_end; ++y) {
                 const double row = mass * shares[2][z] * shares[1][y];
                 double* const to = &rim[rim_index(low.x, low.y + y, low.z + z)];
-                for (int x = 0; x < 5; ++x) to[x] += row * shares[0][x];
+                for (int x = from; x < to_end; ++x) to[x] += row * shares[0][x];
             }
     }
     return rim;
