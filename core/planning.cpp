@@ -7,15 +7,34 @@
 #include "core/looks/looks.h"
 #include "core/plan/island_settings.h"
 #include "core/survey/detail_of.h"
+#include "core/survey/merge.h"
 
 namespace awan {
+namespace {
+
+// The most that merging many particles may cost of a picture, and its share of the error that the scene asks for.
+constexpr double kMergingError = 0.05, kMergingShare = 0.5;
+
+// The particles that light and eye work on. Procedural clouds choose by themselves how many they are made of.
+Result<ParticleSet> particles_of(const Scene& scene, int threads, const Deadline& deadline) {
+    const bool look = scene->look != Look::kPhysical;
+    auto made = generate(scene, threads, deadline, look);
+    if (!made.ok() || look ||
+        std::any_of(scene->clouds.begin(), scene->clouds.end(), is_procedural))
+        return made;
+    const double wanted = scene->accuracy.error.value_or(kDefaultError);
+    return merged(*std::move(made), sun_direction(scene->sun),
+                  std::min(kMergingError, kMergingShare * wanted), threads, deadline);
+}
+
+}  // namespace
 
 Result<Planned> plan_still(const Scene& scene, int threads, const Deadline& deadline,
                            const MachineSpeed& speed, const std::optional<DetailFigures>& detail) {
     const bool look = scene->look != Look::kPhysical && scene->display == Display::kLit;
     Planned planned;
     auto particles =
-        timed(planned.times.generate_ms, [&] { return generate(scene, threads, deadline, look); });
+        timed(planned.times.generate_ms, [&] { return particles_of(scene, threads, deadline); });
     if (!particles.ok()) return particles.error();
     planned.particles = *std::move(particles);
     auto surveyed = timed(planned.times.survey_ms,

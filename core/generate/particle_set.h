@@ -42,10 +42,14 @@ struct ParticleSet {
     // The first particle of each cloud, and the end of the last.
     std::vector<std::size_t> cloud_begin;
 
-    // Of procedural clouds (ModelParticles in models.h): the largest of their errors, and what tells sets apart that
-    // depend on the eye.
+    // Of procedural clouds (ModelParticles in models.h) the largest of their errors, or what merging costs; and what
+    // tells sets apart that depend on the eye.
     double error = 0;
     std::uint64_t variant = 0;
+
+    // Where these are many particles merged into fewer (core/survey/merge.h), those that they were made from, for who
+    // wants to see the matter as it is; without detail. Null: these are as they are.
+    std::shared_ptr<const ParticleSet> whole;
 
     std::size_t size() const { return center.size(); }
 };

@@ -196,7 +196,7 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
                          std::uint32_t samples) {
     const double pixels = static_cast<double>(scene->image.width) * scene->image.height;
     const double covered = pixels * survey.covered;
-    const auto particles = static_cast<double>(survey.particles);
+    const auto particles = static_cast<double>(survey.drawn);
     TimeFigures figures{
         1, covered, particles, pixels * survey.particles_per_pixel, pixels, 0, 0, 0, 0, 0, 0,
         0, 0,       0};

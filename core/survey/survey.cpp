@@ -9,6 +9,7 @@
 #include "core/generate/gaussian.h"
 #include "core/survey/ground_view.h"
 #include "core/survey/haze_view.h"
+#include "core/survey/merge.h"
 #include "core/survey/narrow.h"
 #include "core/survey/optical_depth.h"
 #include "core/survey/volume.h"
@@ -55,21 +56,30 @@ double sun_cosine(const Scene& scene, const Survey& survey) {
     return distance > 0 ? -glm::dot(sun_direction(scene->sun), to_eye) / distance : 0;
 }
 
+// The mean radius, by mass.
+double typical_radius(const ParticleSet& particles) {
+    double radii = 0, mass = 0;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        const double own = gaussian_mass(particles, i);
+        radii += own * static_cast<double>(particles.radius[i]);
+        mass += own;
+    }
+    return mass > 0 ? radii / mass : 0;
+}
+
 void measure_matter(const ParticleSet& particles, Survey& survey) {
-    double radii = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         survey.max_sigma_s =
             std::max(survey.max_sigma_s,
                      static_cast<double>(particles.density[i]) * gaussian_s(particles, i));
         survey.total_mass += gaussian_mass(particles, i);
-        radii += gaussian_mass(particles, i) * static_cast<double>(particles.radius[i]);
         double power = 1;
         for (double& sum : survey.s_sums) {
             sum += power;
             power *= gaussian_s(particles, i);
         }
     }
-    if (survey.total_mass > 0) survey.detail.radius = radii / survey.total_mass;
+    survey.detail.radius = typical_radius(unmerged(particles));
     survey.detail.origin = 0.5 * (survey.bounds.min + survey.bounds.max);
 }
 
@@ -88,10 +98,11 @@ double typical_extinction(const DensityVolume& volume) {
 Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int threads,
                       const Deadline& deadline) {
     Survey survey;
-    survey.particles = particles.size();
+    survey.particles = unmerged(particles).size();
+    survey.drawn = particles.size();
     survey.cloud_density = particles.cloud_density;
     survey.model_error = particles.error;
-    survey.bounds = bounds_of(particles);
+    survey.bounds = bounds_of(unmerged(particles));
     survey.view = resolve_view(scene->camera, scene->image, survey.bounds);
     survey.sun_cosine = sun_cosine(scene, survey);
     if (particles.size() == 0) {

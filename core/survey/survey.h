@@ -59,6 +59,8 @@ struct HazeFigures {
 
 struct Survey {
     std::size_t particles = 0;
+    // Those that light and eye work on: fewer where they are merged (core/survey/merge.h).
+    std::size_t drawn = 0;
     // ParticleSet::cloud_density.
     std::vector<double> cloud_density;
     Bounds bounds;

@@ -157,10 +157,17 @@ double scatterings_a_path(const std::vector<PathCount>& counts) {
 
 }  // namespace
 
-Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& particles, const View& view,
+Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& given, const View& view,
                                const TruthOptions& options, const Progress& progress,
                                const Deadline& deadline) {
     TruthImage truth = empty_image(scene->image);
+    // Paths meet the particles as they are, wherever they were merged.
+    ParticleSet whole;
+    if (given.whole) {
+        whole = *given.whole;
+        whole.detail = given.detail;
+    }
+    const ParticleSet& particles = given.whole ? whole : given;
     const auto matter =
         truth::make_matter(particles, sun_direction(scene->sun), options.threads, deadline);
     if (!matter.ok()) return matter.error();
