@@ -141,7 +141,7 @@ Result<const Image*> small_picture(const Climb& climb, const TransportLight& lig
 // difference: of a transport rung's small picture to the next coarser grid's.
 double stated_error(double difference, const Climb& climb) {
     const Survey& survey = climb.planned.survey;
-    const double g = climb.scene->medium.g, depth = survey.optical_depth_eye;
+    const double g = asymmetry(climb.scene->medium), depth = survey.optical_depth_eye;
     const double behind = std::clamp(-2 * survey.sun_cosine - 1, 0.0, 1.0);
     const double angular = (kAngularError + kTurnedBackError * behind * behind) * g * g;
     double floor = std::hypot(kEyeError, std::hypot(kThickError, angular) * depth / (1 + depth));

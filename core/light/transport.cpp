@@ -152,8 +152,8 @@ Status add_own_ground(const PartSolve& solve, TransportLight& light) {
     const auto start = Deadline::Clock::now();
     const ScatteringSplit& split = solve.split;
     if (solve.shades_ground())
-        cast_shadow(solve.part.sun, split.albedo, split.peak_share, solve.scene->medium.g,
-                    solve.threads, light.ground);
+        cast_shadow(solve.part.sun, split.albedo, split.peak_share,
+                    peak_turning(solve.scene->medium), solve.threads, light.ground);
     const auto side = static_cast<float>(shortest(solve.grid.lattice.cell));
     std::vector<float> depth(solve.grid.extinction);
     for (float& one : depth) one *= side;
