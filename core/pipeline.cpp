@@ -10,6 +10,7 @@
 #include "core/climb.h"
 #include "core/draw/draw.h"
 #include "core/draw/march.h"
+#include "core/draw/sun_disc.h"
 #include "core/light/light.h"
 #include "core/light/transport.h"
 #include "core/looks/looks.h"
@@ -236,6 +237,12 @@ Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools
             break;
     }
     if (failed) return *failed;
+    if (shows_sun_disc(*scene)) {
+        const auto start = Deadline::Clock::now();
+        add_sun_disc(scene, planned.survey.view, planned.particles,
+                     planned.plan.eye_effects().aerial_perspective, tools.threads, rendered.image);
+        rendered.times.draw_ms += ms_since(start);
+    }
     if (planned.plan.rung != rendered.rung->name) {
         planned.plan.rung_reason =
             scene->accuracy.time_ms

@@ -122,8 +122,7 @@ TEST(Droplets, HaveTheMeanCosineOfClouds) {
     EXPECT_NEAR(asymmetry(droplets(40)), .873, .01);
 }
 
-// What a smooth fit lacks: a fogbow at 135 to 145 degrees that narrows with the droplets, and a glory whose first ring is
-// about 3 wavelengths over the diameter's circumference away from straight back.
+// What a smooth fit lacks: a fogbow near 142 degrees that narrows as droplets grow, and a glory straight back.
 TEST(Droplets, HaveAFogbowAndAGlory) {
     double bow_width = 90;
     for (const double diameter : {10., 20., 50.}) {
@@ -144,12 +143,9 @@ TEST(Droplets, HaveAFogbowAndAGlory) {
         EXPECT_LT(high - low, bow_width);
         bow_width = high - low;
         EXPECT_GT(p_at(medium, 180), 3 * p_at(medium, 165));
-        const DropletFit fit = droplet_fit(diameter);
-        EXPECT_LT(fit.share, 1);
     }
 }
 
-// Half of what a large drop scatters is the light that its rim bends: a corona's peak, that both halves of the fit have.
 TEST(Droplets, TheFitOfSplatsIsNearTheFunction) {
     for (const double diameter : {3., 5., 10., 20., 40.}) {
         const Medium medium = droplets(diameter);

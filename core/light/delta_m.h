@@ -29,8 +29,8 @@ struct ScatteringSplit {
 
 ScatteringSplit split_scattering(const Medium& medium);
 
-// The first moment of the peak that is not 1, chi_(L+2) / f: Henyey & Greenstein's g. The nearer to 1, the less the peak
-// turns light.
+// The first moment of the peak that is not 1, chi_(L+2) / f: Henyey & Greenstein's g. The nearer to 1, the less the
+// peak turns light.
 double peak_turning(const Medium& medium);
 
 }  // namespace awan

@@ -176,9 +176,10 @@ SunRaster raster_of(const SunBox& box, double radius, int threads, const OfDepth
 }
 
 // How far the forward peak turns light, root mean square, radians. The peak's Legendre moments are 1 up to l = L and
-// turning^(l - L - 1) or so from there on; a narrow peak of mean square angle a^2 has
+// about turning^(l - L - 1) from there on; a narrow peak of mean square angle a^2 has
 //     1 - chi_l = l (l + 1) a^2 / 4,
-// which at the first moment that is not 1, l = L + 2 = order + 1, gives a^2 = 4 (1 - turning) / ((order + 1) (order + 2)).
+// which at the first moment that is not 1, l = L + 2 = order + 1, gives
+//     a^2 = 4 (1 - turning) / ((order + 1) (order + 2)).
 double peak_width(double turning, int order) {
     return std::sqrt(4 * (1 - turning) / ((order + 1.0) * (order + 2.0)));
 }

@@ -20,7 +20,7 @@ struct Band {
 constexpr Band kBands[] = {{0.625, 1.332, 0.2126}, {0.55, 1.333, 0.7152}, {0.45, 1.337, 0.0722}};
 // Radii, even from the least to the most, in effective radii; outside is less than 1e-4 of the light.
 constexpr double kLeast = 0.15, kMost = 2.4;
-// How many a band. Those of small drops are the more, as they ring at sizes of their own; of large drops each costs more
+// How many a band. Small drops need the more, as they ring at sizes of their own; of large ones each costs more
 // time. Measured against 400: within 5% at most angles.
 int radii_of(double diameter) {
     return static_cast<int>(std::clamp(2000 / diameter, 48.0, 128.0));

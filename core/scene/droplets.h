@@ -32,7 +32,7 @@ double phase_value(const DropletPhase& droplets, double less, double more);
 // The share of light that turns by less than the angle of 1 - cosine = less, 0..2.
 double share_within(const DropletPhase& droplets, double less);
 
-// Jendersie & d'Eon 2023, a fit of Henyey & Greenstein's function and Draine's (core/shaders/phase.glsl) to that of
+// Jendersie et al. 2023, a fit of Henyey & Greenstein's function and Draine's (core/shaders/phase.glsl) to that of
 // droplets of one diameter (micrometres, 1.5..50): p = (1 - share) HG(narrow) + share Draine(wide, alpha). It has no
 // bow and no glory. For splats.
 struct DropletFit {

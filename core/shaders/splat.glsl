@@ -136,7 +136,8 @@ Pixels look(float X, float first_row) {
     vec3 a = vec3(X, px.Y.x, 1.0) * per_d.x, b = vec3(X, px.Y.y, 1.0) * per_d.y;
     vec3 c = vec3(X, px.Y.z, 1.0) * per_d.z, d = vec3(X, px.Y.w, 1.0) * per_d.w;
     if (fit.w > 0.0)
-        px.phase = vec4(droplets(to_sun, a, fit), droplets(to_sun, b, fit), droplets(to_sun, c, fit), droplets(to_sun, d, fit));
+        px.phase = vec4(droplets(to_sun, a, fit), droplets(to_sun, b, fit), droplets(to_sun, c, fit),
+                        droplets(to_sun, d, fit));
     else
         px.phase = is_cornette_shanks ? vec4(cornette_shanks(to_sun, a, g), cornette_shanks(to_sun, b, g),
                                              cornette_shanks(to_sun, c, g), cornette_shanks(to_sun, d, g))
