@@ -41,6 +41,9 @@ Status render_splats(const Scene& scene, const Planned& planned, const Tools& to
     return std::nullopt;
 }
 
+// How bright the sun's disc is at most in pictures that are shown, exposed: two stops above the sunlit side of a cloud.
+constexpr double kBrightestDisc = 4;
+
 // Of a render that keeps none otherwise: the few coarse grids of its own climb.
 constexpr std::size_t kLightsOfOne = 64 << 20;
 
@@ -238,9 +241,13 @@ Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools
     }
     if (failed) return *failed;
     if (shows_sun_disc(*scene)) {
+        const bool film = scene->image.format != ImageFormat::kExr;
+        const double most = film ? kBrightestDisc * std::exp2(-exposure_of(scene))
+                                 : std::numeric_limits<double>::infinity();
         const auto start = Deadline::Clock::now();
         add_sun_disc(scene, planned.survey.view, planned.particles,
-                     planned.plan.eye_effects().aerial_perspective, tools.threads, rendered.image);
+                     planned.plan.eye_effects().aerial_perspective, most, tools.threads,
+                     rendered.image);
         rendered.times.draw_ms += ms_since(start);
     }
     if (planned.plan.rung != rendered.rung->name) {

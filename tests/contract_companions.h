@@ -52,9 +52,7 @@ inline const Companion kCompanions[] = {
          document["clouds"] = json::parse(R"([{"model": "ellipsoids", "ellipsoids": {}}])");
      }},
     {"Medium", "droplet", "droplets belong to phase mie",
-     [](json&, json& medium) {
-         medium["phase"] = "mie";
-     }},
+     [](json&, json& medium) { medium["phase"] = "mie"; }},
     {"Camera", "", "the target differs from the eye",
      [](json&, json& camera) {
          camera["target"] = {2, 1, 1};

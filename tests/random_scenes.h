@@ -257,8 +257,6 @@ inline RandomScene random_scene(std::uint64_t seed) {
                    : dice.between(-limits::kMaxAnisotropy, limits::kMaxAnisotropy);
     medium.phase =
         dice.chance(0.3) ? PhaseFunction::kCornetteShanks : PhaseFunction::kHenyeyGreenstein;
-    // Without drawing: the scenes after it stay as they are.
-    if (medium.albedo == 1 && std::abs(medium.g) < .5) medium.phase = PhaseFunction::kMie;
 
     random.furnace = dice.chance(0.3);
     Sun& sun = draft.sun;

@@ -43,9 +43,9 @@ Image black(const Scene& scene) {
     return image;
 }
 
-Image disc_of(const test::Stage& stage, int threads = 1) {
+Image disc_of(const test::Stage& stage, int threads = 1, double most = INFINITY) {
     Image image = black(stage.scene);
-    add_sun_disc(stage.scene, stage.view, stage.particles, true, threads, image);
+    add_sun_disc(stage.scene, stage.view, stage.particles, true, most, threads, image);
     return image;
 }
 
@@ -79,6 +79,25 @@ TEST(SunDisc, HasNoStairs) {
     }
 }
 
+// On film the limb's pixels are between the sky and the disc, as much as the disc covers of them.
+TEST(SunDisc, HasALimbWithoutStairsOnFilm) {
+    const test::Stage stage = test::stage(sunny(1, 50, 20));
+    const Image image = disc_of(stage, 1, 4);
+    double sum = 0;
+    int between = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const double r = test::pixel(image, x, y).r;
+            EXPECT_LE(r, 4.0001);
+            sum += r / 4;
+            between += r > .2 && r < 3.8;
+        }
+    const double radius =
+        .2665 * std::numbers::pi / 180 * image.height / (2 * stage.view.tan_half_fov);
+    EXPECT_NEAR(sum, std::numbers::pi * radius * radius, .15);
+    EXPECT_GE(between, 4);
+}
+
 TEST(SunDisc, IsDimmedByWhatStandsBeforeIt) {
     for (const double depth : {.1, 1., 5.}) {
         SceneDraft draft = sunny(depth, 0, 5);
@@ -103,6 +122,7 @@ TEST(SunDisc, IsDimmedByTheLumpsThatThePictureShows) {
     SceneDraft draft = sunny(2, 0, 1.5);
     draft.detail = Detail{};
     draft.detail->amount = 1;
+    draft.accuracy.rung = "transport-16";
     test::effect(draft, Effect::kDetail) = Switch::kOn;
     const auto planned = plan_scene(test::valid(draft), 1, {});
     ASSERT_NE(planned->particles.detail, nullptr);
@@ -127,6 +147,7 @@ TEST(SunDisc, IsDimmedByTheLumpsThatThePictureShows) {
 
 TEST(SunDisc, IsThereWhereItIsAskedFor) {
     SceneDraft draft = sunny(1, 50, 20);
+    draft.sky.none = false;
     EXPECT_TRUE(shows_sun_disc(draft));
     draft.sun.disc = SunDisc::kAutomatic;
     EXPECT_FALSE(shows_sun_disc(draft));

@@ -34,9 +34,11 @@ constexpr int kLeastLines = 9, kMostLines = 33;
 constexpr double kStepsPerBump = 16;
 constexpr int kMostSteps = 4096;
 // Of a pixel, along a side.
-constexpr int kSubPixels = 4, kSubPixelsOfSmallDisc = 16;
+constexpr int kSubPixels = 4, kMostSubPixels = 64;
+// Of those, at least so many along the disc's radius.
+constexpr double kPerRadius = 8;
 // The share of its light that a lens scatters, and how: as (1 + (angle / kGlareWidth)^2)^-kGlareFall (Moffat 1969).
-constexpr double kGlareShare = 0.003, kGlareWidth = 1.2 * pi / 180, kGlareFall = 1.6;
+constexpr double kGlareShare = 0.01, kGlareWidth = 1.0 * pi / 180, kGlareFall = 1.6;
 // Beyond the picture's edge, radians, a sun has no glare in it.
 constexpr double kGlareReach = 0.35;
 
@@ -227,7 +229,7 @@ bool shows_sun_disc(const SceneDraft& scene) {
 }
 
 void add_sun_disc(const Scene& scene, const View& view, const ParticleSet& particles, bool haze,
-                  int threads, Image& image) {
+                  double most, int threads, Image& image) {
     const Outside outside = outside_of(scene);
     if (!image.opaque || outside.sun == glm::dvec3(0)) return;
     const SideAxes side = side_axes(outside.to_sun);
@@ -248,7 +250,9 @@ void add_sun_disc(const Scene& scene, const View& view, const ParticleSet& parti
     const bool glare = scene->image.format != ImageFormat::kExr;
     const glm::dvec3 radiance = (glare ? 1 - kGlareShare : 1.0) /
                                 (pi * std::sin(kRadius) * std::sin(kRadius)) * outside.sun;
-    const int sub = radius_px < 4 ? kSubPixelsOfSmallDisc : kSubPixels;
+    const int sub = static_cast<int>(
+        std::clamp(std::ceil(kPerRadius / radius_px), double{kSubPixels}, double{kMostSubPixels}));
+    const double brightest = std::max({radiance.x, radiance.y, radiance.z});
     const double reach = 1.1 * radius_px + 1, per_radius = 1 / std::tan(kRadius);
     const auto within = [](double at, int size) {
         return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(size)));
@@ -265,7 +269,7 @@ void add_sun_disc(const Scene& scene, const View& view, const ParticleSet& parti
                 const double u = glm::dot(d, disc.u) * per_radius,
                              v = glm::dot(d, disc.v) * per_radius;
                 const double light = profile(u, v);
-                if (light > 0) sum += light * passing.at(u, v);
+                if (light > 0) sum += std::min(light * passing.at(u, v), most / brightest);
             }
             if (sum > 0) add(image, x, y, sum / (sub * sub) * radiance);
         }

@@ -15,8 +15,9 @@ bool shows_sun_disc(const SceneDraft& scene);
 
 // Adds the disc to a picture with its sky, dimmed by what stands before it: the particles with their detail, and in
 // `haze` the scene's; the ground hides it. Radiance: the sun's irradiance over the disc's solid angle, darker towards
-// the limb, of every pixel the mean. To all but EXR the glare. The same for every number of threads.
+// the limb, of every pixel the mean; no channel is more than `most`, as film has it: what is far above white would have
+// stairs for a limb. To all but EXR the glare. The same for every number of threads.
 void add_sun_disc(const Scene& scene, const View& view, const ParticleSet& particles, bool haze,
-                  int threads, Image& image);
+                  double most, int threads, Image& image);
 
 }  // namespace awan

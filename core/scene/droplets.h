@@ -23,7 +23,7 @@ struct DropletPhase {
     std::vector<double> moment;         // Legendre moments, of order 0 on: 1, the mean cosine, ...
 };
 
-// diameter: effective, micrometres, limits::kMinDroplet..kMaxDroplet. Some 10 ms at 10 micrometres, 100 at 50.
+// diameter: effective, micrometres, limits::kMinDroplet..kMaxDroplet. Takes some 50 ms, at 50 micrometres 100.
 DropletPhase droplet_phase(double diameter);
 
 // p for less = 1 - cosine and more = 1 + cosine, each without cancellation.

@@ -58,10 +58,10 @@ Status check_medium(const Given& given, const Medium& medium) {
     const bool mie = medium.phase == PhaseFunction::kMie;
     if (mie && given.has("g"))
         return invalid("/g",
-                       "belongs to the other phase functions; that of \"mie\" follows from "
-                       "\"droplet\"");
+                       "must be left out with the phase function \"mie\", which follows "
+                       "from \"droplet\"");
     if (!mie && given.has("droplet"))
-        return invalid("/droplet", "belongs to the phase function \"mie\"");
+        return invalid("/droplet", "must be left out but with the phase function \"mie\"");
     return std::nullopt;
 }
 
