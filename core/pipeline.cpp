@@ -41,8 +41,8 @@ Status render_splats(const Scene& scene, const Planned& planned, const Tools& to
     return std::nullopt;
 }
 
-// How bright the sun's disc is at most in pictures that are shown, exposed: two stops above the sunlit side of a cloud.
-constexpr double kBrightestDisc = 4;
+// How bright the sun's disc is at most in pictures that are shown, exposed: so white that it is warm only when low.
+constexpr double kBrightestDisc = 12;
 
 // Of a render that keeps none otherwise: the few coarse grids of its own climb.
 constexpr std::size_t kLightsOfOne = 64 << 20;
