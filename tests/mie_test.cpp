@@ -9,6 +9,7 @@
 #include "core/draw/march_phase.h"
 #include "core/light/legendre.h"
 #include "core/light/light.h"
+#include "core/pipeline.h"
 #include "core/scene/mie.h"
 #include "core/shaders/shared.h"
 #include "core/truth/oracles.h"
@@ -219,6 +220,29 @@ TEST(Droplets, TruthDrawsThemByTheirDensity) {
             EXPECT_NEAR(truth::phase_value(law, std::cos(angle * pi / 180)) / p_at(medium, angle),
                         1, 1e-5);
     }
+}
+
+// A grid's picture against the paths', with the sun ahead and behind the eye.
+TEST(Droplets, GridsAreTheTruths) {
+    for (const double diameter : {6., 20., 45.})
+        for (const double azimuth : {180., 0.}) {
+            SceneDraft draft = test::balls({{{0, 0, 0}, 2, 1.5}, {{1, .5, 0}, 1.5, 1}});
+            draft.medium = Medium{.albedo = 1, .phase = PhaseFunction::kMie, .droplet = diameter};
+            // Ahead, out of the picture: within a degree of the sun a pixel's middle is not its mean.
+            draft.sun.elevation = azimuth > 0 ? 25 : 4;
+            draft.sun.azimuth = azimuth;
+            draft.camera.eye = {0, 0, 12};
+            draft.camera.fov = 26;
+            draft.image.width = draft.image.height = 14;
+            draft.image.background = Background::kTransparent;
+            draft.accuracy.rung = "transport-24";
+            const auto grid = render_scene(test::valid(draft), {}, {});
+            ASSERT_TRUE(grid.ok());
+            TruthOptions options;
+            options.samples = 512;
+            const double truth = test::mean_red(mean_of(test::traced(draft, options)));
+            EXPECT_NEAR(test::mean_red(grid->image) / truth, 1, .03) << diameter << " " << azimuth;
+        }
 }
 
 TEST(March, RestAndPeakAreTheDroplets) {
