@@ -11,6 +11,7 @@
 #include "core/draw/display.h"
 #include "core/draw/draw.h"
 #include "core/draw/march.h"
+#include "core/draw/sun_disc.h"
 #include "core/light/light.h"
 #include "core/light/once_scattered.h"
 #include "core/light/transport.h"
@@ -42,6 +43,9 @@ Status render_splats(const Scene& scene, const Planned& planned, const Tools& to
     rendered.image = *std::move(image);
     return std::nullopt;
 }
+
+// How bright the sun's disc is at most in pictures that are shown, exposed: so white that it is warm only when low.
+constexpr double kBrightestDisc = 12;
 
 // Of a render that keeps none otherwise: the few coarse grids of its own climb.
 constexpr std::size_t kLightsOfOne = 64 << 20;
@@ -276,6 +280,16 @@ Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools
             break;
     }
     if (failed) return *failed;
+    if (shows_sun_disc(*scene)) {
+        const bool film = scene->image.format != ImageFormat::kExr;
+        const double most = film ? kBrightestDisc * std::exp2(-exposure_of(scene))
+                                 : std::numeric_limits<double>::infinity();
+        const auto start = Deadline::Clock::now();
+        add_sun_disc(scene, planned.survey.view, planned.particles,
+                     planned.plan.eye_effects().aerial_perspective, most, tools.threads,
+                     rendered.image);
+        rendered.times.draw_ms += ms_since(start);
+    }
     if (planned.plan.rung != rendered.rung->name) {
         planned.plan.rung_reason =
             scene->accuracy.time_ms

@@ -72,6 +72,8 @@ inline const Companion kCompanions[] = {
      }},
     {"CubesCloud", "texture", "there is something to paint",
      [](json&, json& cloud) { cloud["cubes"] = one_cube(); }},
+    {"Medium", "droplet", "droplets belong to phase mie",
+     [](json&, json& medium) { medium["phase"] = "mie"; }},
     {"Camera", "", "the target differs from the eye",
      [](json&, json& camera) {
          camera["target"] = {2, 1, 1};

@@ -260,6 +260,8 @@ inline RandomScene random_scene(std::uint64_t seed) {
 
     random.furnace = dice.chance(0.3);
     Sun& sun = draft.sun;
+    // Bounds are of light that was scattered.
+    sun.disc = SunDisc::kHidden;
     if (dice.chance(0.3))
         sun.direction = dice.on_sphere() * dice.log_between(1e-6, 1e6);
     else if (dice.chance(0.3))

@@ -320,7 +320,7 @@ TEST(SceneJson, RejectsWrongTypes) {
 
 TEST(SceneJson, RejectsUnknownWordsAndListsTheAllowed) {
     expect_invalid(scene_with(R"("fill": "Uniform")"), "/fill", {"\"uniform\"", "\"Uniform\""});
-    expect_invalid(scene_with(R"("medium": {"phase": "mie"})"), "/medium/phase", {"cornette"});
+    expect_invalid(scene_with(R"("medium": {"phase": "rayleigh"})"), "/medium/phase", {"cornette"});
     expect_invalid(scene_with(R"("sun": {"color": "red"})"), "/sun/color", {"\"auto\""});
     expect_invalid(scene_with(R"("sky": "blue")"), "/sky", {"\"none\""});
     expect_invalid(scene_with(R"("ground": "flat")"), "/ground", {"\"none\""});

@@ -32,6 +32,8 @@ inline SceneDraft plain_draft() {
     draft.detail = std::nullopt;
     draft.sun.auto_color = false;
     draft.sun.azimuth = 60;
+    // Tests are of what rungs draw, which is all but the sun itself.
+    draft.sun.disc = SunDisc::kHidden;
     draft.sky.physical = false;
     draft.sky.intensity = kGradientSkyIntensity;
     return draft;

@@ -159,14 +159,23 @@ function skyPanel(store) {
 }
 
 function matterPanel(store) {
+  const isMie = () => atOrDefault(store.scene, "/medium/phase") === "mie";
   const fields = [
     ...automatic(store, { label: "Density", box: "/automatic-density", first: 1, pointer: "/density", min: 0.001, max: 100, log: true }),
     slider(store, { label: "Albedo", pointer: "/medium/albedo", min: 0.5, step: 0.001 }),
-    slider(store, { label: "Forward g", pointer: "/medium/g", min: -0.9, max: 0.98, step: 0.01 }),
+    shownIf(() => !isMie(), slider(store, { label: "Forward g", pointer: "/medium/g", min: -0.9, max: 0.98, step: 0.01 })),
     select(store, {
       label: "Phase function", pointer: () => "/medium/phase",
-      titles: { "henyey-greenstein": "Henyey–Greenstein", "cornette-shanks": "Cornette–Shanks" },
+      titles: { "henyey-greenstein": "Henyey–Greenstein", "cornette-shanks": "Cornette–Shanks", mie: "Droplets of water" },
+      // What belongs to the other functions alone is an error beside this one.
+      set: (phase) => store.update((scene) => {
+        const { g: _g, droplet: _droplet, ...both } = scene.medium ?? {};
+        const { g, droplet } = scene.medium ?? {};
+        const own = phase === "mie" ? { droplet } : { g };
+        return { ...scene, medium: JSON.parse(JSON.stringify({ ...both, ...own, phase })) };
+      }),
     }),
+    shownIf(isMie, slider(store, { label: "Droplets, µm", pointer: "/medium/droplet", min: 2, max: 50, step: 1 })),
     shownIf(() => cloudsOf(store.scene).some(({ cloud }) => modelOf(cloud) === "cubes"), select(store, {
       label: "Filling", pointer: () => "/fill",
       titles: {

@@ -54,6 +54,10 @@ void set_uniforms(const Drawing& drawing, const SplatWindow& window) {
     set3(6, outside.sky.horizon);
     glUniform1f(7, static_cast<float>(scene->medium.g));
     glUniform1i(8, scene->medium.phase == PhaseFunction::kCornetteShanks ? 1 : 0);
+    const Medium& medium = scene->medium;
+    const DropletFit fit = medium.droplets ? droplet_fit(medium.droplet) : DropletFit{};
+    glUniform4f(13, static_cast<float>(fit.narrow), static_cast<float>(fit.wide),
+                static_cast<float>(fit.alpha), static_cast<float>(fit.share));
     glUniform1i(9, drawing.splats.sorted ? 1 : 0);
     glUniform1i(10, drawing.sky ? 1 : 0);
 }

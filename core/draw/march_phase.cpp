@@ -44,6 +44,11 @@ void legendre(double mu, std::vector<double>& p) {
     }
 }
 
+// Whether sums of powers of the moments are a phase function again.
+bool has_closed_powers(const Medium& medium) {
+    return medium.phase == PhaseFunction::kHenyeyGreenstein;
+}
+
 // What of G depends on the medium and not on the angle.
 // Up to kSeriesDepth, n + 1 times scattered by the peak:
 //     G = low + sum over n of exp(-a f t) (a t)^n / n! * (sum over l > L of (2 l + 1) / 4 pi chi_l^(n+1) P_l),
@@ -56,13 +61,16 @@ struct Sums {
     // [column][l]: weight chi exp(-a t (f - chi)), in columns beyond kSeriesDepth; EMPTY in the others.
     std::vector<std::vector<double>> terms;
     std::size_t most_orders = 0;
+    // [n][l]: weight chi^(n+1), l > L, as many as matter; EMPTY where the sum is known in closed form.
+    std::vector<std::vector<double>> powers;
 };
 
 Sums sums_of(const Medium& medium, const Peak& peak, int columns) {
     Sums sums;
     const double a = medium.albedo, f = peak.share;
     const int most =
-        medium.g == 0
+        medium.droplets ? static_cast<int>(medium.droplets->moment.size()) - 1
+        : medium.g == 0
             ? 4
             : std::min(kMostTerms, static_cast<int>(20 / -std::log(std::abs(medium.g))) + 8);
     for (int l = 0; l <= std::max(most, peak.from); ++l) {
@@ -95,6 +103,13 @@ Sums sums_of(const Medium& medium, const Peak& peak, int columns) {
             sums.terms[k].push_back(term);
         }
     }
+    sums.powers.resize(sums.most_orders);
+    for (std::size_t n = 1; n < sums.most_orders && !has_closed_powers(medium); ++n)
+        for (auto l = static_cast<std::size_t>(peak.from); l < sums.chi.size(); ++l) {
+            sums.powers[n].push_back(sums.weight[l] *
+                                     pow_int(sums.chi[l], static_cast<int>(n) + 1));
+            if (std::abs(sums.powers[n].back()) < 1e-9) break;
+        }
     return sums;
 }
 
@@ -102,7 +117,7 @@ Sums sums_of(const Medium& medium, const Peak& peak, int columns) {
 // chi_l^(n+1) is (g^(n+1))^l: the whole sum is the phase function with g^(n+1) for g, less the orders up to L.
 double peak_order(const Medium& medium, const Peak& peak, const Sums& sums,
                   const std::vector<double>& p, int n, double ahead, double behind) {
-    const bool closed = n == 0 || medium.phase == PhaseFunction::kHenyeyGreenstein;
+    const bool closed = n == 0 || has_closed_powers(medium);
     double sum = 0;
     if (closed) {
         sum = n == 0 ? phase_of_chords(medium, ahead, behind)
@@ -113,11 +128,9 @@ double peak_order(const Medium& medium, const Peak& peak, const Sums& sums,
         }
         return sum;
     }
-    for (auto l = static_cast<std::size_t>(peak.from); l < sums.chi.size(); ++l) {
-        const double term = sums.weight[l] * pow_int(sums.chi[l], n + 1);
-        sum += term * p[l];
-        if (std::abs(term) < 1e-9) break;
-    }
+    const std::vector<double>& terms = sums.powers[static_cast<std::size_t>(n)];
+    for (std::size_t i = 0; i < terms.size(); ++i)
+        sum += terms[i] * p[static_cast<std::size_t>(peak.from) + i];
     return sum;
 }
 
@@ -148,6 +161,8 @@ void fill_row(const Medium& medium, const Peak& peak, const Sums& sums, double a
 }  // namespace
 
 double phase_of_chords(const Medium& medium, double ahead, double behind) {
+    if (medium.droplets)
+        return kPer4Pi * phase_value(*medium.droplets, ahead * ahead / 2, behind * behind / 2);
     const double hg = kPer4Pi * henyey_greenstein(medium.g, ahead, behind);
     if (medium.phase == PhaseFunction::kHenyeyGreenstein) return hg;
     const double mu = cosine_of(ahead);
@@ -191,7 +206,9 @@ PeakTable peak_table(const Medium& medium, const Peak& peak, double least_ahead,
     const double octaves =
         std::clamp(std::log2(1 + 14 / scaled), 1.0, static_cast<double>(kMostOctaves));
     table.columns = static_cast<int>(std::ceil((8 * octaves + 2) / 16)) * 16;
-    table.fold = 1 - std::abs(medium.g);
+    // The nodes of droplets' phase function are even in the chord from about there on.
+    table.fold = medium.droplets ? std::sqrt(std::ldexp(2.0, -medium.droplets->octaves))
+                                 : 1 - std::abs(medium.g);
     const double reach = std::asinh(std::numbers::sqrt2 / table.fold);
     table.half = static_cast<int>(std::ceil(reach / kRowStep));
     table.rows_per = table.half / reach;

@@ -61,7 +61,7 @@ AWAN_INLINE Chords chords(const SunInBlock& sun, const simd::Floats ray[3]) {
 //     (l + 1) P_(l+1) = (2 l + 1) mu P_l - l P_(l-1);
 // without, the phase function itself: Henyey-Greenstein's, with |g| and the chord c on its peak's side, is
 //     p / 4 pi = (1 - g^2) / (4 pi ((1 - g)^2 + g c^2)^(3/2)),
-// and Cornette & Shanks's (1992) is that times 3 (1 + mu^2) / (2 (2 + g^2)).
+// Cornette & Shanks's (1992) is that times 3 (1 + mu^2) / (2 (2 + g^2)).
 AWAN_INLINE simd::Floats rest_of_phase(const RestOfPhase& rest, const Chords& c) {
     const simd::Floats mu = 1.0f - 0.5f * c.ahead * c.ahead;
     if (!rest.moments.empty()) {
@@ -74,6 +74,14 @@ AWAN_INLINE simd::Floats rest_of_phase(const RestOfPhase& rest, const Chords& c)
             p = next;
         }
         return sum;
+    }
+    if (rest.medium.droplets) {
+        simd::Floats p{};
+        for (int lane = 0; lane < simd::kLanes; ++lane)
+            p[lane] =
+                static_cast<float>(phase_of_chords(rest.medium, static_cast<double>(c.ahead[lane]),
+                                                   static_cast<double>(c.behind[lane])));
+        return p;
     }
     const auto g = static_cast<float>(rest.medium.g);
     const float size = std::abs(g);

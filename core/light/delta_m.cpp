@@ -21,11 +21,16 @@ ScatteringSplit split_by(const Medium& medium, double f) {
 }  // namespace
 
 ScatteringSplit split_scattering(const Medium& medium) {
-    return split_by(medium, medium.g > 0 ? phase_moment(medium, kOrders) : 0);
+    return split_by(medium, asymmetry(medium) > 0 ? phase_moment(medium, kOrders) : 0);
 }
 
 ScatteringSplit whole_scattering(const Medium& medium) {
     return split_by(medium, 0);
+}
+
+double peak_turning(const Medium& medium) {
+    if (!medium.droplets) return medium.g;
+    return phase_moment(medium, kOrders + 1) / phase_moment(medium, kOrders);
 }
 
 }  // namespace awan

@@ -32,4 +32,8 @@ ScatteringSplit split_scattering(const Medium& medium);
 // The phase function up to order L as it is, with nothing taken for a peak: for light that scatters once.
 ScatteringSplit whole_scattering(const Medium& medium);
 
+// The first moment of the peak that is not 1, chi_(L+2) / f: Henyey & Greenstein's g. The nearer to 1, the less the
+// peak turns light.
+double peak_turning(const Medium& medium);
+
 }  // namespace awan

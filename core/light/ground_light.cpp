@@ -176,11 +176,12 @@ SunRaster raster_of(const SunBox& box, double radius, int threads, const OfDepth
 }
 
 // How far the forward peak turns light, root mean square, radians. The peak's Legendre moments are 1 up to l = L and
-// g^(l - L - 1) from there on; a narrow peak of mean square angle a^2 has
+// about turning^(l - L - 1) from there on; a narrow peak of mean square angle a^2 has
 //     1 - chi_l = l (l + 1) a^2 / 4,
-// which at the first moment that is not 1, l = L + 2 = order + 1, gives a^2 = 4 (1 - g) / ((order + 1) (order + 2)).
-double peak_width(double g, int order) {
-    return std::sqrt(4 * (1 - g) / ((order + 1.0) * (order + 2.0)));
+// which at the first moment that is not 1, l = L + 2 = order + 1, gives
+//     a^2 = 4 (1 - turning) / ((order + 1) (order + 2)).
+double peak_width(double turning, int order) {
+    return std::sqrt(4 * (1 - turning) / ((order + 1.0) * (order + 2.0)));
 }
 
 }  // namespace
@@ -252,7 +253,7 @@ GroundLight bare_ground(const SceneDraft& scene) {
     return ground;
 }
 
-void cast_shadow(const SunDepth& sun, double albedo, double peak_share, double g, int threads,
+void cast_shadow(const SunDepth& sun, double albedo, double peak_share, double turning, int threads,
                  GroundLight& ground) {
     if (sun.depth.empty() || !(-sun.w.y > kLowestShadow) || ground.sun == glm::dvec3(0)) return;
     const SunBox box = sun_box(sun, ground.height);
@@ -260,7 +261,7 @@ void cast_shadow(const SunDepth& sun, double albedo, double peak_share, double g
         raster_of(box, kSunRadius, threads, [](double depth) { return std::expm1(-depth); });
     if (!(peak_share > 0) || !(albedo > 0)) return;
     // A disc of radius r has the root mean square radius r / sqrt(2).
-    const double radius = std::numbers::sqrt2 * peak_width(g, kOrders);
+    const double radius = std::numbers::sqrt2 * peak_width(turning, kOrders);
     // exp(-k depth) - exp(-depth) with k = `scaled` < 1, written so that nothing cancels.
     const double scaled = 1 - albedo * peak_share;
     ground.ahead = raster_of(box, radius, threads, [=](double depth) {

@@ -1,10 +1,16 @@
 #include "core/light/legendre.h"
 
 #include <cmath>
+#include <cstddef>
 
 namespace awan {
 
 double phase_moment(const Medium& medium, int l) {
+    if (medium.droplets) {
+        const auto& moments = medium.droplets->moment;
+        return static_cast<std::size_t>(l) < moments.size() ? moments[static_cast<std::size_t>(l)]
+                                                            : 0;
+    }
     const double g = medium.g;
     if (l == 0) return 1;
     const auto power = [&](int n) { return n == 0 ? 1.0 : g == 0 ? 0.0 : std::pow(g, n); };

@@ -154,8 +154,8 @@ Status add_own_ground(const PartSolve& solve, TransportLight& light) {
     const auto start = Deadline::Clock::now();
     const ScatteringSplit& split = solve.split;
     if (solve.shades_ground())
-        cast_shadow(solve.part.sun, split.albedo, split.peak_share, solve.scene->medium.g,
-                    solve.threads, light.ground);
+        cast_shadow(solve.part.sun, split.albedo, split.peak_share,
+                    peak_turning(solve.scene->medium), solve.threads, light.ground);
     const auto side = static_cast<float>(shortest(solve.grid.lattice.cell));
     std::vector<float> depth(solve.grid.extinction);
     for (float& one : depth) one *= side;
@@ -202,7 +202,8 @@ TransportLight without_grid(const PartSolve& solve, TransportLight light) {
     const Medium& medium = solve.scene->medium;
     if (solve.shades_ground()) {
         const auto start = Deadline::Clock::now();
-        cast_shadow(solve.part.sun, medium.albedo, 0, medium.g, solve.threads, light.ground);
+        cast_shadow(solve.part.sun, medium.albedo, 0, asymmetry(medium), solve.threads,
+                    light.ground);
         light.took.of(Effect::kGroundShadow) = ms_since(start);
     }
     if (solve.colored) take_colors(solve, light);

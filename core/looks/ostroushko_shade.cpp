@@ -38,7 +38,7 @@ LookLight look_light(const Scene& scene) {
         light.below = scene->ground->albedo * (light.sun * std::max(light.to_sun.y, 0.0) +
                                                sky.irradiance_up / std::numbers::pi);
     // Light that is scattered forward goes on. By similarity, the depth that counts is (1 - albedo g) of it.
-    light.softened = 1 - scene->medium.albedo * std::max(scene->medium.g, 0.0);
+    light.softened = 1 - scene->medium.albedo * std::max(asymmetry(scene->medium), 0.0);
     light.albedo = scene->medium.albedo;
     return light;
 }

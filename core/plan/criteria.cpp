@@ -186,7 +186,7 @@ Criterion of_matter(Effect effect, const Scene& scene, const Survey& survey, con
             if (scene->medium.albedo == 0)
                 return {false, 0, "the albedo is 0: nothing is scattered"};
             return above("the largest optical depth towards the lights,", lights.depth,
-                         scatter_threshold(scene->medium.g),
+                         scatter_threshold(asymmetry(scene->medium)),
                          scene->medium.albedo * without(&Measured::scattering, lights.depth));
         case Effect::kViewExtinction:
             return above("the largest optical depth towards the eye,", survey.optical_depth_eye,

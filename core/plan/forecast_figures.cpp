@@ -150,7 +150,7 @@ IslandWork island_work(const TransportSettings& settings, const Scene& scene,
 }
 
 ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& survey) {
-    const double g = scene->medium.g, f = g > 0 ? g * g * g * g : 0;
+    const double g = asymmetry(scene->medium), f = g > 0 ? g * g * g * g : 0;
     const double depth = std::clamp(survey.optical_depth_eye, 1e-6, 1e6);
     double cell_depth = 0, coarseness = 0;
     if (rung.cells > 0) {
@@ -221,7 +221,7 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
                                                                  : 2);
         // From the ground, and back once more.
         if (survey.ground.light > 0) bands += 2;
-        const double harmonics = scene->medium.g == 0 ? 0.5 : 1;  // of the cost of 16
+        const double harmonics = asymmetry(scene->medium) == 0 ? 0.5 : 1;  // of the cost of 16
         // Sweeps that the solve takes, from the coarser grid's light: few in thin matter, twice as many at depth 30.
         const double sweeps = 1 + 0.35 * std::log1p(std::min(survey.optical_depth_sun, 1e3));
         // Islands' grids are small and less deep than all of them in a row: measured on the sky of 100 clouds.

@@ -26,7 +26,7 @@ constexpr double kSubPixelError = 0.01;
 }  // namespace
 
 double known_error(const Scene& scene, const Survey& survey, bool detailed) {
-    const double g = scene->medium.g, depth = survey.optical_depth_eye;
+    const double g = asymmetry(scene->medium), depth = survey.optical_depth_eye;
     const double behind = std::clamp(-2 * survey.sun_cosine - 1, 0.0, 1.0);
     const double into_sun = std::max(survey.sun_cosine, 0.0);
     const double angular = (kAngularError + kTurnedBackError * behind * behind +

@@ -310,6 +310,7 @@ std::string light_fingerprint(const Scene& scene) {
     instead.leave_out(scene->haze);
     instead.leave_out(scene->camera);
     instead.leave_out(scene->image);
+    instead.leave_out(scene->sun.disc);
     instead.leave_out(scene->accuracy);
     instead.leave_out(scene->look);
     instead.leave_out(scene->display);

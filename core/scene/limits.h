@@ -50,6 +50,10 @@ inline constexpr double kMinUpSine = 1e-6;
 inline constexpr double kMaxDensity = 1e6;
 // |g|, the mean cosine of the phase function. At 1 the function is a delta and has no values.
 inline constexpr double kMaxAnisotropy = 0.999;
+// Effective diameter of droplets, micrometres. Smaller ones are haze, larger ones fall as drizzle, and the sum of their
+// scattering takes over a tenth of a second.
+inline constexpr double kMinDroplet = 2;
+inline constexpr double kMaxDroplet = 50;
 
 // --- Detail
 

@@ -54,6 +54,17 @@ Status check_sky(const Given& given, const Sky& sky) {
     return std::nullopt;
 }
 
+Status check_medium(const Given& given, const Medium& medium) {
+    const bool mie = medium.phase == PhaseFunction::kMie;
+    if (mie && given.has("g"))
+        return invalid("/g",
+                       "must be left out with the phase function \"mie\", which follows "
+                       "from \"droplet\"");
+    if (!mie && given.has("droplet"))
+        return invalid("/droplet", "must be left out but with the phase function \"mie\"");
+    return std::nullopt;
+}
+
 Status check_accuracy(const Given& given) {
     const bool one = given.bits != 0 && (given.bits & (given.bits - 1)) == 0;
     if (one) return std::nullopt;
@@ -69,6 +80,8 @@ Status check_written(const Given& given, const void* object) {
     if (table == &table_of<Cloud>()) return check_cloud(given, *static_cast<const Cloud*>(object));
     if (table == &table_of<Sun>()) return check_sun(given);
     if (table == &table_of<Sky>()) return check_sky(given, *static_cast<const Sky*>(object));
+    if (table == &table_of<Medium>())
+        return check_medium(given, *static_cast<const Medium*>(object));
     if (table == &table_of<Accuracy>()) return check_accuracy(given);
     return std::nullopt;
 }

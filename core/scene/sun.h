@@ -8,6 +8,10 @@
 
 namespace awan {
 
+// Whether pictures show the sun itself.
+enum class SunDisc { kAutomatic, kShown, kHidden };
+inline constexpr const char* kSunDiscWords[] = {"auto", "on", "off"};
+
 struct Sun {
     double elevation = 40;
     double azimuth = 110;
@@ -16,6 +20,7 @@ struct Sun {
     // "auto": from the elevation (core/scene/daylight.h); `color` is unused then.
     bool auto_color = true;
     double intensity = 40;
+    SunDisc disc = SunDisc::kAutomatic;
 };
 
 inline constexpr auto kSunHasDirection = [](const void* sun) {
@@ -55,6 +60,10 @@ inline constexpr Field kSunFields[] = {
                             .wanted = "a number >= 0",
                             .range = from_to(0, limits::kMaxIntensity),
                             .says = "Irradiance at normal incidence."}),
+    field<&Sun::disc>({.name = "disc",
+                       .words = kSunDiscWords,
+                       .says = "Whether pictures show the sun itself where no cloud hides it, and "
+                               "PNG and WebP its glare. auto: under a sky, in all but EXR."}),
 };
 static_assert(covers<Sun>(kSunFields));
 

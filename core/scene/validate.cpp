@@ -1,5 +1,6 @@
 #include "core/scene/validate.h"
 
+#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -25,6 +26,11 @@ Result<Scene> validate(SceneDraft draft) {
         return *wrong;
     }
     if (Status wrong = check_rules(draft)) return *wrong;
+    Medium& medium = draft.medium;
+    if (medium.phase != PhaseFunction::kMie)
+        medium.droplets = nullptr;
+    else if (!medium.droplets || medium.droplets->diameter != medium.droplet)
+        medium.droplets = std::make_shared<const DropletPhase>(droplet_phase(medium.droplet));
     auto air = air_of(draft);
     return Scene(std::move(draft), std::move(air));
 }

@@ -24,3 +24,13 @@ float cornette_shanks(vec3 to_light, vec3 ray, float g) {
     float cosine = dot(to_light, ray);
     return 1.5f * (1.0f + cosine * cosine) / (2.0f + g * g) * henyey_greenstein(to_light, ray, g);
 }
+
+// Droplets, by the fit of core/scene/droplets.h: fit.x and fit.y are g of the narrow and of the wide part, fit.z the
+// wide part's alpha, fit.w its share. The wide part is Draine's: Henyey & Greenstein's times
+//     (1 + alpha cos^2) / (1 + alpha (1 + 2 g^2) / 3).
+float droplets(vec3 to_light, vec3 ray, vec4 fit) {
+    float cosine = dot(to_light, ray);
+    float wide = (1.0f + fit.z * cosine * cosine) / (1.0f + fit.z * (1.0f + 2.0f * fit.y * fit.y) / 3.0f);
+    return (1.0f - fit.w) * henyey_greenstein(to_light, ray, fit.x) +
+           fit.w * wide * henyey_greenstein(to_light, ray, fit.y);
+}

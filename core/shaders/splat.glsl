@@ -63,6 +63,8 @@ layout(location = 5) uniform vec3 zenith;
 layout(location = 6) uniform vec3 horizon;
 layout(location = 7) uniform float g;
 layout(location = 8) uniform bool is_cornette_shanks;
+// Of droplets, as phase.glsl takes it; fit.w is 0 for another phase function.
+layout(location = 13) uniform vec4 fit;
 // Whether effect view_extinction is on.
 layout(location = 9) uniform bool extinguish;
 // Whether the sky is drawn behind.
@@ -173,10 +175,14 @@ Pixels look(float X, float first_row) {
     vec4 per_d = sqrt(px.per_d2);
     vec3 a = vec3(X, px.Y.x, 1.0) * per_d.x, b = vec3(X, px.Y.y, 1.0) * per_d.y;
     vec3 c = vec3(X, px.Y.z, 1.0) * per_d.z, d = vec3(X, px.Y.w, 1.0) * per_d.w;
-    px.phase = is_cornette_shanks ? vec4(cornette_shanks(to_sun, a, g), cornette_shanks(to_sun, b, g),
-                                         cornette_shanks(to_sun, c, g), cornette_shanks(to_sun, d, g))
-                                  : vec4(henyey_greenstein(to_sun, a, g), henyey_greenstein(to_sun, b, g),
-                                         henyey_greenstein(to_sun, c, g), henyey_greenstein(to_sun, d, g));
+    if (fit.w > 0.0)
+        px.phase = vec4(droplets(to_sun, a, fit), droplets(to_sun, b, fit), droplets(to_sun, c, fit),
+                        droplets(to_sun, d, fit));
+    else
+        px.phase = is_cornette_shanks ? vec4(cornette_shanks(to_sun, a, g), cornette_shanks(to_sun, b, g),
+                                             cornette_shanks(to_sun, c, g), cornette_shanks(to_sun, d, g))
+                                      : vec4(henyey_greenstein(to_sun, a, g), henyey_greenstein(to_sun, b, g),
+                                             henyey_greenstein(to_sun, c, g), henyey_greenstein(to_sun, d, g));
     px.left = vec4(1.0);
     px.red = px.green = px.blue = vec4(0.0);
     return px;

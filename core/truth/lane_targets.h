@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstring>
 #include <numbers>
+#include <type_traits>
+#include <vector>
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif

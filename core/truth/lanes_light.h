@@ -9,8 +9,38 @@ AWAN_INLINE Floats dot(const Directions& a, const Directions& b) {
 AWAN_INLINE Directions chosen(const Ints& first, const Directions& a, const Directions& b) {
     return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
 }
+// Numbers out of a table, a place a lane.
+template <typename Element>
+AWAN_INLINE auto looked_up(const std::vector<Element>& table, const Ints& at) {
+    std::conditional_t<std::is_same_v<Element, float>, Floats, Ints> values{};
+    for (int lane = 0; lane < kLanes; ++lane) {
+        const Element one = table[static_cast<std::size_t>(at[lane])];
+        values[lane] =
+            static_cast<std::conditional_t<std::is_same_v<Element, float>, float, std::int32_t>>(
+                one);
+    }
+    return values;
+}
+
+// As value() of droplet_law.h.
+AWAN_INLINE Floats droplet_values(const DropletLaw& law, const Directions& a, const Directions& b) {
+    const Directions apart{a.x - b.x, a.y - b.y, a.z - b.z},
+        together{a.x + b.x, a.y + b.y, a.z + b.z};
+    const Floats less = 0.5f * dot(apart, apart), more = 0.5f * dot(together, together);
+    const Ints behind = more < less;
+    const Floats w = min(behind ? more : less, all(1.0f));
+    const Bits steps = (bits(1.0f + w * law.stretch) - 0x3f800000u) >> law.shift;
+    const auto half = static_cast<std::int32_t>(law.half);
+    const Ints step = Ints(steps);
+    const Ints at = (step < half ? step : Ints{} + (half - 1)) + (behind ? Ints{} + half : Ints{});
+    const Floats part = (w - looked_up(law.from, at)) / looked_up(law.width, at);
+    return looked_up(law.p_from, at) +
+           min(max(part, all(0.0f)), all(1.0f)) * looked_up(law.p_rise, at);
+}
+
 // phase_value (phase_law.h) of the ways before and after, unit.
 AWAN_INLINE Floats phase_values(const PhaseLaw& law, const Directions& a, const Directions& b) {
+    if (law.droplets) return droplet_values(*law.droplets, a, b);
     const auto g = static_cast<float>(law.g), size = std::abs(g);
     const float sign = g >= 0 ? 1.0f : -1.0f;
     // 1 -+ cosine as half a squared distance, which loses no digits at the peak.
@@ -33,6 +63,20 @@ AWAN_INLINE Turn henyey_greenstein_turn(float g, const Floats& u) {
     const Floats per = 0.5f / (below * below), rise = g * v;
     return {((1 - g) * (1 - g)) * (2.0f - 2.0f * u) * ((2 + g) + rise) * per,
             ((1 + g) * (1 + g)) * (2.0f * u) * ((2 - g) + rise) * per};
+}
+
+// As droplet_cosine of phase_law.h.
+AWAN_INLINE Turn droplet_turn(const DropletLaw& law, RandomLanes& random) {
+    const auto count = static_cast<std::int32_t>(law.keep.size());
+    const Ints drawn = __builtin_convertvector(unit(random) * static_cast<float>(count), Ints);
+    const Ints first = drawn < count ? drawn : Ints{} + (count - 1);
+    const Ints at = unit(random) > looked_up(law.keep, first) ? looked_up(law.other, first) : first;
+    const Floats low = looked_up(law.p_from, at), high = low + looked_up(law.p_rise, at),
+                 u = unit(random);
+    const Floats part = u * (low + high) / (low + sqrt(low * low + u * (high * high - low * low)));
+    const Floats w = looked_up(law.from, at) + min(part, all(1.0f)) * looked_up(law.width, at);
+    const Ints ahead = at < static_cast<std::int32_t>(law.half);
+    return {ahead ? w : 2.0f - w, ahead ? 2.0f - w : w};
 }
 
 // `d` turned so, evenly about itself. Basis: Duff et al. 2017.
@@ -67,6 +111,7 @@ AWAN_INLINE Directions turned(const Directions& d, const Turn& turn, RandomLanes
 
 // Where light that came along `d` goes on.
 AWAN_INLINE Directions scattered(const PhaseLaw& law, const Directions& d, RandomLanes& random) {
+    if (law.droplets) return turned(d, droplet_turn(*law.droplets, random), random);
     const auto g = static_cast<float>(law.g);
     Turn turn = henyey_greenstein_turn(g, unit(random));
     if (law.cornette_shanks) {

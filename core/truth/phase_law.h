@@ -6,9 +6,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <numbers>
 
 #include "core/scene/scene.h"
+#include "core/truth/droplet_law.h"
 #include "core/truth/path_random.h"
 
 namespace awan::truth {
@@ -16,10 +18,13 @@ namespace awan::truth {
 struct PhaseLaw {
     double g = 0;  // -1 < g < 1
     bool cornette_shanks = false;
+    // Of droplets, then `g` is not of account; else null.
+    std::shared_ptr<const DropletLaw> droplets{};
 };
 
 inline PhaseLaw phase_law(const Medium& medium) {
-    return {medium.g, medium.phase == PhaseFunction::kCornetteShanks};
+    if (medium.droplets) return {0, false, std::make_shared<const DropletLaw>(*medium.droplets)};
+    return {medium.g, medium.phase == PhaseFunction::kCornetteShanks, nullptr};
 }
 
 // Mean 1 over the sphere; cosine of the angle between the ways light goes before and after.
@@ -27,6 +32,7 @@ inline PhaseLaw phase_law(const Medium& medium) {
 // (1 - |g|)^2 + 2 |g| (1 -+ cos), which loses no digits at the peak. Cornette & Shanks 1992: times
 // 3 (1 + cos^2) / (2 (2 + g^2)).
 inline double phase_value(const PhaseLaw& law, double cosine) {
+    if (law.droplets) return value(*law.droplets, 1 - std::abs(cosine), cosine < 0);
     const double size = std::abs(law.g);
     if (size == 0 && !law.cornette_shanks) return 1;
     const double apart = std::max(1 - (law.g >= 0 ? cosine : -cosine), 0.0);
@@ -42,6 +48,21 @@ inline double henyey_greenstein_cosine(double g, double u) {
     if (std::abs(g) < 1e-6) return std::clamp(v + 1.5 * g * (1 - v * v), -1.0, 1.0);
     const double q = (1 - g * g) / (1 + g * v);
     return std::clamp((1 + g * g - q * q) / (2 * g), -1.0, 1.0);
+}
+
+// A cosine with the density of droplets: an interval by its light, and within it a place where p rises evenly.
+inline double droplet_cosine(const DropletLaw& law, PathRandom& random) {
+    const std::size_t count = law.keep.size();
+    std::size_t i =
+        std::min(static_cast<std::size_t>(random.unit() * static_cast<double>(count)), count - 1);
+    if (random.unit() > static_cast<double>(law.keep[i])) i = law.other[i];
+    const auto low = static_cast<double>(law.p_from[i]);
+    const double high = low + static_cast<double>(law.p_rise[i]), u = random.unit();
+    const double part =
+        u * (low + high) / (low + std::sqrt(low * low + u * (high * high - low * low)));
+    const double w =
+        static_cast<double>(law.from[i]) + std::min(part, 1.0) * static_cast<double>(law.width[i]);
+    return i < law.half ? 1 - w : w - 1;
 }
 
 // `direction` (unit) turned by the angle of `cosine`, towards the azimuth (cos, sin).
@@ -66,12 +87,13 @@ inline glm::dvec3 scattered(const PhaseLaw& law, const glm::dvec3& direction, Pa
         const PathRandom::Pair p = random.signed_pair();
         const double r2 = p.a * p.a + p.b * p.b;
         if (r2 >= 1) continue;
-        if (law.g == 0 && !law.cornette_shanks) {
+        if (law.g == 0 && !law.cornette_shanks && !law.droplets) {
             // Even over the sphere, by the same point of the disc.
             const double aside = 2 * std::sqrt(1 - r2);
             return {aside * p.a, aside * p.b, 1 - 2 * r2};
         }
-        const double cosine = henyey_greenstein_cosine(law.g, r2);
+        const double cosine = law.droplets ? droplet_cosine(*law.droplets, random)
+                                           : henyey_greenstein_cosine(law.g, r2);
         if (law.cornette_shanks && 2 * random.unit() > 1 + cosine * cosine) continue;
         const double per_r = 1 / std::sqrt(r2);
         return turned(direction, cosine, p.a * per_r, p.b * per_r);

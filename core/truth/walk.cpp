@@ -464,7 +464,8 @@ Setting setting_of(const Scene& scene, const Matter& matter, const TruthOptions&
         s.ground_albedo = scene->ground->albedo;
     }
     s.max_orders = options.max_orders == 0 ? kMaxOrders : std::min(options.max_orders, kMaxOrders);
-    s.from_sun = worthwhile_from_sun(s.phase.g);
+    // Droplets' peak is steeper than any other.
+    s.from_sun = s.phase.droplets ? kMaxFromSun : worthwhile_from_sun(s.phase.g);
     return s;
 }
 
