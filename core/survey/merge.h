@@ -2,10 +2,10 @@
 // measuring and drawing take the time of the fewer.
 //
 // A Gaussian of standard deviation s is, but for what no picture shows, a sum of Gaussians of s' on the nodes of a
-// lattice of cells h, weighted by a quadratic B-spline around its centre: mass and mean are exact, and so is the
-// variance if s'^2 + h^2 / 4 = s^2. With h = 1.2 s it is s' = .8 s, and the sum over a constant field is constant within
-// 3e-4. Particles are merged by classes of size, half an octave each, on a lattice a class; what is wider than the
-// narrowest of its class is spread by the second difference to its own variance. Where a part of space has fewer
+// lattice of cells h, weighted by a quadratic B-spline around its centre: mass and mean are exact, and so is
+// the variance if s'^2 + h^2 / 4 = s^2. With h = 1.2 s it is s' = .8 s, and the sum over a constant field is constant
+// within 3e-4. Particles are merged by classes of size, half an octave each, on a lattice a class; what is wider than
+// the narrowest of its class is spread by the second difference to its own variance. Where a part of space has fewer
 // particles than nodes, they stay.
 #pragma once
 
