@@ -19,7 +19,7 @@ constexpr double kMergingError = 0.05, kMergingShare = 0.5;
 Result<ParticleSet> particles_of(const Scene& scene, int threads, const Deadline& deadline) {
     const bool look = scene->look != Look::kPhysical;
     auto made = generate(scene, threads, deadline, look);
-    if (!made.ok() || look ||
+    if (!made.ok() || look || scene->display != Display::kLit ||
         std::any_of(scene->clouds.begin(), scene->clouds.end(), is_procedural))
         return made;
     const double wanted = scene->accuracy.error.value_or(kDefaultError);

@@ -151,12 +151,10 @@ TEST(Islands, ShadowsOfOthersAreInTheDepthFromTheSun) {
     SceneDraft draft = field_of(list);
     draft.sun.elevation = 90;
     const test::Stage stage = test::stage(draft);
-    const ParticleSet own{{stage.particles.center[0]},
-                          {stage.particles.radius[0]},
-                          {stage.particles.density[0]},
-                          {},
-                          {},
-                          {}};
+    ParticleSet own;
+    own.center = {stage.particles.center[0]};
+    own.radius = {stage.particles.radius[0]};
+    own.density = {stage.particles.density[0]};
     const SunDepth sun =
         sun_depth_in(sun_lattice(own, sun_direction(stage.scene->sun), 24, 1), stage.particles);
     for (const glm::dvec3 p : {glm::dvec3(0, 0, 0), {0.7, 0.5, -0.4}, {0, -2.5, 0}, {-1, 1, 1}}) {

@@ -39,7 +39,7 @@ struct ParticleSet {
 
     // Of each cloud of the scene, 1/unit: as given, or what was found for "auto".
     std::vector<double> cloud_density;
-    // The first particle of each cloud, and the end of the last.
+    // The first particle of each cloud, and the end of the last; EMPTY of merged ones.
     std::vector<std::size_t> cloud_begin;
 
     // Of procedural clouds (ModelParticles in models.h) the largest of their errors, or what merging costs; and what

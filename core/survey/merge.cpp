@@ -83,7 +83,8 @@ int class_of_many_nodes(const ParticleSet& particles, const MergeScales& scales,
 
 Result<ParticleSet> merged(ParticleSet particles, const glm::dvec3& to_sun, double most_error,
                            int threads, const Deadline& deadline) {
-    if (particles.size() < kFewParticles || !particles.color.empty()) return particles;
+    if (particles.size() < kFewParticles || !particles.color.empty() || !particles.paint.empty())
+        return particles;
     float widest = 0;
     for (const float radius : particles.radius) widest = std::max(widest, radius);
     const glm::dvec3 origin = bounds_of(particles).min;

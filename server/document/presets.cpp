@@ -90,7 +90,7 @@ std::vector<PresetEntry> preset_entries() {
         const std::string_view text = embedded("presets/" + std::string(name) + ".json");
         if (!text.empty())
             presets.push_back(
-                {name, value_of(object, "\"title\""), value_of(object, "\"genus\""), text});
+                {name, value_of(object, "\"title\""), text, value_of(object, "\"genus\"")});
     }
     return presets;
 }

@@ -11,8 +11,9 @@ namespace awan {
 
 struct PresetEntry {
     std::string_view name, title;
-    std::string_view genus;  // what meteorologists call such a cloud, "cumulus congestus"; of some
-    std::string_view text;   // the document
+    std::string_view text;  // the document
+    std::string_view
+        genus{};  // what meteorologists call such a cloud, "cumulus congestus"; of some
 };
 
 // In the order of web/presets/index.json.

@@ -14,9 +14,6 @@
 namespace awan {
 namespace {
 
-// Before a lane is asked for again.
-constexpr std::chrono::milliseconds kLinesAreFull{100};
-
 // Waits for a lane as long as the job may take.
 Status enter_patiently(Lanes::Pass& pass, const Request& request) {
     const LaneWork lane{Weight::kLong, 2 * kShort_ms, request.client};
@@ -48,7 +45,7 @@ Error in_job(Error error) {
 }  // namespace
 
 Response answer_impostor(Service::State& state, const Request& request, const JobWork& work) {
-    const auto scene = read_request_scene(request);
+    const auto scene = read_request_scene(state, request);
     if (!scene) return fail(scene.error(), request);
     const bool exr = (*scene)->image.format == ImageFormat::kExr;
     const auto pixels = static_cast<std::size_t>(work.impostor.views * work.impostor.size);

@@ -60,6 +60,9 @@ struct LaneWork {
     std::string client;
 };
 
+// How long a job waits before it asks for a lane, or memory, again.
+inline constexpr std::chrono::milliseconds kLinesAreFull{100};
+
 // Thread-safe.
 class Lanes {
     struct Runner {

@@ -25,9 +25,6 @@ namespace {
 // That an animation shows.
 constexpr double kFramesPerSecond = kFlightFramesPerSecond;
 
-// Before a lane, or memory, is asked for again.
-constexpr std::chrono::milliseconds kLinesAreFull{100};
-
 // Where the frames go, in their order.
 class Reel {
   public:
