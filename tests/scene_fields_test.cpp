@@ -104,10 +104,11 @@ const char* const kDocuments[] = {
            "texture": "puff", "billboards": 20},
           {"particles": 3, "size": [1, 1, 1], "center": [4, 2, 3], "radius": 1}],
 "texture": "torn", "billboards": 30,
-"sun": {"direction": [0.3, 0.5, 0.4], "color": "auto"},
+"sun": {"direction": [0.3, 0.5, 0.4], "color": "auto", "disc": "off"},
+"medium": {"phase": "mie", "droplet": 11},
 "sky": {"model": "physical", "daylight": "preetham", "turbidity": 3, "intensity": 0.7},
 "ground": {"albedo": 0.4}, "haze": {"extinction": 0.01, "scale_height": 20, "albedo": 0.8},
-"image": {"exposure": "auto"}, "accuracy": {"time_ms": 200}
+"image": {"exposure": "auto", "layers": "depth,sun"}, "accuracy": {"time_ms": 200}
 })",
     R"({
 "clouds": [{"model": "automaton", "automaton": {"random": {"level": "any"}}},
@@ -170,6 +171,7 @@ const char* const kWords[] = {"uniform",
 const std::map<std::string, std::string> kStandsWithOthers = {
     {"/clouds/model", "says which of its neighbours are allowed"},
     {"/sky/model", "says which of its neighbours are allowed"},
+    {"/medium/phase", "droplets belong to one of them"},
     {"/clouds/ellipsoids/plane", "\"none\" is the only word"},
     {"/clouds/implicit/primitives/shape", "says which of its neighbours are allowed"},
     {"/effects", "\"auto\" is the only word"},
@@ -185,18 +187,10 @@ const std::map<std::string, std::string> kSaysNothing = {
     {"/clouds/4/spheres/kind", "only gives defaults, and all of them are given"}};
 
 // Beginnings of what light does not depend on: the light of a cloud is the same for every picture of it.
-const char* const kPictureOnly[] = {"/camera",
-                                    "/image",
-                                    "/haze",
-                                    "/accuracy",
-                                    "/look",
-                                    "/sequence",
-                                    "/effects",
-                                    "/display",
-                                    "/texture",
-                                    "/clouds/texture",
-                                    "/clouds/cubes/texture",
-                                    "/cubes/texture"};
+const char* const kPictureOnly[] = {
+    "/sun/disc",     "/camera",  "/image",   "/haze",    "/accuracy",       "/look",
+    "/sequence",     "/effects", "/display", "/texture", "/clouds/texture", "/clouds/cubes/texture",
+    "/cubes/texture"};
 const char* const kLightToo[] = {"/effects/sun_color", "/sequence/clouds"};
 
 bool begins(const std::string& path, const char* with) {

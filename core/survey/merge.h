@@ -22,8 +22,8 @@ inline constexpr std::size_t kFewParticles = 65536;
 // use or would cost more. Where particles would be more than light and eye are quick with, those that are narrower than
 // the lattice are widened to it, as far as `most_error` allows.
 //
-// to_sun: unit. threads >= 1; the same for every number of them. Particles with colours of their own, or painted ones, stay as they
-// are.
+// to_sun: unit. threads >= 1; the same for every number of them. Particles with colours of their own, or painted ones,
+// stay as they are.
 // Errors: kOverDeadline, kCancelled.
 Result<ParticleSet> merged(ParticleSet particles, const glm::dvec3& to_sun, double most_error,
                            int threads, const Deadline& deadline);
