@@ -300,6 +300,46 @@ TEST(Haze, MarchAgreesWithThePathsOnTable44) {
     EXPECT_GT(against_paths(low_sun, "transport-32", false, true).nrmse, 0.15);
 }
 
+// A pixel at the horizon is the mean of what is seen within it, in the march and in the truth: the haze there is opaque
+// along one level line and clear a degree above it.
+TEST(Haze, APixelAtTheHorizonIsTheMeanOverItsArea) {
+    SceneDraft draft = hazy(test::balls({{{0, 40, 0}, 1, 0.01}}), 1e-3, -20, 10);
+    draft.camera = {};
+    draft.camera.automatic = false;
+    draft.camera.eye = {0, 0, 60};
+    draft.camera.target = {0, 0.3, 0};
+    draft.camera.fov = 40;
+    draft.image.background = Background::kTransparent;
+    const auto alphas = [&](int width, int height, bool whole) {
+        draft.image.width = width;
+        draft.image.height = height;
+        const test::Stage stage = test::stage(draft);
+        TruthOptions options;
+        options.samples = 32;
+        options.whole_pixels = whole;
+        return mean_of(*trace_truth(stage.scene, stage.particles, stage.view, options, {}, {}));
+    };
+    const Image pixels = alphas(6, 5, true), parts = alphas(24, 20, false);
+    const Image marched = [&] {
+        draft.image.width = 6;
+        draft.image.height = 5;
+        return rendered(draft, "transport-16");
+    }();
+    float sharpest = 0;
+    for (int y = 0; y < 5; ++y) {
+        double mean = 0;
+        for (int j = 0; j < 4; ++j)
+            mean += 0.25 * static_cast<double>(
+                               parts.pixels[4 * static_cast<std::size_t>(24 * (4 * y + j)) + 3]);
+        const float own = pixels.pixels[4 * static_cast<std::size_t>(6 * y) + 3];
+        EXPECT_NEAR(own, mean, 0.01) << y;
+        EXPECT_NEAR(marched.pixels[4 * static_cast<std::size_t>(6 * y) + 3], mean, 0.02) << y;
+        const float middle = parts.pixels[4 * static_cast<std::size_t>(24 * (4 * y + 2)) + 3];
+        sharpest = std::max(sharpest, std::abs(middle - own));
+    }
+    EXPECT_GT(sharpest, 0.1F) << "no pixel is uneven";
+}
+
 TEST(Haze, SplatsAreSeenThroughIt) {
     // Splats are compared with themselves: dimmed by haze that is black they lose what they stand behind.
     SceneDraft draft = shading_ball();

@@ -358,7 +358,9 @@ void march_block(const MarchScene& scene, int block_x, int block_y,
     };
     draw_pixels(scene, image);
     for (MarchedAlong& one : along) draw_pixels(one.scene, one.image);
-    if (items.empty()) return;
+    // Haze has an edge of its own, the horizon.
+    const bool hazy = scene.air != nullptr;
+    if (items.empty() && !hazy) return;
 
     // Finer rays, of the picture and of what is marched along with it.
     struct Finer {
@@ -369,7 +371,7 @@ void march_block(const MarchScene& scene, int block_x, int block_y,
                                 const std::vector<std::uint32_t>& part_items, Finer& to) {
         const auto march_one = [&](const MarchScene& of, FinePixels& pixels) {
             BlockMarch part(of, place_block(of, block_x, block_y, places, room), room);
-            part.run(part_items);
+            if (!part_items.empty()) part.run(part_items);
             part.add_to(pixels);
         };
         march_one(scene, to.of_picture);
@@ -396,7 +398,7 @@ void march_block(const MarchScene& scene, int block_x, int block_y,
         first += batch.places.size();
     }
     draw_finer(pixels);
-    if (!lumps) return;
+    if (!lumps && !hazy) return;
     Finer finest{{}, std::vector<FinePixels>(along.size())};
     march_all(pixels.of_picture.sharp_places(left, top, brightest_pixel(image, left, top),
                                              kMostSharpOfLumps),

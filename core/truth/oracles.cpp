@@ -180,7 +180,7 @@ glm::dvec3 single_scattering(const Scene& scene, const ParticleSet& particles,
     return sum * scale * outside_of(scene).sun;
 }
 
-PixelRay pixel_ray(const View& view, int width, int height, int x, int y) {
+PixelRay pixel_ray(const View& view, int width, int height, double x, double y) {
     const double across = ((x + 0.5) / width * 2 - 1) * view.tan_half_fov * view.aspect;
     const double up = (1 - (y + 0.5) / height * 2) * view.tan_half_fov;
     return {view.eye, glm::normalize(view.forward + across * view.right + up * view.up)};

@@ -24,10 +24,10 @@ double phase_value(const Medium& medium, double cosine);
 glm::dvec3 single_scattering(const Scene& scene, const ParticleSet& particles,
                              const glm::dvec3& origin, const glm::dvec3& direction);
 
-// Ray of a pixel's centre.
+// Ray of a pixel's centre; of a place beside it, where x and y are not whole.
 struct PixelRay {
     glm::dvec3 origin, direction;
 };
-PixelRay pixel_ray(const View& view, int width, int height, int x, int y);
+PixelRay pixel_ray(const View& view, int width, int height, double x, double y);
 
 }  // namespace awan

@@ -153,38 +153,48 @@ bool add_clouds(PixelPaths& all, std::array<CloudRays*, 2> rays, std::uint64_t k
         });
 }
 
+// A part of a pixel, and the paths that go to what is seen in it behind the clouds.
+struct Behind {
+    double share = 1;  // of the pixel
+    std::uint32_t paths = 2;
+    std::uint64_t key = 0;
+};
+
 // Light that comes through the clouds from the ground, which the ray meets. False: out of time.
-bool add_ground(PixelPaths& all, const Sight& sight, std::uint64_t key, Pixel& pixel) {
+bool add_ground(PixelPaths& all, const Sight& sight, const Behind& behind, Pixel& pixel) {
     const Picture& picture = all.picture();
     if (!(std::max(sight.through[0], sight.through[1]) > kDark)) return true;
     glm::dvec3 place = sight.eye + sight.ground * sight.direction;
     place.y = picture.setting.ground_height;
-    return each_path(key, picture.samples,
-                     [&](PathRandom& random, double, std::uint32_t half, std::uint64_t walk_key) {
-                         const double seen = sight.through[half] / (picture.samples / 2);
-                         const Through through = through_haze(picture, sight, sight.ground, random);
-                         return all.add({place, sight.direction, walk_key, true},
-                                        {&pixel, half, glm::dvec3(seen * through.scale),
-                                         seen * through.plus, false});
-                     });
+    return each_path(
+        behind.key, behind.paths,
+        [&](PathRandom& random, double, std::uint32_t half, std::uint64_t walk_key) {
+            const double seen = behind.share * sight.through[half] / (behind.paths / 2);
+            const Through through = through_haze(picture, sight, sight.ground, random);
+            return all.add(
+                {place, sight.direction, walk_key, true},
+                {&pixel, half, glm::dvec3(seen * through.scale), seen * through.plus, false});
+        });
 }
 
 // Light that comes through the clouds from the sky, or, where no sky is drawn, from the haze alone. False: out of time.
-bool add_sky(const Picture& picture, const Sight& sight, std::uint64_t key, Pixel& pixel) {
+bool add_sky(const Picture& picture, const Sight& sight, const Behind& behind, Pixel& pixel) {
     const glm::dvec3 sky =
         picture.opaque ? sky_radiance(picture.setting, sight.direction) : glm::dvec3(0);
     if (!sight.haze || !(std::max(sight.through[0], sight.through[1]) > kDark)) {
         // It is known, without a path.
-        for (std::size_t half = 0; half < 2; ++half) pixel.half[half] += sight.through[half] * sky;
+        for (std::size_t half = 0; half < 2; ++half)
+            pixel.half[half] += behind.share * sight.through[half] * sky;
         return true;
     }
-    return each_path(
-        key, picture.samples, [&](PathRandom& random, double, std::uint32_t half, std::uint64_t) {
-            const Through through = through_haze(picture, sight, sight.ground, random);
-            pixel.half[half] +=
-                sight.through[half] / (picture.samples / 2) * (through.scale * sky + through.plus);
-            return true;
-        });
+    return each_path(behind.key, behind.paths,
+                     [&](PathRandom& random, double, std::uint32_t half, std::uint64_t) {
+                         const Through through = through_haze(picture, sight, sight.ground, random);
+                         pixel.half[half] += behind.share * sight.through[half] /
+                                             (behind.paths / 2) *
+                                             (through.scale * sky + through.plus);
+                         return true;
+                     });
 }
 
 // covered: by the clouds.
@@ -192,6 +202,18 @@ double alpha_of(const Picture& picture, const Sight& sight, double covered, doub
     if (picture.opaque) return 1;
     if (!sight.haze) return covered;
     return 1 - through * sight.haze->transmittance(sight.ground * picture.matter.cell);
+}
+
+// Rays a side of a pixel, evenly spread, by which it is seen what stands behind the clouds: haze and ground change
+// within a pixel at the horizon.
+int sides_behind(const Picture& picture, bool ground) {
+    if (!picture.whole_pixels || !(picture.air || ground)) return 1;
+    constexpr int kMost = 4;
+    int sides = 1;
+    while (sides < kMost &&
+           2U * static_cast<std::uint32_t>((sides + 1) * (sides + 1)) <= picture.samples)
+        ++sides;
+    return sides;
 }
 
 // Gaussians alone have their depth in closed form, their detail has not.
@@ -256,7 +278,6 @@ bool PixelPaths::begin(const ParticleSet& near, int x, int y, Pixel& pixel) {
     const std::uint64_t key = keyed(keyed(picture.seed, 0x7247), at);
     const PixelRay ray = pixel_ray(picture.view, picture.width, picture.height, x, y);
     const glm::dvec3 eye = (ray.origin - matter.origin) / matter.cell;
-    const double ground = ground_ahead(picture.setting, eye, ray.direction);
     PixelRays rays = rays_of(picture, near, x, y, ray, eye, keyed(key, 2));
     const bool random = rays.area.random;
     CloudRays first(picture, eye, std::move(rays));
@@ -264,16 +285,33 @@ bool PixelPaths::begin(const ParticleSet& near, int x, int y, Pixel& pixel) {
     std::optional<CloudRays> second;
     if (random) second.emplace(picture, eye, rays_of(picture, near, x, y, ray, eye, keyed(key, 3)));
     const std::array<CloudRays*, 2> clouds{&first, second ? &*second : &first};
-    const Sight sight =
-        sight_of(picture, eye, ray.direction, ground, {clouds[0]->through(), clouds[1]->through()});
-    for (std::size_t half = 0; half < 2; ++half)
-        pixel.alpha[half] =
-            alpha_of(picture, sight, clouds[half]->covered(), clouds[half]->through());
-    // A picture without a background shows no ground.
     const std::uint64_t behind = keyed(key, 1);
-    return add_clouds(*this, clouds, key, pixel) &&
-           (picture.opaque && std::isfinite(ground) ? add_ground(*this, sight, behind, pixel)
-                                                    : add_sky(picture, sight, behind, pixel));
+    if (!add_clouds(*this, clouds, key, pixel)) return false;
+    const int sides = sides_behind(picture, picture.opaque && picture.setting.has_ground);
+    const double share = 1.0 / (sides * sides);
+    const auto paths =
+        std::max(picture.samples / static_cast<std::uint32_t>(sides * sides) / 2, 1U) * 2;
+    for (int k = 0; k < sides * sides; ++k) {
+        const glm::dvec2 aside((k % sides + 0.5) / sides - 0.5, (k / sides + 0.5) / sides - 0.5);
+        const glm::dvec3 direction =
+            sides == 1
+                ? ray.direction
+                : pixel_ray(picture.view, picture.width, picture.height, x + aside.x, y + aside.y)
+                      .direction;
+        const double ground = ground_ahead(picture.setting, eye, direction);
+        const Sight sight =
+            sight_of(picture, eye, direction, ground, {clouds[0]->through(), clouds[1]->through()});
+        for (std::size_t half = 0; half < 2; ++half)
+            pixel.alpha[half] +=
+                share * alpha_of(picture, sight, clouds[half]->covered(), clouds[half]->through());
+        const Behind part{share, paths,
+                          sides == 1 ? behind : keyed(behind, static_cast<std::uint64_t>(k))};
+        // A picture without a background shows no ground.
+        if (!(picture.opaque && std::isfinite(ground) ? add_ground(*this, sight, part, pixel)
+                                                      : add_sky(picture, sight, part, pixel)))
+            return false;
+    }
+    return true;
 }
 
 }  // namespace awan::truth

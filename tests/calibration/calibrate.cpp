@@ -218,14 +218,15 @@ void measure(const Options& options, int index, Device& device, std::FILE* out) 
         reference = reference_of(scene, planned, options);
         keep(options, index, reference);
     }
-    // Where times do not count, a grid goes on from the coarser rung's.
+    // Where times do not count, a grid goes on from the coarser rung's. What asks cost is held against them.
     LightCache lights(std::size_t{1} << 30);
+    const bool timed = !options.untraced &&
+                       (options.noise >= 1 || !options.errors.empty() || !options.times.empty());
     const Truth against{numbered.kind, scene, planned, reference};
     const auto rendered_as = [&](const Accuracy& accuracy) {
         SceneDraft draft = numbered.draft;
         draft.accuracy = accuracy;
-        return timed_render(must(validate(draft)), options, device,
-                            options.untraced || options.noise < 1 ? &lights : nullptr);
+        return timed_render(must(validate(draft)), options, device, timed ? nullptr : &lights);
     };
     std::optional<Image> coarser;
     for (const Rung& rung : ladder()) {
