@@ -200,8 +200,8 @@ cmp -s painted.awa painted2.awa || fail "a layout of textures does not come back
 run 0 particles painted.awa -o painted3.awa
 cmp -s painted.awa painted3.awa || fail "a layout of textures is not written"
 run 3 convert painted.awa painted.awn
-sed 's/awa 1/awa 7/' painted.awa >later.awa
-run 3 validate later.awa
+sed 's/awa 1/awa 7/' painted.awa >newer.awa
+run 3 validate newer.awa
 contains "a version that is not there" "line 1" "$(cat err)"
 run 0 render painted.awa --json -o painted.png
 contains "textures are drawn by splats" '"harris"' "$(cat out)"
