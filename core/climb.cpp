@@ -18,7 +18,7 @@ namespace awan {
 namespace {
 
 // Error over the difference to the next coarser grid (tests/calibration/README.md).
-constexpr double kErrorOfDifference = 1.5;
+constexpr double kErrorOfDifference = 1.25;
 // The same, of pictures without a grid to one with it.
 constexpr double kErrorOfPicture = 1.1;
 // With which power of a cell's side errors fall, at least: from 1.3 to 1.6 was measured on smooth clouds.
