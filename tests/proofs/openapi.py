@@ -253,7 +253,7 @@ def is_problem(answer, statuses, what, pointer=None):
 
 
 def named(path, job):
-    return path.replace("{name}", "cumulus").replace("{id}", job)
+    return path.replace("{name}", "soft" if "textures" in path else "cumulus").replace("{id}", job)
 
 
 def query_values(contract, parameter, chance):
