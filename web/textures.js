@@ -28,7 +28,7 @@ function texture(store) {
 }
 
 function upload(store) {
-  const input = el("input", { type: "file", accept: "image/*,.exr,.tif,.tiff", class: "unseen", tabindex: "-1" });
+  const input = el("input", { type: "file", accept: "image/*,.exr,.tif,.tiff", hidden: true, "aria-label": "Texture to use" });
   const button = el("button", { type: "button", onclick: () => input.click() }, "A texture of your own…");
   input.addEventListener("change", async () => {
     const [file] = input.files;
