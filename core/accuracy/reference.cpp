@@ -60,7 +60,7 @@ GroundLight ground_below(const Scene& scene, const Planned& planned) {
     GroundLight ground = bare_ground(*scene);
     if (planned.particles.size() > 0 && has_ground(*scene, planned.survey.bounds))
         cast_shadow(sun_depth(planned.particles, sun_direction(scene->sun), kShadowCells, 1),
-                    scene->medium.albedo, 0, asymmetry(scene->medium), 1, ground);
+                    scene->medium.albedo, 0, 0, 1, ground);
     return ground;
 }
 

@@ -76,7 +76,8 @@ GroundLight bare_ground(const SceneDraft& scene);
 //     shadow = mean of exp(-depth) - 1 over lines towards the sun's disc,
 // and, where the forward peak is split off (f = peak_share > 0, core/light/delta_m.h),
 //     ahead = mean of exp(-(1 - albedo f) depth) - exp(-depth) over lines within the peak's width.
-// Leaves both as they are where the sun is below kLowestShadow. turning: as peak_turning (core/light/delta_m.h).
+// Leaves both as they are where the sun is below kLowestShadow. turning: as peak_turning (core/light/delta_m.h);
+// of no account where there is no peak.
 void cast_shadow(const SunDepth& sun, double albedo, double peak_share, double turning, int threads,
                  GroundLight& ground);
 inline constexpr double kLowestShadow = 0.01;  // sine of the elevation

@@ -202,7 +202,7 @@ GroundLight ground_under(const Scene& scene, const ParticleSet& particles, const
     ground.into_cloud = plan.on(Effect::kGroundLight);
     if (plan.on(Effect::kGroundShadow))
         cast_shadow(sun_depth(particles, sun_direction(scene->sun), kShadowCells, 1),
-                    scene->medium.albedo, 0, asymmetry(scene->medium), 1, ground);
+                    scene->medium.albedo, 0, 0, 1, ground);
     return ground;
 }
 

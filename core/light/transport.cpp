@@ -202,8 +202,7 @@ TransportLight without_grid(const PartSolve& solve, TransportLight light) {
     const Medium& medium = solve.scene->medium;
     if (solve.shades_ground()) {
         const auto start = Deadline::Clock::now();
-        cast_shadow(solve.part.sun, medium.albedo, 0, asymmetry(medium), solve.threads,
-                    light.ground);
+        cast_shadow(solve.part.sun, medium.albedo, 0, 0, solve.threads, light.ground);
         light.took.of(Effect::kGroundShadow) = ms_since(start);
     }
     if (solve.colored) take_colors(solve, light);

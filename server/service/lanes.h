@@ -9,14 +9,13 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <list>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
-
-#include <condition_variable>
 
 #include "core/base/deadline.h"
 
