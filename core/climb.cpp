@@ -7,6 +7,7 @@
 #include <list>
 #include <utility>
 
+#include "core/base/exact_math.h"
 #include "core/draw/picture_difference.h"
 #include "core/light/transport.h"
 #include "core/plan/island_settings.h"
@@ -127,9 +128,10 @@ Result<const Image*> small_picture(const Climb& climb, const TransportLight& lig
 // difference: of a transport rung's small picture to the next coarser grid's.
 double stated_error(double difference, const Climb& climb) {
     const Planned& planned = climb.planned;
-    return std::hypot(kErrorOfDifference * difference,
-                      known_error(climb.scene, planned.survey, planned.particles.detail != nullptr),
-                      planned.survey.model_error);
+    return exact::hypot(
+        kErrorOfDifference * difference,
+        known_error(climb.scene, planned.survey, planned.particles.detail != nullptr),
+        planned.survey.model_error);
 }
 
 // By how much grids differ, as far as it tells how far off the finest is: two can be near to each other by luck. Then
@@ -147,7 +149,7 @@ Result<double> difference_of(const Climb& climb, const TransportLight& light, in
         const auto before = small_picture(climb, *finer->coarser, pictures);
         if (!before.ok()) return before.error();
         difference = std::max(difference, shrinks * picture_difference(**before, **own));
-        shrinks *= std::pow(static_cast<double>(grids[i - 1]) / grids[i], kOrder);
+        shrinks *= exact::pow(static_cast<double>(grids[i - 1]) / grids[i], kOrder);
         finer = finer->coarser.get();
     }
     return difference;
@@ -373,7 +375,7 @@ Result<double> error_of_picture(const Scene& scene, const Planned& planned, cons
         with_behind = *std::move(drawn);
     }
     const Image other = moved_by(small, with_behind, picture);
-    return kErrorOfPicture * std::hypot(picture_difference(other, small), reached.stated);
+    return kErrorOfPicture * exact::hypot(picture_difference(other, small), reached.stated);
 }
 
 }  // namespace awan

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/exact_math.h"
 #include "core/generate/generate.h"
 #include "core/scene/spheres.h"
 #include "core/scene/validate.h"
@@ -35,7 +36,7 @@ double fov_of(const Camera& camera) {
 }
 
 glm::dvec3 level(double azimuth) {
-    return {std::sin(azimuth), 0, std::cos(azimuth)};
+    return {exact::sin(azimuth), 0, exact::cos(azimuth)};
 }
 
 // Where `forward` looks, with the picture of the scene; its eye is not used.
@@ -65,8 +66,8 @@ double orbit_distance(const SceneDraft& draft, const Bounds& bounds, double elev
     double distance = 1e-3;
     for (int i = 0; i < kOrbitSides; ++i) {
         const glm::dvec3 outward =
-            std::cos(elevation) * level(2 * std::numbers::pi * i / kOrbitSides) +
-            glm::dvec3(0, std::sin(elevation), 0);
+            exact::cos(elevation) * level(2 * std::numbers::pi * i / kOrbitSides) +
+            glm::dvec3(0, exact::sin(elevation), 0);
         distance =
             std::max(distance, distance_that_holds(view_along(draft, -outward), bounds, center));
     }
@@ -80,21 +81,21 @@ std::vector<CameraKey> orbit(const SceneDraft& draft, const Bounds& bounds, std:
     // The distance depends little on the elevation, and the elevation on it.
     for (int i = 0; i < 3; ++i) {
         const double sine = (least_height(draft, distance) - center.y) / distance;
-        if (!(sine > std::sin(elevation))) break;
-        elevation = std::min(std::asin(std::min(sine, 1.0)), kSteepestOrbit * kRadians);
+        if (!(sine > exact::sin(elevation))) break;
+        elevation = std::min(exact::asin(std::min(sine, 1.0)), kSteepestOrbit * kRadians);
         distance = orbit_distance(draft, bounds, elevation);
     }
     double begin = kAutomaticAzimuth * kRadians;
     if (!draft.camera.automatic) {
         const glm::dvec3 out = draft.camera.eye - center;
-        if (out.x != 0 || out.z != 0) begin = std::atan2(out.x, out.z);
+        if (out.x != 0 || out.z != 0) begin = exact::atan2(out.x, out.z);
     }
     std::vector<CameraKey> keys;
     for (std::uint64_t i = 0; i < frames; ++i) {
         const double turned =
             2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(frames);
         const glm::dvec3 outward =
-            std::cos(elevation) * level(begin + turned) + glm::dvec3(0, std::sin(elevation), 0);
+            exact::cos(elevation) * level(begin + turned) + glm::dvec3(0, exact::sin(elevation), 0);
         keys.push_back(key_at(draft, center + distance * outward, center));
     }
     return keys;
@@ -176,7 +177,7 @@ std::vector<CameraKey> through(const SceneDraft& draft, const Bounds& bounds,
             frames < 2 ? 0 : static_cast<double>(i) / static_cast<double>(frames - 1);
         const double turned = std::numbers::pi * smoothstep(turn_begins, turn_ends, share);
         const glm::dvec3 eye = middle + (share * all - before) * forward;
-        const glm::dvec3 looks = std::cos(turned) * forward + std::sin(turned) * aside;
+        const glm::dvec3 looks = exact::cos(turned) * forward + exact::sin(turned) * aside;
         keys.push_back(key_at(draft, eye, eye + 0.5 * all * looks));
     }
     return keys;

@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 #include <string>
 
+#include "core/base/exact_math.h"
 #include "core/generate/generate.h"
 #include "core/scene/limits.h"
 #include "core/scene/rungs.h"
@@ -71,7 +72,7 @@ Result<Impostor> impostor_of(const Scene& scene, const ImpostorWish& wish, bool 
                 std::max(impostor.radius, glm::length(particles->center[i] - impostor.center) +
                                               static_cast<double>(particles->radius[i]));
     }
-    impostor.distance = impostor.radius / std::sin(glm::radians(kImpostorFov) / 2);
+    impostor.distance = impostor.radius / exact::sin(glm::radians(kImpostorFov) / 2);
     SceneDraft draft = shared_draft(scene, wish, with_depth);
     draft.camera = Camera{};
     draft.camera.automatic = false;

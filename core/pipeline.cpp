@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/exact_math.h"
 #include "core/climb.h"
 #include "core/draw/display.h"
 #include "core/draw/draw.h"
@@ -282,7 +283,7 @@ Result<Rendered> render_planned(const Scene& scene, Planned planned, const Tools
     if (failed) return *failed;
     if (shows_sun_disc(*scene)) {
         const bool film = scene->image.format != ImageFormat::kExr;
-        const double most = film ? kBrightestDisc * std::exp2(-exposure_of(scene))
+        const double most = film ? kBrightestDisc * exact::exp2(-exposure_of(scene))
                                  : std::numeric_limits<double>::infinity();
         const auto start = Deadline::Clock::now();
         add_sun_disc(scene, planned.survey.view, planned.particles,

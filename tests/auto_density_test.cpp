@@ -45,13 +45,6 @@ Survey surveyed(const Cloud& cloud, double time = 0) {
     return *survey(*scene, *generate(*scene, 2, Deadline{}), 2, Deadline{});
 }
 
-TEST(ExactExp, IsThatOfTheLibrary) {
-    for (double x = 0; x > -690; x -= 0.37) EXPECT_NEAR(exact_exp(x) / std::exp(x), 1, 2e-14) << x;
-    EXPECT_EQ(exact_exp(0), 1);
-    EXPECT_EQ(exact_exp(-1e9), 0);
-    EXPECT_EQ(exact_exp(-INFINITY), 0);
-}
-
 TEST(AutoDensity, OfOneParticleIsTheClosedForm) {
     // Its depth is density s sqrt(2 pi) through the middle, and half of that on average over its mass. Three digits.
     for (const double radius : {0.002, 1.0, 370.0})

@@ -180,6 +180,28 @@ for i, particle in enumerate(answer):
         assert abs(floats("POSITION", 3)[3 * i + k] + middle[k] - particle["center"][k]) < 1e-6
     assert abs(floats("_RADIUS", 1)[i] - particle["radius"]) < 1e-6
 END_PYTHON
+# FlightGear's clouds; SimGear reads them in farm/flightgear.sh.
+run 0 particles scene.json -o cloud.xml --unit 50
+python3 - <<'END_PYTHON' || fail "FlightGear's clouds"
+import xml.etree.ElementTree
+root = xml.etree.ElementTree.parse("cloud.xml").getroot()
+assert root.tag == "PropertyList" and [part.tag for part in root] == ["clouds", "boxes", "layers", "placed"]
+def numbers(node):
+    return {child.tag: float(child.text) for child in node if child.tag not in ("texture", "height-map-texture")}
+kinds = {kind.tag: numbers(kind) for kind in root.find("clouds")}
+boxes = root.find("boxes")
+for layer in root.find("layers"):
+    for box in boxes.find(layer.find("cloud/name").text):
+        assert box.find("type").text in kinds and float(box.find("count").text) >= 2
+placed = [numbers(cloud) for cloud in root.find("placed")]
+assert placed and {cloud["index"] for cloud in placed} == set(range(1, len(placed) + 1))
+for cloud in placed + list(kinds.values()):
+    for name in ("cloud-width-m", "cloud-height-m", "sprite-width-m", "sprite-height-m"):
+        assert 0 < cloud["min-" + name] <= cloud["max-" + name], cloud
+    assert cloud["min-sprite-height-m"] <= cloud["min-sprite-width-m"] <= cloud["min-cloud-width-m"], cloud
+    assert 4 <= cloud["num-sprites"] <= 30 and 0 < cloud["alpha-factor"] <= 1, cloud
+END_PYTHON
+run 2 particles scene.json -o cloud.xml --unit 0
 if [ -e "$(dirname "$awan")/awan_openvdb.so" ]; then
     run 0 particles scene.json -o cloud.vdb --voxels 48
     vdb_print -l cloud.vdb >info 2>&1 || fail "vdb_print does not open it: $(cat info)"

@@ -56,7 +56,7 @@ PlacedEllipsoid random_one(Dice& dice) {
     PlacedEllipsoid one;
     one.center = {dice.between(-2, 2), dice.between(-2, 2), dice.between(-2, 2)};
     one.radii = {dice.between(0.2, 2), dice.between(0.2, 2), dice.between(0.2, 2)};
-    one.turn = exact_sincos_degrees(dice.between(-180, 180));
+    one.turn = exact::sincos_degrees(dice.between(-180, 180));
     return one;
 }
 

@@ -244,23 +244,6 @@ TEST(Generate, StopsWhenNobodyWaits) {
     EXPECT_EQ(set.error().code, ErrorCode::kCancelled);
 }
 
-TEST(ExactMath, AgreesWithTheLibrary) {
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> wide(-1000, 1000);
-    for (int i = 0; i < 100000; ++i) {
-        const double x = wide(random);
-        ASSERT_NEAR(exact_sin(x), std::sin(x), 1e-12) << x;
-        const SinCos both = exact_sincos_degrees(x);
-        ASSERT_NEAR(both.sin, std::sin(x * std::numbers::pi / 180), 1e-13) << x;
-        ASSERT_NEAR(both.cos, std::cos(x * std::numbers::pi / 180), 1e-13) << x;
-    }
-    for (int quarter = -8; quarter <= 8; ++quarter) {
-        const SinCos both = exact_sincos_degrees(90.0 * quarter);
-        EXPECT_EQ(std::abs(both.sin) + std::abs(both.cos), 1) << quarter;
-    }
-    for (const double huge : {1e9, -1e18, 1e300}) EXPECT_LE(std::abs(exact_sin(huge)), 1);
-}
-
 TEST(ScrambledSobol, AnyStartContinuesTheSameSequence) {
     ScrambledSobol whole(5, 0);
     std::vector<std::array<double, 4>> points;

@@ -1,4 +1,5 @@
-"""Holds the sources to the order of their rooms: includes run from later stages to earlier ones, never back.
+"""Holds the sources to the order of their rooms: includes run from later stages to earlier ones, never back. And no room
+of core/ calls the system's elementary functions, whose last bits differ between machines.
 
 Usage: includes.py ROOT. Says file and line of every include that breaks a rule, and fails then."""
 
@@ -44,6 +45,12 @@ FORBIDDEN = [
     ("core/truth", "core/shaders"),
     ("core/truth", "core/gl"),
 ]
+
+# What core/base/exact_math.h has of its own.
+ELEMENTARY = re.compile(
+    r"\b(?:std|glm)::(exp2?|expm1|expint|log(?:2|10|1p)?|pow|a?(?:sin|cos|tan)|(?:sin|cos|tan)h|atan2|cbrt|hypot|erfc?|"
+    r"[lt]gamma)f?\("
+)
 
 ENDINGS = {".h", ".cpp", ".glsl", ".inc"}
 INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<((?:core|server|tests)/[^>]+)>)')
@@ -108,9 +115,18 @@ def cycles(graph):
     return found
 
 
+def library_calls(root, path):
+    """What is wrong with calls of one file, a line each."""
+    for number, line in enumerate((root / path).read_text().splitlines(), 1):
+        found = ELEMENTARY.search(line.split("//")[0])
+        if found and path.startswith("core/"):
+            yield f"{path}:{number}: has other bits on other machines; exact::{found.group(1)} has not"
+
+
 def check(root):
     wrong, graph = [], {}
     for path in sources(root):
+        wrong += library_calls(root, path)
         if room_of(path) is None:
             wrong.append(f"{path}:1: is in no room of tests/includes.py")
             continue
@@ -158,6 +174,10 @@ BAD_TREES = [
         "core/base/c.h:2: closes a circle: core/base/a.h -> core/base/b.h -> core/base/c.h "
         "-> core/base/a.h",
     ),
+    (
+        {"core/base/a.h": "// std::exp(x)\ndouble b = std::sqrt(std::log1p(2.0));\n"},
+        "core/base/a.h:2: has other bits on other machines; exact::log1p has not",
+    ),
     ({"core/attic/a.h": ""}, "core/attic/a.h:1: is in no room of tests/includes.py"),
     ({"core/base/a.h": '#include "core/base/b.h"\n'}, "core/base/a.h:1: there is no core/base/b.h"),
 ]
@@ -165,7 +185,7 @@ GOOD_TREE = {
     "core/scene/a.cpp": '#include <vector>\n#include "core/scene/a.h"\n#include "core/base/c.h"\n',
     "core/scene/a.h": "",
     "core/base/c.h": "",
-    "core/sequence.h": '#include "core/scene/a.h"\n',
+    "core/sequence.h": '#include "core/scene/a.h"\ndouble b = exact::exp(std::sqrt(2.0));  // std::exp(x)\n',
 }
 
 

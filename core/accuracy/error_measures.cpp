@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/base/exact_math.h"
+
 namespace awan {
 
 PictureError picture_error(const Image& x, const TruthImage& truth) {
@@ -58,7 +60,7 @@ PictureError picture_error(const Image& x, const TruthImage& truth) {
     const double up = std::sqrt(mean_square + 2 * square_noise) - root;
     const double down = root - std::sqrt(std::max(mean_square - 2 * square_noise, 0.0));
     error.nrmse_noise =
-        std::hypot(0.5 * std::max(up, down) / mean_truth, error.nrmse * truth_noise);
+        exact::hypot(0.5 * std::max(up, down) / mean_truth, error.nrmse * truth_noise);
     error.bias = (mean_x - mean_truth) / mean_truth;
     error.bias_noise = mean_x / mean_truth * truth_noise;
     error.truth_noise = std::sqrt(noise_square / n) / mean_truth;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/accuracy/error_measures.h"
+#include "core/base/exact_math.h"
 
 namespace awan {
 namespace {
@@ -52,7 +53,7 @@ Color hunt_lab_of(const Color& rgb) {
     const Color xyz = xyz_of(rgb);
     const auto f = [](double t) {
         constexpr double kDelta = 6.0 / 29;
-        return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0 / 29;
+        return t > kDelta * kDelta * kDelta ? exact::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0 / 29;
     };
     const double x = f(xyz[0] / kWhite[0]), y = f(xyz[1] / kWhite[1]), z = f(xyz[2] / kWhite[2]);
     const double l = 116 * y - 16;
@@ -60,7 +61,7 @@ Color hunt_lab_of(const Color& rgb) {
 }
 
 double hyab(const Color& a, const Color& b) {
-    return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]);
+    return std::abs(a[0] - b[0]) + exact::hypot(a[1] - b[1], a[2] - b[2]);
 }
 
 // Odd-sized, its middle at size / 2.
@@ -115,7 +116,7 @@ Plane filtered(const Plane& in, const Size& size, const Kernel& across, const Ke
 // Linear light of an sRGB byte (IEC 61966-2-1).
 double linear_of(std::uint8_t byte) {
     const double v = byte / 255.0;
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    return v <= 0.04045 ? v / 12.92 : exact::pow((v + 0.055) / 1.055, 2.4);
 }
 
 std::array<Plane, 3> opponent_planes(const std::vector<std::uint8_t>& bytes, const Size& size) {
@@ -139,7 +140,7 @@ std::vector<Color> seen(const std::array<Plane, 3>& planes, const Size& size, do
     const auto gauss = [&](double b) {
         return [b, per_degree](double i) {
             const double x = i / per_degree;
-            return std::exp(-std::numbers::pi * std::numbers::pi * x * x / b);
+            return exact::exp(-std::numbers::pi * std::numbers::pi * x * x / b);
         };
     };
     const Kernel light = kernel(radius, gauss(0.0047)), red_green = kernel(radius, gauss(0.0053));
@@ -173,7 +174,7 @@ struct Features {
 Features features(const Plane& achromatic, const Size& size, double per_degree) {
     const double sd = 0.5 * 0.082 * per_degree;
     const int radius = static_cast<int>(std::ceil(3 * sd));
-    const auto gauss = [sd](double x) { return std::exp(-x * x / (2 * sd * sd)); };
+    const auto gauss = [sd](double x) { return exact::exp(-x * x / (2 * sd * sd)); };
     const Kernel smooth = kernel(radius, gauss);
     const Kernel first = kernel(radius, [&](double x) { return -x * gauss(x); });
     const Kernel second =
@@ -183,7 +184,7 @@ Features features(const Plane& achromatic, const Size& size, double per_degree) 
     const auto strength = [&](const Kernel& k) {
         Plane x = filtered(light, size, k, smooth);
         const Plane y = filtered(light, size, smooth, k);
-        for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::hypot(x[i], y[i]);
+        for (std::size_t i = 0; i < x.size(); ++i) x[i] = exact::hypot(x[i], y[i]);
         return x;
     };
     return {strength(first), strength(second)};
@@ -202,22 +203,23 @@ FlipResult flip(const std::vector<std::uint8_t>& reference, const std::vector<st
                    fb = features(planes_b[0], size, pixels_per_degree);
 
     constexpr double kColorPower = 0.7, kFeaturePower = 0.5, kKnee = 0.4, kAtKnee = 0.95;
-    const double most = std::pow(hyab(hunt_lab_of({0, 1, 0}), hunt_lab_of({0, 0, 1})), kColorPower);
+    const double most =
+        exact::pow(hyab(hunt_lab_of({0, 1, 0}), hunt_lab_of({0, 0, 1})), kColorPower);
     FlipResult result;
     result.map.resize(size.count());
     for (std::size_t i = 0; i < size.count(); ++i) {
-        const double apart = std::pow(hyab(a[i], b[i]), kColorPower), knee = kKnee * most;
+        const double apart = exact::pow(hyab(a[i], b[i]), kColorPower), knee = kKnee * most;
         const double color = apart < knee
                                  ? kAtKnee / knee * apart
                                  : kAtKnee + (apart - knee) / (most - knee) * (1 - kAtKnee);
-        const double feature = std::pow(
+        const double feature = exact::pow(
             std::max(
                 std::abs(static_cast<double>(fa.edge[i]) - static_cast<double>(fb.edge[i])),
                 std::abs(static_cast<double>(fa.point[i]) - static_cast<double>(fb.point[i]))) /
                 std::numbers::sqrt2,
             kFeaturePower);
         const double value =
-            std::clamp(std::pow(std::min(color, 1.0), 1 - std::min(feature, 1.0)), 0.0, 1.0);
+            std::clamp(exact::pow(std::min(color, 1.0), 1 - std::min(feature, 1.0)), 0.0, 1.0);
         result.map[i] = static_cast<float>(value);
         result.mean += value;
     }

@@ -7,6 +7,7 @@
 
 #include "core/accuracy/plot_canvas.h"
 #include "core/accuracy/plot_layout.h"
+#include "core/base/exact_math.h"
 
 namespace awan {
 namespace {
@@ -79,7 +80,7 @@ Axes axes_of(std::span<const AccuracyPlot> plots) {
         }
     Axes axes{axis_of(times), axis_of(errors)};
     // Room for the name of the last mark.
-    axes.time.high *= std::pow(axes.time.high / axes.time.low, 0.08);
+    axes.time.high *= exact::pow(axes.time.high / axes.time.low, 0.08);
     if (std::none_of(errors.begin(), errors.end(), [](double e) { return e > 0; }))
         axes.error = {0.001, 1};
     return axes;
@@ -375,7 +376,7 @@ void Block::labels() const {
         const PlotPoint& point = wishes[i].point;
         const PlotPoint near{std::clamp(point.x, boxes[i]->x, boxes[i]->right()),
                              std::clamp(point.y, boxes[i]->y, boxes[i]->bottom())};
-        if (std::hypot(near.x - point.x, near.y - point.y) <= kMarker + 14) continue;
+        if (exact::hypot(near.x - point.x, near.y - point.y) <= kMarker + 14) continue;
         canvas_.color(colors_.quiet, 0.7);
         canvas_.line(near, point, 0.75);
     }

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/base/exact_math.h"
+
 namespace awan {
 namespace {
 
@@ -65,7 +67,7 @@ class Placing {
                 const double angle = 2 * std::numbers::pi * d / kDirections;
                 const double corner = d % 4 == 0 ? 0 : d % 2 == 0 ? 1.0 : 2.0;
                 // To the right of a point reads best, below it worst.
-                const double side = 1 - std::cos(angle) + 0.5 * std::max(0.0, std::sin(angle));
+                const double side = 1 - exact::cos(angle) + 0.5 * std::max(0.0, exact::sin(angle));
                 consider(box_at(i, angle, distance), distance + corner + 2 * side);
             }
         // Crowded: the nearest free place there is.
@@ -75,8 +77,8 @@ class Placing {
             for (double y = around_.area.y; y <= around_.area.bottom(); y += kStep)
                 for (double x = around_.area.x; x <= around_.area.right(); x += kStep) {
                     const PlotBox box{x, y, wish.width, wish.height};
-                    consider(box, 200 + std::hypot(x + wish.width / 2 - wish.point.x,
-                                                   y + wish.height / 2 - wish.point.y));
+                    consider(box, 200 + exact::hypot(x + wish.width / 2 - wish.point.x,
+                                                     y + wish.height / 2 - wish.point.y));
                 }
         }
         placed_[i] = best;
@@ -88,8 +90,8 @@ class Placing {
     // A label seen from its point in a direction, its nearest edge `distance` from the marker.
     PlotBox box_at(std::size_t i, double angle, double distance) const {
         const LabelWish& wish = wishes_[i];
-        const double c = std::cos(angle);
-        const double s = std::sin(angle);
+        const double c = exact::cos(angle);
+        const double s = exact::sin(angle);
         const double reach = around_.marker + distance;
         // The ellipse of directions, stretched so that the box clears the marker on every side.
         const double x = wish.point.x + c * (reach + wish.width / 2);
@@ -116,7 +118,7 @@ class Placing {
         const auto distance_to = [&](const PlotPoint& p) {
             const double x = std::clamp(p.x, box.x, box.right());
             const double y = std::clamp(p.y, box.y, box.bottom());
-            return std::hypot(p.x - x, p.y - y);
+            return exact::hypot(p.x - x, p.y - y);
         };
         const double own = distance_to(wishes_[i].point);
         for (std::size_t k = 0; k < wishes_.size(); ++k)
@@ -143,14 +145,14 @@ std::string formatted(const char* format, int digits, double value) {
 std::string two_digits(double value) {
     if (value == 0) return "0";
     const double rounded = std::stod(formatted("%.*e", 1, value));
-    const int exponent = static_cast<int>(std::floor(std::log10(std::abs(rounded)) + 1e-9));
+    const int exponent = static_cast<int>(std::floor(exact::log10(std::abs(rounded)) + 1e-9));
     return formatted("%.*f", std::clamp(1 - exponent, 0, 12), rounded);
 }
 
 }  // namespace
 
 double LogAxis::share(double value) const {
-    return std::log(value / low) / std::log(high / low);
+    return exact::log(value / low) / exact::log(high / low);
 }
 
 LogAxis axis_of(std::span<const double> values) {
@@ -163,21 +165,22 @@ LogAxis axis_of(std::span<const double> values) {
     }
     if (high == 0) return {};
     const double middle = std::sqrt(low) * std::sqrt(high);
-    const double half = std::max(std::sqrt(high / low) * std::pow(high / low, 0.08), std::sqrt(10));
+    const double half =
+        std::max(std::sqrt(high / low) * exact::pow(high / low, 0.08), std::sqrt(10));
     return {middle / half / 1.1, middle * half * 1.1};
 }
 
 std::vector<Tick> ticks_of(const LogAxis& axis) {
-    const int first = static_cast<int>(std::floor(std::log10(axis.low)));
-    const int last = static_cast<int>(std::ceil(std::log10(axis.high)));
+    const int first = static_cast<int>(std::floor(exact::log10(axis.low)));
+    const int last = static_cast<int>(std::ceil(exact::log10(axis.high)));
     const auto inside = [&](double value) { return value >= axis.low && value <= axis.high; };
     int decades = 0;
-    for (int e = first; e <= last; ++e) decades += inside(std::pow(10.0, e));
+    for (int e = first; e <= last; ++e) decades += inside(exact::pow(10.0, e));
     const int labelled_step = last - first > 12 ? 3 : 1;  // no room for more
     std::vector<Tick> ticks;
     for (int e = first; e <= last; ++e)
         for (const int digit : {1, 2, 5}) {
-            const double value = digit * std::pow(10.0, e);
+            const double value = digit * exact::pow(10.0, e);
             if (!inside(value)) continue;
             const bool labelled = digit == 1 ? (e - first) % labelled_step == 0 : decades < 3;
             ticks.push_back({value, labelled});
@@ -192,8 +195,8 @@ std::vector<std::optional<PlotBox>> place_labels(std::span<const LabelWish> wish
     for (std::size_t i = 0; i < wishes.size(); ++i)
         for (std::size_t k = 0; k < wishes.size(); ++k)
             if (k != i)
-                crowding[i] += 1 / (20 + std::hypot(wishes[i].point.x - wishes[k].point.x,
-                                                    wishes[i].point.y - wishes[k].point.y));
+                crowding[i] += 1 / (20 + exact::hypot(wishes[i].point.x - wishes[k].point.x,
+                                                      wishes[i].point.y - wishes[k].point.y));
     std::vector<std::size_t> order(wishes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),

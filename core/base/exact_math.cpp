@@ -1,82 +1,262 @@
+// Exponentials, logarithms and roots; angles are in exact_angles.cpp.
 #include "core/base/exact_math.h"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 
-namespace awan {
+namespace awan::exact {
 namespace {
 
-// Taylor series by Horner's rule, from the highest term down. On |x| <= pi/2 the first term left out is below 5e-14
-// (sin), and on |x| <= pi/4 below 1e-19 (both).
-double sin_series(double x) {
-    const double y = x * x;
-    // The term of x^17, 1/17!.
-    double p = 1.0 / 355687428096000.0;
-    p = -1.0 / 1307674368000.0 + y * p;
-    p = 1.0 / 6227020800.0 + y * p;
-    p = -1.0 / 39916800.0 + y * p;
-    p = 1.0 / 362880.0 + y * p;
-    p = -1.0 / 5040.0 + y * p;
-    p = 1.0 / 120.0 + y * p;
-    p = -1.0 / 6.0 + y * p;
-    return x + x * y * p;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+// ln 2 in two parts: an integer below 2^21 times the first is exact.
+constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
+
+// A number as an unevaluated sum, |low| at most half a unit in the last place of high.
+struct Two {
+    double high, low;
+};
+// Dekker 1971: the exact sum where |a| >= |b|, of any two, and the exact product (of numbers below 1e300).
+Two sum_of_ordered(double a, double b) {
+    const double sum = a + b;
+    return {sum, b - (sum - a)};
+}
+Two sum_of(double a, double b) {
+    const double sum = a + b, of_b = sum - a;
+    return {sum, (a - (sum - of_b)) + (b - of_b)};
+}
+// By multiplying with 2^27 + 1.
+Two halves_of(double a) {
+    constexpr double kHalf = 134217729.0;
+    const double big = a * kHalf;
+    const double high = big - (big - a);
+    return {high, a - high};
+}
+Two product_of(double a, double b) {
+    const double product = a * b;
+    const Two x = halves_of(a), y = halves_of(b);
+    return {product,
+            ((x.high * y.high - product) + x.high * y.low + x.low * y.high) + x.low * y.low};
 }
 
-double cos_series(double x) {
-    const double y = x * x;
-    // The term of x^16, 1/16!.
-    double p = 1.0 / 20922789888000.0;
-    p = -1.0 / 87178291200.0 + y * p;
-    p = 1.0 / 479001600.0 + y * p;
-    p = -1.0 / 3628800.0 + y * p;
-    p = 1.0 / 40320.0 + y * p;
-    p = -1.0 / 720.0 + y * p;
-    p = 1.0 / 24.0 + y * p;
-    p = -0.5 + y * p;
-    return 1.0 + y * p;
+// x 2^n, |n| up to 2000.
+double scaled(double x, int n) {
+    if (n < -1000 || n > 1000) return std::ldexp(x, n);
+    return x * std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52);
+}
+
+// (e^r - 1 - r) / r^2 by Taylor's series; |r| <= .35: the first term left out is below 1e-18.
+double exp_rest(double r) {
+    double p = 1.0 / 87178291200.0;
+    p = 1.0 / 6227020800.0 + r * p;
+    p = 1.0 / 479001600.0 + r * p;
+    p = 1.0 / 39916800.0 + r * p;
+    p = 1.0 / 3628800.0 + r * p;
+    p = 1.0 / 362880.0 + r * p;
+    p = 1.0 / 40320.0 + r * p;
+    p = 1.0 / 5040.0 + r * p;
+    p = 1.0 / 720.0 + r * p;
+    p = 1.0 / 120.0 + r * p;
+    p = 1.0 / 24.0 + r * p;
+    p = 1.0 / 6.0 + r * p;
+    return 0.5 + r * p;
+}
+
+// e^(x + low), low up to the size of x's last place.
+double exp_of(double x, double low) {
+    if (std::isnan(x)) return x;
+    if (x > 709.79) return kInfinity;
+    if (x < -745.2) return 0;
+    // x = n ln 2 + r + what r lost by rounding, |r| <= ln 2 / 2 (Cody & Waite 1980).
+    const double n = std::floor(x * std::numbers::log2e + 0.5);
+    const double rest = x - n * kLn2High, second = n * kLn2Low;
+    const double r = rest - second;
+    low += (rest - r) - second;
+    const double bend = r * r * exp_rest(r);
+    const Two line = sum_of_ordered(1, r);
+    return scaled(line.high + (line.low + (bend + low * (1 + (r + bend)))), static_cast<int>(n));
+}
+
+// x = m 2^e, m from sqrt(1/2) to sqrt(2); x positive and finite.
+struct Parts {
+    double m;
+    int e;
+};
+Parts parts_of(double x) {
+    Parts parts{};
+    parts.m = std::frexp(x, &parts.e);
+    if (parts.m < std::numbers::sqrt2 / 2) {
+        parts.m *= 2;
+        --parts.e;
+    }
+    return parts;
+}
+
+// With s = f / (2 + f): log(1 + f) = 2 artanh(s) = 2 s + s (2/3 s^2 + 2/5 s^4 + ...); this is what is in brackets, z =
+// s^2 <= .0295. The first term left out is below 1e-19.
+double artanh_rest(double z) {
+    double p = 2.0 / 25;
+    p = 2.0 / 23 + z * p;
+    p = 2.0 / 21 + z * p;
+    p = 2.0 / 19 + z * p;
+    p = 2.0 / 17 + z * p;
+    p = 2.0 / 15 + z * p;
+    p = 2.0 / 13 + z * p;
+    p = 2.0 / 11 + z * p;
+    p = 2.0 / 9 + z * p;
+    p = 2.0 / 7 + z * p;
+    p = 2.0 / 5 + z * p;
+    return z * (2.0 / 3 + z * p);
+}
+
+// log(1 + f) as f less what is small beside it, so that only the last difference rounds (Ng 1993).
+double log_of_near_one(double f, double e_low) {
+    const double s = f / (2 + f), half = 0.5 * f * f;
+    return half - (s * (half + artanh_rest(s * s)) + e_low);
+}
+
+// log x, 1e-19 of its size or of 1, whichever is smaller, off; x positive and finite.
+Two log_in_two(double x) {
+    const Parts parts = parts_of(x);
+    const double f = parts.m - 1;
+    const Two below = sum_of_ordered(2, f);
+    const double s = f / below.high;
+    const Two back = product_of(s, below.high);
+    const double s_low = (((f - back.high) - back.low) - s * below.low) / below.high;
+    const Two sum = sum_of(parts.e * kLn2High, 2 * s);
+    return sum_of_ordered(sum.high,
+                          sum.low + (2 * s_low + s * artanh_rest(s * s) + parts.e * kLn2Low));
+}
+
+// What a logarithm of no positive finite number is.
+double log_of_special(double x) {
+    return x == 0 ? -kInfinity : x > 0 ? x : kNan;
+}
+bool is_special(double x) {
+    return !(x > 0 && x < kInfinity);
+}
+
+// pow for x > 0, both finite.
+double pow_of_positive(double x, double y) {
+    // Beyond this power whatever is not 1 is 0 or infinite.
+    const double power = std::fmax(-1e25, std::fmin(y, 1e25));
+    const Two log = log_in_two(x);
+    const Two product = product_of(power, log.high);
+    return exp_of(product.high, product.low + power * log.low);
 }
 
 }  // namespace
 
-double exact_sin(double x) {
-    using std::numbers::pi;
-    // The remainder itself is exact by IEEE 754; only 2 pi is rounded.
-    double r = std::fmod(x, 2 * pi);
-    if (r > pi) r -= 2 * pi;
-    if (r < -pi) r += 2 * pi;
-    if (r > pi / 2) r = pi - r;
-    if (r < -pi / 2) r = -pi - r;
-    return sin_series(r);
+double exp(double x) {
+    return exp_of(x, 0);
 }
 
-SinCos exact_sincos_degrees(double degrees) {
-    double r = std::fmod(degrees, 360.0);
-    if (r < 0) r += 360.0;
-    // The nearest multiple of a right angle, 0..4.
-    const int quarter = static_cast<int>(std::floor(r / 90.0 + 0.5));
-    const double x = (r - 90.0 * quarter) * (std::numbers::pi / 180.0);
-    const double s = sin_series(x), c = cos_series(x);
-    switch (quarter & 3) {
-        case 0:
-            return {s, c};
-        case 1:
-            return {c, -s};
-        case 2:
-            return {-s, -c};
-        default:
-            return {-c, s};
+double exp2(double x) {
+    if (std::isnan(x)) return x;
+    if (x > 1024.5) return kInfinity;
+    if (x < -1076) return 0;
+    const double n = std::floor(x + 0.5);
+    const double r = (x - n) * std::numbers::ln2;
+    return scaled(1.0 + (r + r * r * exp_rest(r)), static_cast<int>(n));
+}
+
+double expm1(double x) {
+    if (x == 0) return x;
+    if (std::abs(x) < 0.35) return x + x * x * exp_rest(x);
+    return exp(x) - 1;
+}
+
+double log(double x) {
+    if (is_special(x)) return log_of_special(x);
+    const Parts parts = parts_of(x);
+    const double f = parts.m - 1;
+    return parts.e * kLn2High - (log_of_near_one(f, parts.e * kLn2Low) - f);
+}
+
+double log2(double x) {
+    if (is_special(x)) return log_of_special(x);
+    const Parts parts = parts_of(x);
+    const double f = parts.m - 1;
+    return parts.e + (f - log_of_near_one(f, 0)) / std::numbers::ln2;
+}
+
+double log10(double x) {
+    if (is_special(x)) return log_of_special(x);
+    const Two log = log_in_two(x);
+    // 1 / ln 10 in two parts.
+    constexpr double kHigh = 0x1.bcb7b1526e50ep-2, kLow = 0x1.95355baaafad3p-57;
+    const Two product = product_of(log.high, kHigh);
+    return product.high + (product.low + log.high * kLow + log.low * kHigh);
+}
+
+double log1p(double x) {
+    if (!(x > -1) || x == kInfinity) return log_of_special(x + 1);
+    if (x == 0) return x;
+    const Two sum = sum_of(1, x);
+    return log(sum.high) + sum.low / sum.high;
+}
+
+double pow(double x, double y) {
+    if (y == 0 || x == 1) return 1;
+    if (std::isnan(x) || std::isnan(y)) return kNan;
+    const bool whole = std::floor(y) == y, odd = whole && std::fmod(y, 2) != 0;
+    const double sign = std::signbit(x) && odd ? -1 : 1, size = std::abs(x);
+    if (std::isinf(y)) return size == 1 ? 1 : (size > 1) == (y > 0) ? kInfinity : 0;
+    if (x == 0) return sign * (y > 0 ? 0 : kInfinity);
+    if (std::isinf(x)) return sign * (y > 0 ? kInfinity : 0);
+    if (x < 0 && !whole) return kNan;
+    return sign * pow_of_positive(size, y);
+}
+
+double sinh(double x) {
+    if (std::abs(x) > 700) return std::copysign(exp(std::abs(x) - std::numbers::ln2), x);
+    const double part = expm1(std::abs(x));
+    return std::copysign(0.5 * (part + part / (1 + part)), x);
+}
+
+double cbrt(double x) {
+    if (is_special(std::abs(x))) return x;
+    const double size = std::abs(x);
+    // A guess of 23 bits, whose square is exact, and a step of Halley's.
+    const double guess = exp(log(size) / 3);
+    const auto bits =
+        (std::bit_cast<std::uint64_t>(guess) + (1u << 29)) & ~((std::uint64_t{1} << 30) - 1);
+    const double t = std::bit_cast<double>(bits);
+    const double u = size / (t * t);
+    return std::copysign(t + t * ((u - t) / (t + t + u)), x);
+}
+
+double hypot(double x, double y) {
+    return std::sqrt(x * x + y * y);
+}
+double hypot(double x, double y, double z) {
+    return std::sqrt(x * x + y * y + z * z);
+}
+
+double erf(double x) {
+    const double size = std::abs(x);
+    if (!(size < 2)) return std::isnan(x) ? x : std::copysign(1 - erfc(size), x);
+    // Abramowitz & Stegun 1964, 7.1.6: all terms are positive. So many that the last is below 1e-18.
+    double term = x, sum = x;
+    for (int n = 1; n < 40; ++n) {
+        term *= 2 * x * x / (2 * n + 1);
+        sum += term;
     }
+    return 2 * std::numbers::inv_sqrtpi * exp(-x * x) * sum;
 }
 
-double exact_exp(double x) {
-    if (!(x > -700)) return 0;
-    // x = n ln 2 + r, |r| <= ln 2 / 2; ln 2 in two parts, so that n times the first is exact.
-    const double n = std::floor(x / std::numbers::ln2 + 0.5);
-    const double r = (x - n * 0x1.62e42feep-1) - n * 0x1.a39ef35793c76p-33;
-    // Taylor's series by Horner's rule; the first term left out is below 1e-17.
-    double p = 1;
-    for (int k = 13; k > 0; --k) p = 1 + p * r / k;
-    return std::ldexp(p, static_cast<int>(n));
+double erfc(double x) {
+    if (std::isnan(x)) return x;
+    if (x < 0) return 2 - erfc(-x);
+    if (x < 2) return 1 - erf(x);
+    if (x > 27.3) return 0;
+    // Abramowitz & Stegun 1964, 7.1.14: a continued fraction, from its far end.
+    double below = x;
+    for (int n = 60; n > 0; --n) below = x + 0.5 * n / below;
+    return std::numbers::inv_sqrtpi * exp(-x * x) / below;
 }
 
-}  // namespace awan
+}  // namespace awan::exact

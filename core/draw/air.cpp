@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/exact_math.h"
+
 namespace awan {
 
 PictureRays picture_rays(const View& view, int width, int height) {
@@ -59,8 +61,8 @@ AirBefore air_before(const Air& air, const HazeRay& ray, double x, double y, dou
 
 AirBefore whole_air(const Air& air, double slope, double x, double y) {
     const double through = slope < 0 ? air.down : air.up;
-    AirBefore before{through > 0 ? -std::expm1(-through / std::max(std::abs(slope), 1e-300)) : 0.0,
-                     0};
+    AirBefore before{
+        through > 0 ? -exact::expm1(-through / std::max(std::abs(slope), 1e-300)) : 0.0, 0};
     if (air.shadows.spacing > 0)
         before.lost = std::min(whole_lost(air.shadows, x, y), before.opacity);
     return before;

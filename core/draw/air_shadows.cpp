@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 
 namespace awan {
@@ -61,7 +62,7 @@ AirShadows::Ray place(const SunDepth& sun, const glm::dvec3& eye, const glm::dve
     ray.from = from;
     ray.to = to;
     ray.mid = std::clamp(passes, from, to);
-    const double inside = glm::length(step), behind = std::hypot(step.x, step.y);
+    const double inside = glm::length(step), behind = exact::hypot(step.x, step.y);
     ray.first = slices(ray.mid - from, leaves ? inside : behind);
     ray.second = slices(to - ray.mid, leaves ? behind : inside);
     ray.per_first = ray.first > 0 ? ray.first / (ray.mid - from) : 0;
@@ -112,7 +113,7 @@ void integrate(const HazeRay& haze, const SunDepth& sun, const glm::dvec3& eye,
     const DepthAlong depth(sun, eye, direction);
     const auto shade = [&](double t) {
         const double here = depth(t);
-        return here > 0 ? 1 - std::exp(-here) : 0.0;
+        return here > 0 ? 1 - exact::exp(-here) : 0.0;
     };
     *lost = ray.from > 0 ? 0 : static_cast<float>(shade(0));
     const auto part = [&](double from, double to, std::uint32_t count) {

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 #include "core/light/legendre.h"
 #include "core/scene/outside.h"
@@ -29,11 +30,11 @@ constexpr double kMostDepth = 50;
 
 // How much of the light of each Legendre order is left.
 std::vector<double> kept_by_peak(const Medium& medium, const Peak& peak, double x) {
-    const double whole = std::expm1(x);
+    const double whole = exact::expm1(x);
     std::vector<double> kept;
     for (int l = 0; l < kMostTerms; ++l) {
         const double ratio = l < peak.from ? 1 : phase_moment(medium, l) / peak.share;
-        kept.push_back(whole > 0 ? std::expm1(x * ratio) / whole : ratio);
+        kept.push_back(whole > 0 ? exact::expm1(x * ratio) / whole : ratio);
         if (l > peak.from && std::abs(kept.back()) < kNegligible) break;
     }
     return kept;
@@ -42,7 +43,7 @@ std::vector<double> kept_by_peak(const Medium& medium, const Peak& peak, double 
 // The share of the light that turns by less than `angle`: half the sum over l of kept_l (P_(l-1) - P_(l+1)), with
 // P_(-1) = 1.
 double share_within(const std::vector<double>& kept, double angle) {
-    const double mu = std::cos(angle);
+    const double mu = exact::cos(angle);
     double before = 1, p = 1, sum = 0;
     for (std::size_t l = 0; l < kept.size(); ++l) {
         const auto n = static_cast<double>(l);
@@ -69,8 +70,8 @@ class Around {
         for (const Ring& ring : rings) {
             for (int s = 0; s < kSpokes; ++s) {
                 const double at = 2 * std::numbers::pi * (s + turn) / kSpokes;
-                turns_.push_back({{std::sin(ring.angle) * std::cos(at),
-                                   std::sin(ring.angle) * std::sin(at), std::cos(ring.angle)},
+                turns_.push_back({{exact::sin(ring.angle) * exact::cos(at),
+                                   exact::sin(ring.angle) * exact::sin(at), exact::cos(ring.angle)},
                                   ring.share / kSpokes});
             }
             turn += kTurn;
@@ -104,7 +105,7 @@ class Around {
 
 // Points along a side of the picture whose half angle has this tangent.
 int points_along(double tangent) {
-    return std::clamp(static_cast<int>(std::ceil(2 * std::atan(tangent) / kGridAngle)), 1,
+    return std::clamp(static_cast<int>(std::ceil(2 * exact::atan(tangent) / kGridAngle)), 1,
                       kMostGrid) +
            1;
 }
@@ -112,7 +113,7 @@ int points_along(double tangent) {
 }  // namespace
 
 double depth_of_most(const Medium& medium, const Peak& peak) {
-    return std::min(-std::log(std::max(1 - medium.albedo * peak.share, 0.0)), kMostDepth);
+    return std::min(-exact::log(std::max(1 - medium.albedo * peak.share, 0.0)), kMostDepth);
 }
 
 std::vector<Ring> rings_of_peak(const Medium& medium, const Peak& peak, double x, int count) {

@@ -14,20 +14,20 @@ namespace {
 
 // The logarithm of the ratio between two levels.
 double step() {
-    return std::log(kDepthRange) / (kDepthLevels - 1);
+    return exact::log(kDepthRange) / (kDepthLevels - 1);
 }
 
 }  // namespace
 
 int DepthLevels::level_of(double depth) const {
     if (!(depth > 0)) return 0;
-    const double below = std::log(deepest / depth) / step();
+    const double below = exact::log(deepest / depth) / step();
     return kDepthLevels - 1 -
            static_cast<int>(std::lround(std::clamp(below, 0.0, kDepthLevels - 1.0)));
 }
 
 double DepthLevels::depth_of(int level) const {
-    return deepest * std::exp(step() * (level - (kDepthLevels - 1)));
+    return deepest * exact::exp(step() * (level - (kDepthLevels - 1)));
 }
 
 DepthLevels depth_levels(const ParticleSet& particles) {
@@ -49,7 +49,7 @@ std::vector<float> opacity_of(const Texture& texture, double depth) {
     // There are no more than 256 of them.
     std::vector<float> of(256);
     for (std::size_t i = 0; i < of.size(); ++i)
-        of[i] = static_cast<float>(-std::expm1(-deepest * static_cast<double>(i) / 255));
+        of[i] = static_cast<float>(-exact::expm1(-deepest * static_cast<double>(i) / 255));
     std::vector<float> texels;
     texels.reserve(texture.depth.size());
     for (const std::uint8_t one : texture.depth) texels.push_back(of[one]);
@@ -97,7 +97,7 @@ BillboardAxes billboard_axes(const glm::dvec3& q, double half_side, const Paint&
     if (glm::length(across) < 1e-6) across = glm::dvec3(1, 0, 0);
     across = glm::normalize(across);
     const glm::dvec3 up = glm::cross(away, across);
-    const SinCos turn = exact_sincos_degrees(paint.turn * (360.0 / 65536));
+    const exact::SinCos turn = exact::sincos_degrees(paint.turn * (360.0 / 65536));
     const double side = paint.mirrored ? -half_side : half_side;
     return {side * (turn.cos * across + turn.sin * up),
             half_side * (turn.cos * up - turn.sin * across)};

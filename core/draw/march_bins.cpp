@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 #include "core/draw/march_levels.h"
 #include "core/generate/gaussian.h"
@@ -50,14 +51,14 @@ bool place(const Own& own, const View& view, int width, int height, SeenParticle
     const double s = std::max({own.s, kLeastWidth * gap, 1e-12});
     const double depth = widened_depth(own.depth, s / own.s);
     if (!(depth > 0)) return false;
-    const double cut = std::clamp(std::sqrt(2 * std::log(std::max(1.0, depth / kFaintDepth))),
+    const double cut = std::clamp(std::sqrt(2 * exact::log(std::max(1.0, depth / kFaintDepth))),
                                   kLeastCut, kMostCut);
     seen.s = static_cast<float>(s);
     seen.reach = static_cast<float>(s * cut);
     seen.nearest = glm::length(seen.q) - s * cut;
     // On a line through the centre exp(-cut^2 / 2) of the mass beside it lies beyond the cut.
     seen.extinction = static_cast<float>(depth / (s * std::sqrt(2 * std::numbers::pi)) /
-                                         -std::expm1(-cut * cut / 2));
+                                         -exact::expm1(-cut * cut / 2));
     const Interval x = disc_slopes(seen.q.x, seen.q.z, s * cut);
     const Interval y = disc_slopes(seen.q.y, seen.q.z, s * cut);
     const bool all = seen.level > 0;

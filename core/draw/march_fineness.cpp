@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
+#include "core/base/exact_math.h"
 #include "core/survey/lattice.h"
 
 namespace awan {
@@ -25,7 +26,7 @@ constexpr double kSunApartInDetail = 1.5;
 
 // The side of a cube as large as a cell.
 double typical(const glm::dvec3& cell) {
-    return shortest(cell) == longest(cell) ? cell.x : std::cbrt(cell.x * cell.y * cell.z);
+    return shortest(cell) == longest(cell) ? cell.x : exact::cbrt(cell.x * cell.y * cell.z);
 }
 
 // The distance between two layers of nodes along each axis.

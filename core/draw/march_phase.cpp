@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/light/legendre.h"
 
 namespace awan {
@@ -21,7 +22,7 @@ constexpr double kNegligible = 1e-6;  // a term of a sum of about 1
 constexpr int kMostOctaves = 13;
 
 double pow_int(double x, int n) {
-    return std::pow(x, static_cast<double>(n));
+    return exact::pow(x, static_cast<double>(n));
 }
 
 double henyey_greenstein(double g, double ahead, double behind) {
@@ -72,7 +73,7 @@ Sums sums_of(const Medium& medium, const Peak& peak, int columns) {
         medium.droplets ? static_cast<int>(medium.droplets->moment.size()) - 1
         : medium.g == 0
             ? 4
-            : std::min(kMostTerms, static_cast<int>(20 / -std::log(std::abs(medium.g))) + 8);
+            : std::min(kMostTerms, static_cast<int>(20 / -exact::log(std::abs(medium.g))) + 8);
     for (int l = 0; l <= std::max(most, peak.from); ++l) {
         sums.weight.push_back((2 * l + 1) * kPer4Pi);
         sums.chi.push_back(phase_moment(medium, l));
@@ -85,7 +86,7 @@ Sums sums_of(const Medium& medium, const Peak& peak, int columns) {
         sums.depths.push_back(t);
         const double at = a * static_cast<double>(t);
         if (static_cast<double>(t) <= kSeriesDepth) {
-            double term = std::exp(-f * at);
+            double term = exact::exp(-f * at);
             for (int n = 0; n < 200; ++n) {
                 sums.orders[k].push_back(term);
                 term *= at / (n + 1);
@@ -98,7 +99,7 @@ Sums sums_of(const Medium& medium, const Peak& peak, int columns) {
             const bool low = static_cast<int>(l) < peak.from;
             const double chi = low ? f : sums.chi[l];
             const double term =
-                sums.weight[l] * chi * (low ? 1 : std::exp(-at * (f - sums.chi[l])));
+                sums.weight[l] * chi * (low ? 1 : exact::exp(-at * (f - sums.chi[l])));
             if (!low && std::abs(term) < kNegligible) break;
             sums.terms[k].push_back(term);
         }
@@ -204,7 +205,7 @@ PeakTable peak_table(const Medium& medium, const Peak& peak, double least_ahead,
     if (peak.share == 0) return table;
     const double scaled = std::max(1 - medium.albedo * peak.share, 1e-6);
     const double octaves =
-        std::clamp(std::log2(1 + 14 / scaled), 1.0, static_cast<double>(kMostOctaves));
+        std::clamp(exact::log2(1 + 14 / scaled), 1.0, static_cast<double>(kMostOctaves));
     table.columns = static_cast<int>(std::ceil((8 * octaves + 2) / 16)) * 16;
     // The nodes of droplets' phase function are even in the chord from about there on.
     table.fold = medium.droplets ? std::sqrt(std::ldexp(2.0, -medium.droplets->octaves))
@@ -221,7 +222,7 @@ PeakTable peak_table(const Medium& medium, const Peak& peak, double least_ahead,
     const int last = row_at(table, most_ahead, behind_of(most_ahead)).row + 1;
     for (int row = std::max(0, first - 1); row <= std::min(2 * table.half, last + 1); ++row) {
         const int from_end = row <= table.half ? row : 2 * table.half - row;
-        const double near = std::min(table.fold * std::sinh(from_end / table.rows_per), 2.0);
+        const double near = std::min(table.fold * exact::sinh(from_end / table.rows_per), 2.0);
         const double far = behind_of(near);
         const bool forward = row <= table.half;
         fill_row(medium, peak, sums, forward ? near : far, forward ? far : near,

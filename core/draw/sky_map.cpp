@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 #include "core/light/ground_light.h"
 #include "core/scene/outside.h"
@@ -55,9 +56,9 @@ Result<Image> sky_map(const Scene& scene, int width, int threads, const Deadline
                 const double across = x + (i % samples + 0.5) / samples;
                 const double latitude = std::numbers::pi * (0.5 - down / map.height);
                 const double longitude = std::numbers::pi * (1 - 2 * across / width);
-                const double level = std::cos(latitude);  // and the sample's share of the sphere
-                sum += level * around.radiance({level * std::sin(longitude), std::sin(latitude),
-                                                level * std::cos(longitude)});
+                const double level = exact::cos(latitude);  // and the sample's share of the sphere
+                sum += level * around.radiance({level * exact::sin(longitude), exact::sin(latitude),
+                                                level * exact::cos(longitude)});
                 weights += level;
             }
             for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(sum[c] / weights);

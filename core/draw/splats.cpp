@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/draw/air_image.h"
 #include "core/draw/billboards.h"
 #include "core/generate/gaussian.h"
@@ -110,7 +111,7 @@ gl::TileBox tiles_of(const Seen& seen, const SplatWindow& window) {
 }
 
 double reach_of(double tau) {
-    return std::max(kMinReach, std::sqrt(2 * std::log(std::max(1.0, tau / kFaintDepth))));
+    return std::max(kMinReach, std::sqrt(2 * exact::log(std::max(1.0, tau / kFaintDepth))));
 }
 
 Seen see(const ParticleSet& particles, std::size_t i, const View& view, const SplatWindow& window) {
@@ -127,7 +128,7 @@ Seen see(const ParticleSet& particles, std::size_t i, const View& view, const Sp
     const double cut = reach_of(seen.tau);
     seen.reach = seen.s * cut;
     // In the picture's plane exp(-cut^2 / 2) of a Gaussian lies beyond the cut.
-    seen.tau /= -std::expm1(-cut * cut / 2);
+    seen.tau /= -exact::expm1(-cut * cut / 2);
     seen.tiles = tiles_of(seen, window);
     return seen;
 }
@@ -154,7 +155,7 @@ Seen see_billboard(const SplatSetting& setting, std::size_t i, const SplatWindow
     const int layer = kDepthLevels * (paint.texture - 1) + setting.levels->level_of(own.tau);
     const auto [across, up] = billboard_axes(own.q, half, paint, vertical_in(setting.view));
     const double texel = 2 * half / kTextureSide;
-    const double level = pixel > texel ? std::log2(pixel / texel) : 0;
+    const double level = pixel > texel ? exact::log2(pixel / texel) : 0;
     painted.across = glm::vec4(glm::dvec4(across / (half * half), layer));
     painted.up = glm::vec4(glm::dvec4(up / (half * half), level));
     seen.reach = std::numbers::sqrt2 * half;

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 #include "core/generate/gaussian.h"
 #include "core/scene/outside.h"
@@ -46,7 +47,7 @@ constexpr double kGlareReach = 0.35;
 struct Disc {
     glm::dvec3 to_sun, u, v;
     glm::dvec3 direction(double x, double y) const {
-        return glm::normalize(to_sun + std::tan(kRadius) * (x * u + y * v));
+        return glm::normalize(to_sun + exact::tan(kRadius) * (x * u + y * v));
     }
 };
 
@@ -72,8 +73,8 @@ double smooth_depth(const ParticleSet& particles, const std::vector<std::size_t>
         const glm::dvec3 v = particles.center[i] - eye;
         const double along = glm::dot(v, d), s = gaussian_s(particles, i);
         const double aside = glm::length(v - along * d) / s;
-        depth += central_depth(particles, i) * std::exp(-0.5 * aside * aside) * 0.5 *
-                 std::erfc(-along / s / std::numbers::sqrt2);
+        depth += central_depth(particles, i) * exact::exp(-0.5 * aside * aside) * 0.5 *
+                 exact::erfc(-along / s / std::numbers::sqrt2);
     }
     return depth;
 }
@@ -100,14 +101,14 @@ double detailed_depth(const ParticleSet& particles, const std::vector<std::size_
         const double along = glm::dot(v, d), s = gaussian_s(particles, i);
         const double aside = glm::length(v - along * d) / s;
         const double peak =
-            static_cast<double>(particles.density[i]) * std::exp(-0.5 * aside * aside);
+            static_cast<double>(particles.density[i]) * exact::exp(-0.5 * aside * aside);
         const auto place = [&](double t) {
             return static_cast<int>(std::clamp((t - from) / step, 0.0, double(steps)));
         };
         const int last = place(along + kReach * s);
         for (int k = place(along - kReach * s); k < last; ++k) {
             const double t = (from + (k + 0.5) * step - along) / s;
-            smooth[static_cast<std::size_t>(k)] += peak * std::exp(-0.5 * t * t);
+            smooth[static_cast<std::size_t>(k)] += peak * exact::exp(-0.5 * t * t);
         }
     }
     double depth = 0;
@@ -158,7 +159,7 @@ Passing passing_through(const Scene& scene, const View& view, const ParticleSet&
         if (haze && scene->haze)
             depth += HazeRay(*scene->haze, view.eye.y, d.y)
                          .depth(std::numeric_limits<double>::infinity());
-        passing.share[i] = std::exp(-depth);
+        passing.share[i] = exact::exp(-depth);
     });
     return passing;
 }
@@ -215,7 +216,7 @@ void add_glare(const Pixels& pixels, const Disc& disc, const glm::dvec3& irradia
         for (int x = 0; x < image.width; ++x) {
             const glm::dvec3 d = pixels.direction(x + 0.5, y + 0.5);
             const double turn = glm::length(d - disc.to_sun) / kGlareWidth;
-            add(image, x, y, most * std::pow(1 + turn * turn, -kGlareFall) * irradiance);
+            add(image, x, y, most * exact::pow(1 + turn * turn, -kGlareFall) * irradiance);
         }
     });
 }
@@ -249,11 +250,11 @@ void add_sun_disc(const Scene& scene, const View& view, const ParticleSet& parti
     const Passing passing = passing_through(scene, view, particles, disc, haze, radius_px, threads);
     const bool glare = scene->image.format != ImageFormat::kExr;
     const glm::dvec3 radiance = (glare ? 1 - kGlareShare : 1.0) /
-                                (pi * std::sin(kRadius) * std::sin(kRadius)) * outside.sun;
+                                (pi * exact::sin(kRadius) * exact::sin(kRadius)) * outside.sun;
     const int sub = static_cast<int>(
         std::clamp(std::ceil(kPerRadius / radius_px), double{kSubPixels}, double{kMostSubPixels}));
     const double brightest = std::max({radiance.x, radiance.y, radiance.z});
-    const double reach = 1.1 * radius_px + 1, per_radius = 1 / std::tan(kRadius);
+    const double reach = 1.1 * radius_px + 1, per_radius = 1 / exact::tan(kRadius);
     const auto within = [](double at, int size) {
         return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(size)));
     };

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/exact_math.h"
 #include "core/formats/tone.h"
 #include "core/scene/limits.h"
 #include "core/scene/outside.h"
@@ -87,9 +88,9 @@ double auto_exposure(const Scene& scene) {
     const double cloud = kCloudReflectance * luminance(outside.sun) / std::numbers::pi + mean_sky;
     // Without light there is nothing to meter.
     if (!(cloud > 0)) return 0;
-    const double lost = std::max(0.0, std::log2(high_sun_cloud(scene) / cloud));
+    const double lost = std::max(0.0, exact::log2(high_sun_cloud(scene) / cloud));
     const double stops =
-        std::log2(static_cast<double>(metered_level()) / cloud) - kEveningKept * lost;
+        exact::log2(static_cast<double>(metered_level()) / cloud) - kEveningKept * lost;
     return std::clamp(stops, -limits::kMaxExposure, limits::kMaxExposure);
 }
 

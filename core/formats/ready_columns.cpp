@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/formats/numbers.h"
 #include "core/scene/limits.h"
 
@@ -44,7 +45,7 @@ constexpr double kMostOpaque = 1.0 - 1.0 / 510.0;
 // The peak extinction of a Gaussian of this radius (s = radius / 2) that takes the share `opacity` off a ray through
 // its middle, where the optical depth is density * s * sqrt(2 pi).
 double density_of(double opacity, double radius) {
-    const double depth = -std::log1p(-std::min(opacity, kMostOpaque));
+    const double depth = -exact::log1p(-std::min(opacity, kMostOpaque));
     return depth / (0.5 * radius * std::sqrt(2 * std::numbers::pi));
 }
 
@@ -169,8 +170,8 @@ float ReadyColumns::radius_of(const ReadyRow& row) const {
     if (has(Says::kWidth)) return to_float(row[Says::kWidth] / 2);
     if (has(Says::kLogScale0))
         return to_float(
-            2 *
-            std::exp((row[Says::kLogScale0] + row[Says::kLogScale1] + row[Says::kLogScale2]) / 3));
+            2 * exact::exp((row[Says::kLogScale0] + row[Says::kLogScale1] + row[Says::kLogScale2]) /
+                           3));
     double product = 1;
     int given = 0;
     for (const Says says : kRadiusSays)
@@ -179,7 +180,7 @@ float ReadyColumns::radius_of(const ReadyRow& row) const {
             ++given;
         }
     // Negative ones stay so, for validate() to refuse.
-    return to_float(std::copysign(std::pow(std::abs(product), 1.0 / given), product));
+    return to_float(std::copysign(exact::pow(std::abs(product), 1.0 / given), product));
 }
 
 Status ReadyColumns::add_density(const ReadyRow& row, float radius) {
@@ -192,7 +193,7 @@ Status ReadyColumns::add_density(const ReadyRow& row, float radius) {
     }
     double value = row[from];
     if (from == Says::kOpacity) {
-        if (splats_) value = 1 / (1 + std::exp(-value));
+        if (splats_) value = 1 / (1 + exact::exp(-value));
         if (!(value >= 0 && value <= 1)) return wrong("opacity must be from 0 to 1");
         value = density_of(value, static_cast<double>(radius));
     }

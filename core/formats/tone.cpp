@@ -13,6 +13,7 @@ using glm::max;
 using glm::min;
 using glm::mix;
 using glm::vec3;
+#include "core/base/exact_math.h"
 #include "core/shaders/tone.glsl"
 }  // namespace glsl
 
@@ -20,7 +21,7 @@ using glm::vec3;
 constexpr float kBrightest = 1e9f;
 
 double srgb(double linear) {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * exact::pow(linear, 1 / 2.4) - 0.055;
 }
 
 float sane(float radiance) {
@@ -58,7 +59,7 @@ int dithered_code(float value, float phase) {
 }
 
 Film::Film(const FilmSettings& settings)
-    : tone_(settings.tone), gain_(static_cast<float>(std::exp2(settings.exposure))) {
+    : tone_(settings.tone), gain_(static_cast<float>(exact::exp2(settings.exposure))) {
     const std::uint32_t first = cell_index(kSmallest), last = cell_index(1.0f);
     cells_.reserve(last - first + 1);
     const auto start_of = [](std::uint32_t index) {

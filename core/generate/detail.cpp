@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 #include "core/generate/keyed_random.h"
 
@@ -36,7 +37,8 @@ class Warp {
     explicit Warp(std::uint64_t key) {
         for (std::size_t i = 0; i < kSide; ++i) {
             const double angle = 2 * std::numbers::pi * static_cast<double>(i) / kDetailSide;
-            turn_[i] = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+            turn_[i] = {static_cast<float>(exact::cos(angle)),
+                        static_cast<float>(exact::sin(angle))};
         }
         for (int i = 0; i < kWaves; ++i) {
             const auto number = [&](std::uint64_t which, double from, double to) {
@@ -52,7 +54,8 @@ class Warp {
             const glm::dvec3 a(number(3, -1, 1), number(4, -1, 1), number(5, -1, 1));
             wave.k = glm::ivec3(k);
             const double phase = number(6, 0, 2 * std::numbers::pi);
-            wave.start = {static_cast<float>(std::cos(phase)), static_cast<float>(std::sin(phase))};
+            wave.start = {static_cast<float>(exact::cos(phase)),
+                          static_cast<float>(exact::sin(phase))};
             const glm::dvec3 swing = glm::cross(k, a);
             // All waves are of one strength; together they move a point by about kWarp of a bump (rms).
             const double length = std::max(glm::length(swing), 1e-9);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/generate/particle_set.h"
 
 namespace awan {
@@ -23,8 +24,8 @@ inline double central_depth(const ParticleSet& particles, std::size_t i) {
 // The integral of its extinction over space, unit^2.
 inline double gaussian_mass(const ParticleSet& particles, std::size_t i) {
     const double s = gaussian_s(particles, i);
-    return static_cast<double>(particles.density[i]) * std::pow(2 * std::numbers::pi, 1.5) * s * s *
-           s;
+    return static_cast<double>(particles.density[i]) * exact::pow(2 * std::numbers::pi, 1.5) * s *
+           s * s;
 }
 
 }  // namespace awan

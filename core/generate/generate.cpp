@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 #include "core/generate/auto_density.h"
 #include "core/generate/cubes.h"
@@ -218,7 +219,7 @@ Status run_models(const Scene& scene, int threads, const Deadline& deadline, boo
         const Camera& camera = scene->camera;
         const double fov = camera.automatic ? kAutomaticFov : camera.fov;
         request.pixel_angle =
-            2 * std::tan(fov * std::numbers::pi / 360) / static_cast<double>(scene->image.height);
+            2 * exact::tan(fov * std::numbers::pi / 360) / static_cast<double>(scene->image.height);
         if (!camera.automatic) request.eye = motion.back(camera.eye);
         auto particles = model_particles(cloud, request, deadline);
         if (!particles.ok()) return particles.error();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 
 namespace awan {
@@ -92,7 +93,7 @@ ReadyParticles lattice_particles(const LatticeField& field, const LatticeOptions
 
     const auto radius = static_cast<float>(2 * kLatticeS * field.cell);
     const double s = static_cast<double>(radius) / 2;
-    const double mass_of_one = std::pow(2 * std::numbers::pi, 1.5) * s * s * s;
+    const double mass_of_one = exact::pow(2 * std::numbers::pi, 1.5) * s * s * s;
     // From a cell's value to a particle's density. The quotient of the sums is 1 where nothing was left out.
     const double scale = lattice_mass(field) / (sum * mass_of_one);
     particles.positions.resize(count);

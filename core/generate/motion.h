@@ -12,7 +12,7 @@ namespace awan {
 struct Motion {
     glm::dvec3 translate;
     double scale;
-    SinCos turn;
+    exact::SinCos turn;
 
     glm::dvec3 operator()(glm::dvec3 p) const {
         p *= scale;
@@ -28,7 +28,7 @@ struct Motion {
 
 inline Motion motion_of(const Cloud& cloud, double time) {
     return {cloud.translate + time * cloud.velocity, cloud.scale,
-            exact_sincos_degrees(cloud.rotate_y)};
+            exact::sincos_degrees(cloud.rotate_y)};
 }
 
 }  // namespace awan

@@ -55,8 +55,8 @@ double rise(double from, double to, double x) {
 constexpr std::uint64_t kKey = 0x617761;
 
 double soft(double x, double y) {
-    const double rim = exact_exp(-4.5);
-    return (exact_exp(-4.5 * (x * x + y * y)) - rim) / (1 - rim);
+    const double rim = exact::exp(-4.5);
+    return (exact::exp(-4.5 * (x * x + y * y)) - rim) / (1 - rim);
 }
 
 // As deep as a ball, its radius by noise.
@@ -84,7 +84,8 @@ std::vector<Lobe> lobes() {
         const std::size_t last = all.size();
         for (std::size_t parent = first; parent < last; ++parent)
             for (int i = 0; i < children; ++i) {
-                const SinCos way = exact_sincos_degrees(360 * (i + 0.8 * random()) / children);
+                const exact::SinCos way =
+                    exact::sincos_degrees(360 * (i + 0.8 * random()) / children);
                 const Lobe of = all[parent];
                 const double r = of.r * (0.36 + 0.2 * random()),
                              out = of.r * (0.72 + 0.2 * random());

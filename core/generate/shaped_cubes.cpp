@@ -18,7 +18,7 @@ struct Dome {
     glm::dvec2 middle{0};
     glm::dvec3 axes{0};
     // How far its lumps are turned about its axis.
-    SinCos spin{};
+    exact::SinCos spin{};
     // Of the particles, those up to this share, from that of the dome before, are in it.
     double up_to = 1;
 };
@@ -51,11 +51,11 @@ Domes domes_of(const Cube& cube, std::uint64_t key) {
     Domes domes;
     for (std::size_t k = 0; k < kLumps; ++k) {
         const double up = (static_cast<double>(k) + 0.3) / kLumps, flat = std::sqrt(1 - up * up);
-        const SinCos turn =
-            exact_sincos_degrees(137.50776 * static_cast<double>(k) + number(k, 4, -20, 20));
+        const exact::SinCos turn =
+            exact::sincos_degrees(137.50776 * static_cast<double>(k) + number(k, 4, -20, 20));
         domes.lumps[k] = {flat * turn.cos, up, flat * turn.sin};
     }
-    domes.all[0] = {{0, 0}, {0.5, kFoot, 0.5}, exact_sincos_degrees(number(0, 3, 0, 360)), 1};
+    domes.all[0] = {{0, 0}, {0.5, kFoot, 0.5}, exact::sincos_degrees(number(0, 3, 0, 360)), 1};
     // So many that they cover the base about once.
     const double room = cube.size.x / cube.size.y * (cube.size.z / cube.size.y);
     const auto more = static_cast<std::size_t>(std::clamp(5 * room, 7.0, kMostDomes - 1.0));
@@ -63,14 +63,14 @@ Domes domes_of(const Cube& cube, std::uint64_t key) {
     for (std::size_t k = 1; k < domes.count; ++k) {
         // Over the base as the seeds of a sunflower are, a little moved; lower towards the rim.
         const double out = std::sqrt((static_cast<double>(k) - 0.7) / static_cast<double>(more));
-        const SinCos turn = exact_sincos_degrees(137.50776 * static_cast<double>(k) +
-                                                 number(k, 0, -25, 25) + number(0, 0, 0, 360));
+        const exact::SinCos turn = exact::sincos_degrees(
+            137.50776 * static_cast<double>(k) + number(k, 0, -25, 25) + number(0, 0, 0, 360));
         const double height = (1 - 0.38 * out * out) * number(k, 1, 0.72, 1);
         const double wide = height * number(k, 2, kSlim, kBroad) * cube.size.y;
         Dome& dome = domes.all[k];
         dome.axes = {std::min(0.5, wide / cube.size.x), height, std::min(0.5, wide / cube.size.z)};
         dome.middle = {(0.5 - dome.axes.x) * out * turn.cos, (0.5 - dome.axes.z) * out * turn.sin};
-        dome.spin = exact_sincos_degrees(number(k, 3, 0, 360));
+        dome.spin = exact::sincos_degrees(number(k, 3, 0, 360));
     }
     double sum = 0;
     for (std::size_t k = 0; k < domes.count; ++k) {
@@ -94,7 +94,7 @@ double third_root(double x) {
 }
 
 // How far a dome reaches in a direction (a unit vector), in half axes: spheres side by side, with creases between.
-double reach(const Domes& domes, const SinCos& spin, const glm::dvec3& direction) {
+double reach(const Domes& domes, const exact::SinCos& spin, const glm::dvec3& direction) {
     const glm::dvec3 d(spin.cos * direction.x - spin.sin * direction.z, direction.y,
                        spin.sin * direction.x + spin.cos * direction.z);
     double nearest = -1;
@@ -114,7 +114,7 @@ FilledParticle cumulus_particle(const Cube& cube, const Domes& domes,
     // Fuller at the shoulders than an ellipsoid.
     const double up = u[1], flat = std::sqrt(1 - up * up * up),
                  length = std::sqrt(up * up + flat * flat);
-    const SinCos turn = exact_sincos_degrees(360 * u[2]);
+    const exact::SinCos turn = exact::sincos_degrees(360 * u[2]);
     const double out =
         third_root(share) *
         reach(domes, dome.spin, glm::dvec3(flat * turn.cos, up, flat * turn.sin) / length);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/light/light.h"
 
 namespace awan {
@@ -9,9 +10,9 @@ namespace awan {
 // With x = 1 - cos(angle), the fraction is the integral of p / 2 over x from 0 to x_max. It is taken by the midpoint
 // rule in t, where x = x_max t^4: the forward peak of g = 0.999 is 1e-6 wide in x, and t^4 puts 3% of the points there.
 double gathering_fraction(const Medium& medium, double half_angle) {
-    if (medium.droplets) return share_within(*medium.droplets, 1 - std::cos(half_angle));
+    if (medium.droplets) return share_within(*medium.droplets, 1 - exact::cos(half_angle));
     constexpr int kSteps = 4096;
-    const double x_max = 1 - std::cos(half_angle);
+    const double x_max = 1 - exact::cos(half_angle);
     const double g = medium.g, rest = 1 - std::abs(g);
     double sum = 0;
     for (int i = 0; i < kSteps; ++i) {

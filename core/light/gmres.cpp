@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/aligned_floats.h"
+#include "core/base/exact_math.h"
 #include "core/base/float_runs.h"
 #include "core/base/parallel.h"
 
@@ -81,7 +82,7 @@ struct Rotation {
 };
 
 Rotation rotation_that_clears(double a, double b) {
-    const double length = std::hypot(a, b);
+    const double length = exact::hypot(a, b);
     return length > 0 ? Rotation{a / length, b / length} : Rotation{};
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 #include "core/survey/lattice.h"
 #include "core/survey/projection.h"
@@ -120,7 +121,7 @@ Seen look(const CloudAbove& cloud, const glm::dvec3& p, const glm::dvec3& d) {
         const double passed =
             std::max(until - t, 0.0) * static_cast<double>(cloud.depth[cell]) * cloud.scaled;
         if (passed > 0) {
-            const double weight = std::exp(-depth) * -std::expm1(-passed) / cloud.scaled;
+            const double weight = exact::exp(-depth) * -exact::expm1(-passed) / cloud.scaled;
             const float* const source = cloud.source[cell].data();
             for (int c = 0; c < 3; ++c) {
                 float sum = 0;
@@ -133,7 +134,7 @@ Seen look(const CloudAbove& cloud, const glm::dvec3& p, const glm::dvec3& d) {
         t = until;
         if (!walk.step()) break;
     }
-    seen.through = std::exp(-depth);
+    seen.through = exact::exp(-depth);
     return seen;
 }
 
@@ -157,8 +158,8 @@ glm::dvec3 gathered(const CloudAbove& cloud, const SkyDome* sky, const glm::dvec
         double weight = pi / kRays;  // cosine * solid angle
         if (cone) {
             const double along = 1 - s.along * (1 - cosine), flat = std::sqrt(1 - along * along);
-            const glm::dvec3 scaled =
-                along * axis + flat * std::cos(s.turn) * side.u + flat * std::sin(s.turn) * side.v;
+            const glm::dvec3 scaled = along * axis + flat * exact::cos(s.turn) * side.u +
+                                      flat * exact::sin(s.turn) * side.v;
             d = half * scaled;
             const double length = glm::length(d);
             d /= length;
@@ -167,7 +168,7 @@ glm::dvec3 gathered(const CloudAbove& cloud, const SkyDome* sky, const glm::dvec
                      (length * length * length) * d.y;
         } else {
             const double flat = std::sqrt(s.along);
-            d = {flat * std::cos(s.turn), std::sqrt(1 - s.along), flat * std::sin(s.turn)};
+            d = {flat * exact::cos(s.turn), std::sqrt(1 - s.along), flat * exact::sin(s.turn)};
         }
         const Seen seen = look(cloud, p, d);
         if (seen.through == 1) continue;

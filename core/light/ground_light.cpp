@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 #include "core/light/harmonics.h"
 #include "core/light/sun_depth.h"
@@ -43,7 +44,7 @@ std::size_t index(int i, int j, int across) {
 // Even over the unit disc: Vogel 1979, "A better way to construct the sunflower head".
 glm::dvec2 in_disc(int i, int count) {
     const double r = std::sqrt((i + 0.5) / count), turn = i * pi * (3 - std::sqrt(5.0));
-    return {r * std::cos(turn), r * std::sin(turn)};
+    return {r * exact::cos(turn), r * exact::sin(turn)};
 }
 
 // The lattice of the sun's depth over a level ground, in the sun's frame: places are u a + v b + w c with the lattice's
@@ -146,7 +147,7 @@ SunRaster raster_around(const SunBox& box, double slope) {
 // matter is below the ground.
 template <typename OfDepth>
 SunRaster raster_of(const SunBox& box, double radius, int threads, const OfDepth& of_depth) {
-    const double slope = std::tan(radius);
+    const double slope = exact::tan(radius);
     if (!(longest_way(box) > 0)) {
         SunRaster none;
         set_frame(box, none);
@@ -231,8 +232,8 @@ glm::dvec3 mean_radiance_below(const GroundLight& ground, const glm::dvec3& poin
         for (int j = 0; j < kAround; ++j) {
             const double down = (i + 0.5) / kUp, side = std::sqrt(1 - down * down);
             const double turn = 2 * pi * (j + 0.5 * (i % 2)) / kAround, t = above / down;
-            sum += radiance_at(ground, point.x + t * side * std::sin(turn),
-                               point.z + t * side * std::cos(turn));
+            sum += radiance_at(ground, point.x + t * side * exact::sin(turn),
+                               point.z + t * side * exact::cos(turn));
         }
     return sum / (1.0 * kUp * kAround);
 }
@@ -258,14 +259,14 @@ void cast_shadow(const SunDepth& sun, double albedo, double peak_share, double t
     if (sun.depth.empty() || !(-sun.w.y > kLowestShadow) || ground.sun == glm::dvec3(0)) return;
     const SunBox box = sun_box(sun, ground.height);
     ground.shadow =
-        raster_of(box, kSunRadius, threads, [](double depth) { return std::expm1(-depth); });
+        raster_of(box, kSunRadius, threads, [](double depth) { return exact::expm1(-depth); });
     if (!(peak_share > 0) || !(albedo > 0)) return;
     // A disc of radius r has the root mean square radius r / sqrt(2).
     const double radius = std::numbers::sqrt2 * peak_width(turning, kOrders);
     // exp(-k depth) - exp(-depth) with k = `scaled` < 1, written so that nothing cancels.
     const double scaled = 1 - albedo * peak_share;
     ground.ahead = raster_of(box, radius, threads, [=](double depth) {
-        return -std::exp(-scaled * depth) * std::expm1(-(1 - scaled) * depth);
+        return -exact::exp(-scaled * depth) * exact::expm1(-(1 - scaled) * depth);
     });
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/exact_math.h"
+
 namespace awan {
 
 double phase_moment(const Medium& medium, int l) {
@@ -13,7 +15,7 @@ double phase_moment(const Medium& medium, int l) {
     }
     const double g = medium.g;
     if (l == 0) return 1;
-    const auto power = [&](int n) { return n == 0 ? 1.0 : g == 0 ? 0.0 : std::pow(g, n); };
+    const auto power = [&](int n) { return n == 0 ? 1.0 : g == 0 ? 0.0 : exact::pow(g, n); };
     if (medium.phase == PhaseFunction::kHenyeyGreenstein) return power(l);
     // mu^2 P_l by the recurrence (2l + 1) mu P_l = (l + 1) P_l+1 + l P_l-1, twice.
     const double n = l;

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/generate/gaussian.h"
 #include "core/gl/programs.h"
 #include "core/gl/tile_lists.h"
@@ -51,7 +52,7 @@ GainCurve gain_curve(double gain, double whole) {
     if (!(start > 0)) return {0, 0};
     // The limit for thin particles, in which the quotients below lose their digits.
     if (whole < 1e-4) return {start, gain / 2};
-    const double depth = -std::log1p(start * std::expm1(-std::min(whole, 700.0)));
+    const double depth = -exact::log1p(start * exact::expm1(-std::min(whole, 700.0)));
     return {start, std::max(0.0, (start * whole / depth - 1) / whole)};
 }
 
@@ -61,7 +62,7 @@ OnGrid put_on_grid(const ParticleSet& particles, std::size_t i, const LightGrid&
     const glm::dvec3 place = grid.place(particles.center[i]);
     const double across = std::max(s / grid.texel, 0.6), along = std::max(s / grid.slab, 0.4);
     const double narrowing = s / grid.texel / across;
-    const double thinned = tau * narrowing * narrowing / -std::expm1(-kReach * kReach / 2);
+    const double thinned = tau * narrowing * narrowing / -exact::expm1(-kReach * kReach / 2);
     const GainCurve curve = gain_curve(gain, thinned);
     const double wide = kReach * across, deep = kSpread * along;
     const auto tile = [](double cell, int count) {

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 #include "core/light/nested_grids.h"
 #include "core/scene/outside.h"
@@ -72,7 +73,7 @@ std::vector<float> light_volume(const Scene& scene, const TransportLight& light,
                                                               static_cast<double>(line % ny),
                                                               static_cast<double>(line / ny)) +
                                                    0.5);
-                    const double lit = std::exp(-scaled * depth_at(light.sun, nodes, place));
+                    const double lit = exact::exp(-scaled * depth_at(light.sun, nodes, place));
                     const double direct =
                         luminance(sun * albedo_at(light, albedo, place)) * lit / kWhole;
                     out[i] = std::max(out[i] + static_cast<float>(direct), 0.0F);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 
 namespace awan {
@@ -108,9 +109,9 @@ void extrapolate(const TransportLight& coarse, TransportLight& fine, int threads
         return;
     }
     const glm::dvec3 ratios = coarse.cell / fine.cell;
-    const double ratio = std::cbrt(ratios.x * ratios.y * ratios.z);
+    const double ratio = exact::cbrt(ratios.x * ratios.y * ratios.z);
     if (!(ratio > kLeastRatio)) return;
-    const auto gain = static_cast<float>(1 / (std::pow(ratio, kOrder) - 1));
+    const auto gain = static_cast<float>(1 / (exact::pow(ratio, kOrder) - 1));
     for (std::size_t b = 0; b < fine.bands.size(); ++b) {
         const Moments before = at_cells_of(fine, coarse, solved_moments(coarse, b), threads);
         auto& moments = fine.bands[b].moments;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/exact_math.h"
+
 namespace awan {
 namespace {
 
@@ -24,7 +26,7 @@ Ordinates make_ordinates() {
             // 0..pi/2
             const double azimuth = (static_cast<double>(d % 4) + 0.5) * std::numbers::pi / 8;
             const double up = kNode[level], flat = std::sqrt(1 - up * up);
-            const glm::dvec3 size(flat * std::sin(azimuth), up, flat * std::cos(azimuth));
+            const glm::dvec3 size(flat * exact::sin(azimuth), up, flat * exact::cos(azimuth));
             for (int axis = 0; axis < 3; ++axis)
                 all.cosine[static_cast<std::size_t>(axis)][d] = static_cast<float>(size[axis]);
             octant.direction[d] = size * glm::dvec3(octant.sign);

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/base/exact_math.h"
+
 namespace awan {
 namespace {
 
@@ -34,7 +36,7 @@ SkyInflow sky_inflow(const SkyDome& sky) {
                         (static_cast<double>(d % kAzimuths) + (j + 0.5) / kSamples) *
                         std::numbers::pi / (2 * kAzimuths);
                     const double flat = std::sqrt(1 - up * up);
-                    const glm::dvec3 to(flat * std::sin(azimuth), up, flat * std::cos(azimuth));
+                    const glm::dvec3 to(flat * exact::sin(azimuth), up, flat * exact::cos(azimuth));
                     const glm::dvec3 seen = sky_radiance(sky, sign * to);
                     inflow.most = glm::max(inflow.most, seen);
                     sum += seen;
@@ -49,7 +51,7 @@ glm::dvec3 mean_from(const SkyInflow& inflow, const glm::dvec3& direction) {
     const std::size_t octant =
         (direction.x < 0 ? 1u : 0u) + (direction.y < 0 ? 2u : 0u) + (direction.z < 0 ? 4u : 0u);
     const double up = std::abs(direction.y) / glm::length(direction);
-    const double azimuth = std::atan2(std::abs(direction.x), std::abs(direction.z));  // 0..pi/2
+    const double azimuth = exact::atan2(std::abs(direction.x), std::abs(direction.z));  // 0..pi/2
     std::size_t level = 0;
     while (level < 3 && up > kEdge[level + 1]) ++level;
     const auto turn = std::min(

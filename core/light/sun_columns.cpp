@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 #include "core/survey/lattice.h"
 #include "core/survey/projection.h"
@@ -67,7 +68,7 @@ Columns columns_of(const MatterBox& box, const Axes& axes, const glm::dvec3& w, 
     const glm::dvec2 whole = size + glm::abs(lean);
     const double thin = std::max(
         kThinnest, box.length[axes.thin] / std::max(box.length[axes.b], box.length[axes.c]));
-    const double width = std::cbrt(whole.x * whole.y * thick / (thin * nodes));
+    const double width = exact::cbrt(whole.x * whole.y * thick / (thin * nodes));
     const int layers =
         std::clamp(static_cast<int>(std::ceil(thick / (thin * width))), 2, most_layers);
     const double side =

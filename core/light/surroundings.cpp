@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/generate/gaussian.h"
 #include "core/light/harmonics.h"
 #include "core/light/legendre.h"
@@ -98,13 +99,13 @@ Surroundings surroundings_of(const Scene& scene, const std::vector<Neighbour>& n
         double left = 1, radiance = 0;
         for (const Chord& chord : chords) {
             const double length = chord.far - chord.near, depth = kept * chord.extinction * length;
-            const double end = std::exp(-depth);
+            const double end = exact::exp(-depth);
             if (light) {
                 const glm::dvec3 point =
                     from + (chord.near + length * std::min(0.5, 1 / std::max(depth, 1e-9))) * away;
                 const double source =
                     source_at(whole, whole.bands[band], point, towards) +
-                    first * std::exp(-kept * std::max(depth_at(whole.sun, point), 0.0));
+                    first * exact::exp(-kept * std::max(depth_at(whole.sun, point), 0.0));
                 radiance += left * (1 - end) / kept * source;
             }
             left *= end;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/base/exact_math.h"
 #include "core/looks/gardner.h"
 
 namespace awan::gardner {
@@ -20,7 +21,7 @@ double specular(const glm::dvec3& normal, const glm::dvec3& to_sun, const glm::d
     const double lit = glm::dot(normal, to_sun);
     if (!(lit > 0)) return 0;
     const double mirrored = glm::dot(2 * lit * normal - to_sun, to_eye);
-    return mirrored > 0 ? std::pow(std::min(mirrored, 1.0), shininess) : 0;
+    return mirrored > 0 ? exact::pow(std::min(mirrored, 1.0), shininess) : 0;
 }
 
 std::optional<SphereHit> hit(const UnitSphere& sphere, const glm::dvec3& direction) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 #include "core/draw/backdrop.h"
 #include "core/generate/motion.h"
@@ -73,8 +74,8 @@ double ostroushko_look_ms(const Scene& scene, const View& view, int threads) {
             2 * radius / std::max(distance, radius) / (2 * view.tan_half_fov) * scene->image.height;
         covered += 0.3 * across * across;
         // Of the five a level, as many as are larger than a pixel. 2.6 is the dimension of the default cumulus.
-        spheres += std::min(std::pow(5.0, static_cast<double>(cloud.spheres->levels)),
-                            std::pow(across, 2.6));
+        spheres += std::min(exact::pow(5.0, static_cast<double>(cloud.spheres->levels)),
+                            exact::pow(across, 2.6));
     }
     return (kSky * pixels + kCovered * std::min(covered, pixels) + kSpheres * std::sqrt(spheres)) /
            threads;

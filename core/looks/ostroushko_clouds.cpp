@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/base/exact_math.h"
 #include "core/generate/spheres/cluster.h"
 #include "core/generate/spheres/extinction.h"
 
@@ -91,7 +92,7 @@ double through_upper(const LookCloud& cloud, std::size_t index, int level, const
 
 double through(const SphereHit& hit, double radius, double sigma) {
     const double f = 1 - std::min(hit.middle / radius, 1.0);
-    return std::exp(-sigma * (hit.leave - hit.enter)) * f + 1 - f;
+    return exact::exp(-sigma * (hit.leave - hit.enter)) * f + 1 - f;
 }
 
 std::vector<LookCloud> look_clouds(const Scene& scene, const glm::dvec3& eye) {
@@ -103,12 +104,12 @@ std::vector<LookCloud> look_clouds(const Scene& scene, const glm::dvec3& eye) {
 }
 
 glm::dvec3 turned(const LookCloud& cloud, const glm::dvec3& v) {
-    const SinCos& turn = cloud.motion.turn;
+    const exact::SinCos& turn = cloud.motion.turn;
     return {v.x * turn.cos + v.z * turn.sin, v.y, v.z * turn.cos - v.x * turn.sin};
 }
 
 glm::dvec3 turned_back(const LookCloud& cloud, const glm::dvec3& v) {
-    const SinCos& turn = cloud.motion.turn;
+    const exact::SinCos& turn = cloud.motion.turn;
     return {v.x * turn.cos - v.z * turn.sin, v.y, v.z * turn.cos + v.x * turn.sin};
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/survey/outside_light.h"
 
 namespace awan {
@@ -43,8 +44,8 @@ double without(double Measured::*loss, double depth) {
     for (std::size_t i = 1; i < kMeasured.size(); ++i) {
         const Measured &a = kMeasured[i - 1], &b = kMeasured[i];
         if (depth > b.depth) continue;
-        const double t = std::log(depth / a.depth) / std::log(b.depth / a.depth);
-        return a.*loss * std::pow(b.*loss / (a.*loss), t);
+        const double t = exact::log(depth / a.depth) / exact::log(b.depth / a.depth);
+        return a.*loss * exact::pow(b.*loss / (a.*loss), t);
     }
     return kMeasured.back().*loss;
 }
@@ -115,7 +116,7 @@ Criterion ground_shadow(const Scene& scene, const Survey& survey, const Lights& 
 Criterion sun_color(const Scene& scene, const Lights& lights) {
     if (!scene->sun.auto_color) return {false, 0, "the sun's colour is given"};
     if (!lights.sun_shines) return {false, 0, "the sun does not shine"};
-    const double angle = std::asin(std::clamp(lights.outside.to_sun.y, -1.0, 1.0));
+    const double angle = exact::asin(std::clamp(lights.outside.to_sun.y, -1.0, 1.0));
     const glm::dvec3 color = sunlight(angle, scene->sky.turbidity);
     const double grey = luminance(color);
     if (!(grey > 0)) return {false, 0, "the sun is below the horizon"};
@@ -129,12 +130,12 @@ Criterion sun_color(const Scene& scene, const Lights& lights) {
 
 // Largest of the haze's phase function, mean 1, that the picture sees.
 double phase_in_view(const Haze& haze, const Lights& lights, const View& view) {
-    const double corner = std::atan(view.tan_half_fov * std::hypot(1.0, view.aspect));
+    const double corner = exact::atan(view.tan_half_fov * exact::hypot(1.0, view.aspect));
     const double off =
-        std::acos(std::clamp(glm::dot(view.forward, lights.outside.to_sun), -1.0, 1.0));
+        exact::acos(std::clamp(glm::dot(view.forward, lights.outside.to_sun), -1.0, 1.0));
     const double nearest = std::max(off - corner, 0.0),
                  farthest = std::min(off + corner, std::numbers::pi);
-    const double cosine = std::cos(haze.g >= 0 ? nearest : farthest);
+    const double cosine = exact::cos(haze.g >= 0 ? nearest : farthest);
     const double base = std::max(1 + haze.g * haze.g - 2 * haze.g * cosine, 1e-9);
     return (1 - haze.g * haze.g) / (base * std::sqrt(base));
 }
@@ -151,7 +152,7 @@ Criterion haze(Effect effect, const Scene& scene, const Survey& survey, const Li
         luminance(scene->haze->albedo) *
         (lights.sun * phase_in_view(*scene->haze, lights, survey.view) + lights.sky) /
         all_light(lights);
-    const double veil = -std::expm1(-depth) * std::max(1.0, glow);
+    const double veil = -exact::expm1(-depth) * std::max(1.0, glow);
     return above("the haze's largest share of a pixel in view,", veil, kShare, std::min(veil, 1.0));
 }
 

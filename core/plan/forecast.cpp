@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/exact_math.h"
 #include "core/plan/criteria.h"
 #include "core/plan/forecast_errors.h"
 #include "core/plan/forecast_times.h"
@@ -19,7 +20,7 @@ constexpr double kLargestError = 20;
 double predicted_error(const ErrorModel& model, const ErrorFigures& figures) {
     const double log_error =
         std::inner_product(figures.begin(), figures.end(), model.coefficient.begin(), 0.0);
-    return std::exp(std::clamp(log_error, std::log(kSmallestError), std::log(kLargestError)));
+    return exact::exp(std::clamp(log_error, exact::log(kSmallestError), exact::log(kLargestError)));
 }
 
 double predicted_ms(const TimeModel& model, const TimeFigures& figures) {
@@ -37,7 +38,7 @@ double island_bytes(const IslandWork& work, double bands, double particles, doub
 // Cells of the solve for the sun where there is detail; 0: there is none. `cells`: of the grid.
 double fine_cells(const Rung& rung, const Scene& scene, const Survey& survey, double cells) {
     if (!detail_counts(scene, survey)) return 0;
-    double fine = cells * std::pow(fine_cells_a_side(rung.cells), 3);
+    double fine = cells * exact::pow(fine_cells_a_side(rung.cells), 3);
     if (fine > kMostFineCells && rung.cells <= 32) fine = 8 * cells;
     return fine <= kMostFineCells ? fine : 0;
 }
@@ -60,10 +61,10 @@ double predicted_bytes(const Rung& rung, const Scene& scene, const Survey& surve
                        64 * kFineVectors * fine_cells(rung, scene, survey, work.largest) *
                            std::max(threads, 1);
             }
-            return std::min(std::pow(rung.cells, 3), figures[5]) * 64 * kVectors +
+            return std::min(exact::pow(rung.cells, 3), figures[5]) * 64 * kVectors +
                    64 * kFineVectors *
                        fine_cells(rung, scene, survey,
-                                  std::min(std::pow(rung.cells, 3), figures[5])) +
+                                  std::min(exact::pow(rung.cells, 3), figures[5])) +
                    8e6 + 64 * particles;
         case Method::kPaths:
         case Method::kLook:  // never asked for (plan.cpp)
@@ -124,7 +125,7 @@ RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey
     // Of grids, the model is of what they are measured to differ by.
     if (!empty && rung.cells > 0)
         forecast.error =
-            std::hypot(forecast.error, known_error(scene, survey, detail_counts(scene, survey)));
+            exact::hypot(forecast.error, known_error(scene, survey, detail_counts(scene, survey)));
     double ms = predicted_ms(kPrepareTime, times);
     const double march_speed = stretch(threads, kMarchSerial);
     switch (rung.method) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/plan/criteria.h"
 #include "core/plan/island_settings.h"
 #include "core/plan/transport_settings.h"
@@ -50,7 +51,7 @@ double updates(double longest, const std::array<double, 4>& sum, int cells) {
     const double h = longest / cells, side = 8 / h;
     const double expanded =
         side * side * side * sum[3] + 3 * side * side * sum[2] + 3 * side * sum[1] + sum[0];
-    return std::min(expanded, sum[0] * std::pow(cells, 3));
+    return std::min(expanded, sum[0] * exact::pow(cells, 3));
 }
 
 double updates(const Survey& survey, int cells) {
@@ -61,7 +62,7 @@ double updates(const Survey& survey, int cells) {
 double cells_in(const glm::dvec3& size, int count) {
     if (count == 0) return 0;
     const glm::dvec3 share = size / std::max({size.x, size.y, size.z, 1e-12});
-    return std::pow(count, 3) * std::max(share.x, 1.0 / count) * std::max(share.y, 1.0 / count) *
+    return exact::pow(count, 3) * std::max(share.x, 1.0 / count) * std::max(share.y, 1.0 / count) *
            std::max(share.z, 1.0 / count);
 }
 
@@ -159,12 +160,12 @@ ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& s
                                 : island_work(transport_settings(rung), scene, survey).cell;
         cell_depth =
             std::clamp(survey.max_extinction * (1 - scene->medium.albedo * f) * cell, 0.0, 1e6);
-        coarseness = std::clamp(std::log2(std::max(cell, 1e-12) / mean_s(survey)), -4.0, 4.0);
+        coarseness = std::clamp(exact::log2(std::max(cell, 1e-12) / mean_s(survey)), -4.0, 4.0);
     }
     const double into_sun = std::max(survey.sun_cosine, 0.0), backlit = into_sun * into_sun;
-    const double thin = std::log(depth / (1 + depth)),
-                 thick = std::log1p(std::min(depth, kMostDepth));
-    const double cells = std::log1p(std::min(cell_depth, kMostCellDepth)), forward = std::abs(g);
+    const double thin = exact::log(depth / (1 + depth)),
+                 thick = exact::log1p(std::min(depth, kMostDepth));
+    const double cells = exact::log1p(std::min(cell_depth, kMostCellDepth)), forward = std::abs(g);
     const std::array figures{
         1.0,
         thin,
@@ -177,7 +178,7 @@ ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& s
         coarseness,
         survey.eye_inside ? 1.0 : 0.0,
         sun_share(scene),
-        std::log10(std::clamp(1 - scene->medium.albedo, 1e-4, 1.0)) + 4,
+        exact::log10(std::clamp(1 - scene->medium.albedo, 1e-4, 1.0)) + 4,
         thin * forward,
         thick * forward,
         thick * backlit,
@@ -186,7 +187,7 @@ ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& s
         thin * thin,
         detail_counts(scene, survey) ? scene->detail.value_or(Detail{}).amount : 0,
         survey.ground.light / (1 + survey.ground.light),
-        -std::expm1(-survey.haze.depth_to_clouds),
+        -exact::expm1(-survey.haze.depth_to_clouds),
         survey.islands.list.empty() ? 0.0 : 1.0};
     static_assert(figures.size() == kErrorFigureCount);
     return figures;
@@ -203,7 +204,7 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
     if (detail_counts(scene, survey)) {
         // As long a way as the cloud's mean side, in steps of a fifth of a bump (core/draw/march.cpp).
         const glm::dvec3 size = survey.bounds.max - survey.bounds.min;
-        const double way = std::cbrt(std::max(size.x * size.y * size.z, 0.0));
+        const double way = exact::cbrt(std::max(size.x * size.y * size.z, 0.0));
         const double step = 0.2 * scene->detail.value_or(Detail{}).size * survey.detail.radius;
         figures[8] = covered * std::min(way / std::max(step, 1e-12), 2048.0);
         figures[10] = 1;
@@ -223,15 +224,15 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
         if (survey.ground.light > 0) bands += 2;
         const double harmonics = asymmetry(scene->medium) == 0 ? 0.5 : 1;  // of the cost of 16
         // Sweeps that the solve takes, from the coarser grid's light: few in thin matter, twice as many at depth 30.
-        const double sweeps = 1 + 0.35 * std::log1p(std::min(survey.optical_depth_sun, 1e3));
+        const double sweeps = 1 + 0.35 * exact::log1p(std::min(survey.optical_depth_sun, 1e3));
         // Islands' grids are small and less deep than all of them in a row: measured on the sky of 100 clouds.
         figures[5] = cells * bands * harmonics * sweeps * (one ? 1 : kIslandsShare);
         figures[11] = std::min(covered, kMostLookedUp) * figures[3] / std::max(covered, 1.0) *
-                      std::log1p(std::clamp(survey.optical_depth_eye, 0.0, kMostDepth));
+                      exact::log1p(std::clamp(survey.optical_depth_eye, 0.0, kMostDepth));
         if (figures[10] > 0)
             figures[12] =
-                figures[5] / std::max(bands, 1.0) * std::pow(fine_cells_a_side(rung.cells), 3);
-        figures[13] = std::pow(figures[5] / sweeps, 2.0 / 3);
+                figures[5] / std::max(bands, 1.0) * exact::pow(fine_cells_a_side(rung.cells), 3);
+        figures[13] = exact::pow(figures[5] / sweeps, 2.0 / 3);
         figures[6] = one ? updates(survey, settings.sun_cells) + updates(survey, 3 * rung.cells)
                          : islands.updates;
     }

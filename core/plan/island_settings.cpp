@@ -5,6 +5,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/base/exact_math.h"
+
 namespace awan {
 namespace {
 
@@ -41,8 +43,8 @@ double share_of_picture(const View& view, const Island& island) {
 }
 
 int steps_down(int full, double share, int least) {
-    const double steps = std::floor(-2 * std::log2(std::clamp(share, 1e-6, 1.0)) + 1e-9);
-    return std::clamp(static_cast<int>(std::lround(full * std::pow(2.0, -steps / 2))),
+    const double steps = std::floor(-2 * exact::log2(std::clamp(share, 1e-6, 1.0)) + 1e-9);
+    return std::clamp(static_cast<int>(std::lround(full * exact::pow(2.0, -steps / 2))),
                       std::min(least, full), full);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/exact_math.h"
+
 namespace awan {
 namespace {
 
@@ -36,14 +38,14 @@ double known_error(const Scene& scene, const Survey& survey, bool detailed) {
     const double thin_turned_back =
         kThinTurnedBackError * behind * behind * g * g * g * g * g * g * 4 * thick * (1 - thick);
     double known =
-        std::hypot(kEyeError, std::hypot(kThickError, angular) * thick, thin_turned_back);
+        exact::hypot(kEyeError, exact::hypot(kThickError, angular) * thick, thin_turned_back);
     if (detailed) {
-        known =
-            std::hypot(known, scene->detail.value_or(Detail{}).amount *
-                                  (kDetailError + kDeepDetailError * std::min(depth / kDeep, 1.0) +
-                                   kBacklitDetailError * into_sun * into_sun));
+        known = exact::hypot(known,
+                             scene->detail.value_or(Detail{}).amount *
+                                 (kDetailError + kDeepDetailError * std::min(depth / kDeep, 1.0) +
+                                  kBacklitDetailError * into_sun * into_sun));
     }
-    return std::hypot(known, kSubPixelError * survey.sub_pixel);
+    return exact::hypot(known, kSubPixelError * survey.sub_pixel);
 }
 
 }  // namespace awan

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "core/base/exact_math.h"
 #include "core/plan/criteria.h"
 #include "core/scene/layers.h"
 
@@ -186,11 +187,11 @@ void choose_rung(const Scene& scene, const Survey& survey, int threads, const Ma
         if (rung.method == Method::kSplats) {
             double& error = plan.forecasts.back().error;
             const bool additive = rung.id == RungId::kAdditive;
-            error = std::hypot(std::min(error, thin_error(plan, scene, survey, additive)),
-                               lost_by_splats(plan));
+            error = exact::hypot(std::min(error, thin_error(plan, scene, survey, additive)),
+                                 lost_by_splats(plan));
         }
         double& whole = plan.forecasts.back().error;
-        if (whole > 0) whole = std::hypot(whole, survey.model_error);
+        if (whole > 0) whole = exact::hypot(whole, survey.model_error);
         if (painted && rung.method == Method::kSplats)
             whole = std::numeric_limits<double>::quiet_NaN();
         if (wants_layers(scene)
@@ -306,7 +307,7 @@ void plan_samples(Plan& plan, std::uint32_t samples, const Scene& scene, const S
         if (of.rung != &truth) return;
         // What was added to the time stays.
         of.time_ms += now.time_ms - before.time_ms;
-        of.error = now.error > 0 ? std::hypot(now.error, survey.model_error) : now.error;
+        of.error = now.error > 0 ? exact::hypot(now.error, survey.model_error) : now.error;
         of.bytes = now.bytes;
     };
     for (RungForecast& of : plan.forecasts) change(of);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/exact_math.h"
+
 namespace awan {
 namespace {
 
@@ -31,12 +33,12 @@ double StepTimes::light_ms(double cells) const {
                                     [&](const Known& known) { return known.cells >= cells; });
     if (after == forecasts_.begin() || after == forecasts_.end()) {
         const Known& end = after == forecasts_.end() ? forecasts_.back() : forecasts_.front();
-        return end.ms * std::pow(cells / end.cells, kTimePower);
+        return end.ms * exact::pow(cells / end.cells, kTimePower);
     }
     const Known &low = after[-1], &high = *after;
-    const double share = std::log(cells / low.cells) / std::log(1.0 * high.cells / low.cells);
+    const double share = exact::log(cells / low.cells) / exact::log(1.0 * high.cells / low.cells);
     return std::max(low.ms, 1e-3) *
-           std::pow(std::max(high.ms, 1e-3) / std::max(low.ms, 1e-3), share);
+           exact::pow(std::max(high.ms, 1e-3) / std::max(low.ms, 1e-3), share);
 }
 
 void StepTimes::solved(int cells, double ms) {

@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/scene/daylight.h"
 
 namespace awan {
@@ -68,7 +69,7 @@ Air air_of(double turbidity) {
 using Matter = glm::dvec3;
 
 Matter density_at(double height) {
-    return {std::exp(-height / kGasScale), std::exp(-height / kAerosolScale),
+    return {exact::exp(-height / kGasScale), exact::exp(-height / kAerosolScale),
             std::max(0.0, 1 - std::abs(height - kOzoneMiddle) / kOzoneHalf)};
 }
 
@@ -144,8 +145,8 @@ Sunshine sunshine_of(double elevation) {
         const double height = height_of(i, kHeights);
         const double edge = edge_of_earth(height);
         for (int j = 0; j < kElevations; ++j) {
-            const double up = std::sin(std::clamp(sun.lowest + 2 * kAround * j / (kElevations - 1),
-                                                  -kTurn / 2, kTurn / 2));
+            const double up = exact::sin(std::clamp(
+                sun.lowest + 2 * kAround * j / (kElevations - 1), -kTurn / 2, kTurn / 2));
             sun.column[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] =
                 column_out(height, std::max(up, edge));
         }
@@ -170,15 +171,15 @@ auto between(const Table& table, double row, double column) {
 // The share of the sun's light of each band at a place. sine: of the sun's elevation there.
 Band light_at(const Air& air, const Sunshine& sun, double height, double sine) {
     Band light{};
-    const double elevation = std::asin(std::clamp(sine, -1.0, 1.0));
-    const double below = elevation - std::asin(edge_of_earth(height));
+    const double elevation = exact::asin(std::clamp(sine, -1.0, 1.0));
+    const double below = elevation - exact::asin(edge_of_earth(height));
     const double disc = smooth_step(0.5 + below / kSunWidth);
     if (disc == 0) return light;
     const Matter column = between(sun.column, row_of(height, kHeights),
                                   (elevation - sun.lowest) / (2 * kAround) * (kElevations - 1));
     for (std::size_t b = 0; b < kBands; ++b)
-        light[b] = disc * std::exp(-(air.gas[b] * column.x + air.aerosol[b] * column.y +
-                                     air.ozone[b] * column.z));
+        light[b] = disc * exact::exp(-(air.gas[b] * column.x + air.aerosol[b] * column.y +
+                                       air.ozone[b] * column.z));
     return light;
 }
 
@@ -211,7 +212,7 @@ Band walk(const Air& air, double height, double up, double sun_sine, double cos_
             const double aerosol = air.aerosol[b] * density.y;
             step.aerosol[b] = kAerosolAlbedo * aerosol;
             const double taken = step.gas[b] + aerosol + air.ozone[b] * density.z;
-            const double passes = std::exp(-taken * length);
+            const double passes = exact::exp(-taken * length);
             step.weight[b] = through[b] * (taken * length > 1e-6 ? (1 - passes) / taken : length);
             through[b] *= passes;
         }
@@ -253,7 +254,7 @@ Bands diffuse_at(const Air& air, const Sunshine& sun, double height, double sun_
         const double way = down >= 0 ? down : way_out(height, up);
         for (int j = 0; j < kTurns; ++j) {
             const double cos_gamma = up * sun_sine + std::sqrt(1 - up * up) * sun_flat *
-                                                         std::cos(kTurn * (j + 0.5) / kTurns);
+                                                         exact::cos(kTurn * (j + 0.5) / kTurns);
             const Band through =
                 walk(air, height, up, sun_sine, cos_gamma, way, kSteps, [&](const Step& step) {
                     const Band light = light_at(air, sun, step.height, step.sun_sine);
@@ -284,7 +285,7 @@ Diffuse diffuse_of(const Air& air, const Sunshine& sun) {
             const double elevation = std::clamp(
                 sun.lowest + 2 * kAround * j / (kDiffuseElevations - 1), -kTurn / 2, kTurn / 2);
             diffuse.radiance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] =
-                diffuse_at(air, sun, height_of(i, kDiffuseHeights), std::sin(elevation));
+                diffuse_at(air, sun, height_of(i, kDiffuseHeights), exact::sin(elevation));
         }
     return diffuse;
 }
@@ -330,8 +331,8 @@ Seen look(const Surroundings& all, double up, double cos_gamma, double way) {
             const Band light = light_at(all.air, all.sun, step.height, step.sun_sine);
             const double row = row_of(step.height, kDiffuseHeights);
             const double column =
-                (std::asin(std::clamp(step.sun_sine, -1.0, 1.0)) - all.sun.lowest) / (2 * kAround) *
-                (kDiffuseElevations - 1);
+                (exact::asin(std::clamp(step.sun_sine, -1.0, 1.0)) - all.sun.lowest) /
+                (2 * kAround) * (kDiffuseElevations - 1);
             const Bands around = between(all.diffuse.radiance, row, column);
             for (std::size_t b = 0; b < kBands; ++b) {
                 seen.even[b] +=
@@ -351,7 +352,7 @@ double elevation_of(int row) {
 // The cosine of the angle to the sun of a ray of the maps. up: the sine of its elevation, of either sign.
 double cosine_to_sun(const Surroundings& all, double up, int column) {
     return up * all.sun_sine + std::sqrt(std::max(0.0, 1 - up * up)) * all.sun_flat *
-                                   std::cos(kTurn * column / (AirSky::kColumns - 1));
+                                   exact::cos(kTurn * column / (AirSky::kColumns - 1));
 }
 
 void keep(const Air& air, const Seen& seen, int row, int column, AirSky::Half& half) {
@@ -367,11 +368,11 @@ Band make_sky(const Surroundings& all, AirSky::Half& half) {
     Band on_land = light_at(all.air, all.sun, 0, all.sun_sine);
     for (double& light : on_land) light *= std::max(0.0, all.sun_sine);
     for (int i = 0; i < AirSky::kRows; ++i) {
-        const double elevation = elevation_of(i), up = std::sin(elevation), way = way_out(0, up);
+        const double elevation = elevation_of(i), up = exact::sin(elevation), way = way_out(0, up);
         // Of the sky, by the trapezoid rule over rows and columns: both sides of the sun.
         const double last = AirSky::kRows - 1.0;
         const double high = kTurn * i / (last * last) * (i == AirSky::kRows - 1 ? 0.5 : 1);
-        const double level = 2 * kTurn / (AirSky::kColumns - 1) * up * std::cos(elevation) * high;
+        const double level = 2 * kTurn / (AirSky::kColumns - 1) * up * exact::cos(elevation) * high;
         for (int j = 0; j < AirSky::kColumns; ++j) {
             const double cos_gamma = cosine_to_sun(all, up, j);
             const Seen seen = look(all, up, cos_gamma, way);
@@ -389,7 +390,7 @@ Band make_sky(const Surroundings& all, AirSky::Half& half) {
 void make_land(const Surroundings& all, const Band& on_land, AirSky::Half& half) {
     const double level = way_out(0, 0);
     for (int i = 0; i < AirSky::kRows; ++i) {
-        const double up = -std::sin(elevation_of(i));
+        const double up = -exact::sin(elevation_of(i));
         const double way = std::min(level, kLandBelow / std::max(-up, 1e-9));
         for (int j = 0; j < AirSky::kColumns; ++j) {
             Seen seen = look(all, 0, cosine_to_sun(all, up, j), way);
@@ -405,7 +406,7 @@ void make_land(const Surroundings& all, const Band& on_land, AirSky::Half& half)
 AirSky air_sky(const glm::dvec3& to_sun, double turbidity) {
     const double sine = std::clamp(to_sun.y, -1.0, 1.0);
     Surroundings all{
-        air_of(turbidity), sunshine_of(std::asin(sine)), {}, sine, std::sqrt(1 - sine * sine)};
+        air_of(turbidity), sunshine_of(exact::asin(sine)), {}, sine, std::sqrt(1 - sine * sine)};
     all.diffuse = diffuse_of(all.air, all.sun);
     AirSky sky;
     sky.to_sun = to_sun;
@@ -418,13 +419,13 @@ AirSky air_sky(const glm::dvec3& to_sun, double turbidity) {
 glm::dvec3 radiance(const AirSky& sky, const glm::dvec3& direction) {
     const AirSky::Half& half = direction.y < 0 ? sky.land : sky.sky;
     const double up = std::min(std::abs(direction.y), 1.0);
-    const double row = std::sqrt(std::asin(up) / (kTurn / 2)) * (AirSky::kRows - 1);
+    const double row = std::sqrt(exact::asin(up) / (kTurn / 2)) * (AirSky::kRows - 1);
     const double flat =
-        std::hypot(direction.x, direction.z) * std::hypot(sky.to_sun.x, sky.to_sun.z);
+        exact::hypot(direction.x, direction.z) * exact::hypot(sky.to_sun.x, sky.to_sun.z);
     const double cos_azimuth =
         flat > 1e-12 ? (direction.x * sky.to_sun.x + direction.z * sky.to_sun.z) / flat : 1.0;
     const double column =
-        std::acos(std::clamp(cos_azimuth, -1.0, 1.0)) / kTurn * (AirSky::kColumns - 1);
+        exact::acos(std::clamp(cos_azimuth, -1.0, 1.0)) / kTurn * (AirSky::kColumns - 1);
     const int i = std::min(static_cast<int>(row), AirSky::kRows - 2);
     const int j = std::min(static_cast<int>(column), AirSky::kColumns - 2);
     const std::array<double, 4> down = spline(row - i), along = spline(column - j);

@@ -6,6 +6,8 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
+#include "core/base/exact_math.h"
+
 namespace awan {
 namespace {
 
@@ -39,7 +41,7 @@ constexpr double kOzoneDepth = 0.35, kVapourDepth = 2;  // cm
 // approximations to the CIE XYZ color matching functions", table 1); wavelength in micrometres.
 double lobe(double wavelength, double height, double middle, double below, double above) {
     const double t = (1e3 * wavelength - middle) * (1e3 * wavelength < middle ? below : above);
-    return height * std::exp(-0.5 * t * t);
+    return height * exact::exp(-0.5 * t * t);
 }
 
 glm::dvec3 matching(double wavelength) {
@@ -57,7 +59,7 @@ double wavelength_of(std::size_t i) {
 // Kasten's relative optical mass, 1 at the zenith, 36 at the horizon.
 double optical_mass(double elevation) {
     const double from_zenith = 90 - glm::degrees(elevation);
-    return 1 / (std::sin(elevation) + 0.15 * std::pow(93.885 - from_zenith, -1.253));
+    return 1 / (exact::sin(elevation) + 0.15 * exact::pow(93.885 - from_zenith, -1.253));
 }
 
 // X, Y, Z of the sun's irradiance; Y in lux.
@@ -73,8 +75,8 @@ glm::dvec3 sun_xyz(double elevation, double turbidity) {
 // --- the sky (appendix 2)
 
 double perez_value(const std::array<double, 5>& p, double up, double gamma, double cos_gamma) {
-    return (1 + p[0] * std::exp(p[1] / up)) *
-           (1 + p[2] * std::exp(p[3] * gamma) + p[4] * cos_gamma * cos_gamma);
+    return (1 + p[0] * exact::exp(p[1] / up)) *
+           (1 + p[2] * exact::exp(p[3] * gamma) + p[4] * cos_gamma * cos_gamma);
 }
 
 double cubic(double a, double b, double c, double d, double t) {
@@ -86,7 +88,7 @@ double cubic(double a, double b, double c, double d, double t) {
 // twilight at 18.
 double twilight(double below) {
     if (below <= 0) return 1;
-    return below < 18 ? std::exp(-below / 1.1) * (1 - below / 18) : 0;
+    return below < 18 ? exact::exp(-below / 1.1) * (1 - below / 18) : 0;
 }
 
 }  // namespace
@@ -94,7 +96,7 @@ double twilight(double below) {
 AirDepths air_depths(int i, double turbidity) {
     const double w = wavelength_of(static_cast<std::size_t>(i));
     const double aerosol = 0.04608 * turbidity - 0.04586;  // Angstrom's beta
-    return {0.008735 * std::pow(w, -4.08), aerosol * std::pow(w, -1.3),
+    return {0.008735 * exact::pow(w, -4.08), aerosol * exact::pow(w, -1.3),
             kOzone[static_cast<std::size_t>(i)] * kOzoneDepth};
 }
 
@@ -129,9 +131,9 @@ double air_transmittance(int number, double m, double turbidity) {
     double depth = m * (parts.gas + parts.aerosol + parts.ozone);
     if (i >= kFirstVapour) {
         const double vapour = kVapour[i - kFirstVapour] * kVapourDepth * m;
-        depth += 0.2385 * vapour / std::pow(1 + 20.07 * vapour, 0.45);
+        depth += 0.2385 * vapour / exact::pow(1 + 20.07 * vapour, 0.45);
     }
-    return std::exp(-depth);
+    return exact::exp(-depth);
 }
 
 double sun_illuminance(double elevation, double turbidity) {
@@ -149,7 +151,7 @@ glm::dvec3 sunlight(double elevation, double turbidity) {
 ClearSky clear_sky(const glm::dvec3& to_sun, double turbidity) {
     ClearSky sky;
     const double t = turbidity;
-    const double elevation = std::asin(std::clamp(to_sun.y, -1.0, 1.0));
+    const double elevation = exact::asin(std::clamp(to_sun.y, -1.0, 1.0));
     sky.dimmed = twilight(-glm::degrees(elevation));
     sky.to_sun = to_sun;
     if (to_sun.y < 0) {
@@ -167,7 +169,7 @@ ClearSky clear_sky(const glm::dvec3& to_sun, double turbidity) {
 
     const double sun = kPi / 2 - std::max(elevation, 0.0);  // from the zenith
     const double chi = (4.0 / 9 - t / 120) * (kPi - 2 * sun);
-    const double kcd = (4.0453 * t - 4.9710) * std::tan(chi) - 0.2155 * t + 2.4192;
+    const double kcd = (4.0453 * t - 4.9710) * exact::tan(chi) - 0.2155 * t + 2.4192;
     const double x = (cubic(0.00166, -0.00375, 0.00209, 0, sun) * t +
                       cubic(-0.02903, 0.06377, -0.03202, 0.00394, sun)) *
                          t +
@@ -178,7 +180,7 @@ ClearSky clear_sky(const glm::dvec3& to_sun, double turbidity) {
                      cubic(0.15346, -0.26756, 0.06670, 0.26688, sun);
     const std::array<double, 3> zenith = {1e3 * kcd / daylight_unit(), x, y};
     for (std::size_t i = 0; i < 3; ++i)
-        sky.scale[i] = zenith[i] / perez_value(sky.perez[i], 1, sun, std::cos(sun));
+        sky.scale[i] = zenith[i] / perez_value(sky.perez[i], 1, sun, exact::cos(sun));
     return sky;
 }
 
@@ -187,7 +189,7 @@ glm::dvec3 radiance(const ClearSky& sky, const glm::dvec3& direction) {
     constexpr double kLevel = 1e-3;
     const double up = std::max(direction.y, kLevel);
     const double cos_gamma = std::clamp(glm::dot(direction, sky.to_sun), -1.0, 1.0);
-    const double gamma = std::acos(cos_gamma);
+    const double gamma = exact::acos(cos_gamma);
     std::array<double, 3> value{};
     for (std::size_t i = 0; i < 3; ++i)
         value[i] = sky.scale[i] * perez_value(sky.perez[i], up, gamma, cos_gamma);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/scene/mie.h"
 
 namespace awan {
@@ -54,7 +55,7 @@ void sum_over_sizes(DropletPhase& phase) {
             const double place = (i + (static_cast<double>(b) + 0.5) / std::size(kBands)) / radii;
             const double ratio = kLeast + (kMost - kLeast) * place;
             const double many =
-                std::exp((1 - 3 * kVariance) / kVariance * std::log(ratio) - ratio / kVariance);
+                exact::exp((1 - 3 * kVariance) / kVariance * exact::log(ratio) - ratio / kVariance);
             const double share = band.share * many * band.wavelength * band.wavelength;
             add_intensities(mie_series(size_of(ratio * effective, band), band.index), share,
                             phase.nodes, phase.ahead, phase.behind);
@@ -171,7 +172,7 @@ DropletPhase droplet_phase(double diameter) {
     phase.diameter = diameter;
     const double x = std::numbers::pi * diameter / kBands[1].wavelength;
     // The first octave of nodes divides what is well within the peak ahead, which is about 1 / x wide.
-    phase.octaves = std::max(6, static_cast<int>(std::ceil(2 * std::log2(x) + 2)));
+    phase.octaves = std::max(6, static_cast<int>(std::ceil(2 * exact::log2(x) + 2)));
     phase.nodes = nodes_of(phase.octaves);
     phase.ahead.assign(phase.nodes.size(), 0.0);
     phase.behind.assign(phase.nodes.size(), 0.0);
@@ -203,13 +204,14 @@ double share_within(const DropletPhase& droplets, double less) {
 DropletFit droplet_fit(double diameter) {
     const double d = diameter;
     if (d >= 5)
-        return {std::exp(-0.0990567 / (d - 1.67154)), std::exp(-2.20679 / (d + 3.91029) - 0.428934),
-                std::exp(3.62489 - 8.29288 / (d + 5.52825)),
-                std::exp(-0.599085 / (d - 0.641583) - 0.665888)};
-    const double log = std::log(d), loglog = std::log(log);
+        return {exact::exp(-0.0990567 / (d - 1.67154)),
+                exact::exp(-2.20679 / (d + 3.91029) - 0.428934),
+                exact::exp(3.62489 - 8.29288 / (d + 5.52825)),
+                exact::exp(-0.599085 / (d - 0.641583) - 0.665888)};
+    const double log = exact::log(d), loglog = exact::log(log);
     return {0.0604931 * loglog + 0.940256,
-            0.500411 - 0.081287 / (-2 * log + std::tan(log) + 1.27551), 7.30354 * log + 6.31675,
-            0.026914 * (log - std::cos(5.68947 * (loglog - 0.0292149))) + 0.376475};
+            0.500411 - 0.081287 / (-2 * log + exact::tan(log) + 1.27551), 7.30354 * log + 6.31675,
+            0.026914 * (log - exact::cos(5.68947 * (loglog - 0.0292149))) + 0.376475};
 }
 
 }  // namespace awan

@@ -1,6 +1,7 @@
 // The presets of a cloud of model "implicit", and what an ImplicitCloud comes to with them.
 #include <cmath>
 
+#include "core/base/exact_math.h"
 #include "core/scene/implicit.h"
 
 namespace awan {
@@ -137,7 +138,7 @@ double mean_radius(const ImplicitSettings& settings, const ImplicitCloud& cloud)
     for (const ImplicitPrimitive& primitive : settings.primitives) {
         const glm::dvec3 r = primitive.radii;
         const bool scaled = primitive.shape == ImplicitShape::kEllipsoid;
-        sum += primitive.radius * (scaled ? std::cbrt(r.x * r.y * r.z) : 1.0) + primitive.core;
+        sum += primitive.radius * (scaled ? exact::cbrt(r.x * r.y * r.z) : 1.0) + primitive.core;
     }
     if (!settings.primitives.empty()) return sum / static_cast<double>(settings.primitives.size());
     return cloud.growth ? cloud.growth->radius : 1;

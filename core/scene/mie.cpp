@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/exact_math.h"
+
 namespace awan {
 namespace {
 
@@ -34,11 +36,11 @@ std::vector<double> logarithmic_derivatives(double z, std::size_t count) {
 //     b_n the same with m D_n for D_n / m.
 // All but the i of xi is real here: a_n = p / (p - i q).
 MieSeries mie_series(double x, double index) {
-    const auto terms = static_cast<std::size_t>(x + 4 * std::cbrt(x) + 2.5);
+    const auto terms = static_cast<std::size_t>(x + 4 * exact::cbrt(x) + 2.5);
     const std::vector<double> d = logarithmic_derivatives(index * x, terms);
     MieSeries series{x, {}, {}};
-    double psi_before = std::cos(x), psi = std::sin(x);
-    double chi_before = -std::sin(x), chi = std::cos(x);
+    double psi_before = exact::cos(x), psi = exact::sin(x);
+    double chi_before = -exact::sin(x), chi = exact::cos(x);
     for (std::size_t n = 1; n <= terms; ++n) {
         const double per = static_cast<double>(n) / x;
         const double psi_next = (2 * per - 1 / x) * psi - psi_before;

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/exact_math.h"
+
 namespace awan {
 
 double luminance(const glm::dvec3& rgb) {
@@ -21,7 +23,7 @@ Outside outside_under(const SceneDraft& scene, std::shared_ptr<const AirSky> air
     const Sky& sky = scene.sky;
     if (scene.sun.auto_color) {
         glm::dvec3 color =
-            sunlight(std::asin(std::clamp(outside.to_sun.y, -1.0, 1.0)), sky.turbidity);
+            sunlight(exact::asin(std::clamp(outside.to_sun.y, -1.0, 1.0)), sky.turbidity);
         if (scene.effects[static_cast<int>(Effect::kSunColor)] == Switch::kOff)
             color = glm::dvec3(luminance(color));
         outside.sun = scene.sun.intensity * color;
@@ -83,7 +85,7 @@ SkyMeans means_of(const SkyDome& sky, int steps) {
         for (int j = 0; j < around; ++j) {
             const double up = (i + 0.5) / steps, side = std::sqrt(1 - up * up);
             const double turn = 2 * std::numbers::pi * (j + 0.5) / around;
-            const glm::dvec3 d(side * std::sin(turn), up, side * std::cos(turn));
+            const glm::dvec3 d(side * exact::sin(turn), up, side * exact::cos(turn));
             const glm::dvec3 from_above = share * sky_radiance(sky, d);
             means.above += from_above;
             means.irradiance_up += 2 * std::numbers::pi * up * from_above;

@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 #include <string>
 
+#include "core/base/exact_math.h"
 #include "core/scene/automaton.h"
 #include "core/scene/checks.h"
 #include "core/scene/ellipsoids.h"
@@ -41,8 +42,8 @@ struct Placement {
     explicit Placement(const Cloud& cloud)
         : translate(cloud.translate),
           scale(cloud.scale),
-          sine(std::sin(glm::radians(cloud.rotate_y))),
-          cosine(std::cos(glm::radians(cloud.rotate_y))) {}
+          sine(exact::sin(glm::radians(cloud.rotate_y))),
+          cosine(exact::cos(glm::radians(cloud.rotate_y))) {}
 
     bool within_limits(const glm::dvec3& p) const {
         const glm::dvec3 q = scale * p;

@@ -221,8 +221,8 @@ glm::dvec3 sun_direction(const Sun& sun) {
         return glm::normalize(d / largest);
     }
     // Exact at multiples of 90 degrees: a sun at the zenith or on an axis shines along it.
-    const SinCos elevation = exact_sincos_degrees(sun.elevation);
-    const SinCos azimuth = exact_sincos_degrees(sun.azimuth);
+    const exact::SinCos elevation = exact::sincos_degrees(sun.elevation);
+    const exact::SinCos azimuth = exact::sincos_degrees(sun.azimuth);
     // + 0.0: no negative zeros, which print as "-0".
     return glm::dvec3(elevation.cos * azimuth.sin, elevation.sin, elevation.cos * azimuth.cos) +
            0.0;

@@ -9,13 +9,14 @@
 #include <glm/vec4.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "core/base/exact_math.h"
+
 namespace awan::shader {
 // GLSL has no `inline`: each file that includes this gets copies of its own.
 namespace {
 
 using glm::abs;
 using glm::dot;
-using glm::exp;
 using glm::lessThan;
 using glm::max;
 using glm::mix;
@@ -25,6 +26,12 @@ using glm::vec4;
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
+float exp(float x) {
+    return exact::exp(x);
+}
+vec4 exp(const vec4& v) {
+    return {exp(v.x), exp(v.y), exp(v.z), exp(v.w)};
+}
 #include "core/shaders/optics.glsl"
 #include "core/shaders/phase.glsl"
 #include "core/shaders/sky.glsl"

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/exact_math.h"
+
 namespace awan {
 namespace {
 
@@ -15,7 +17,7 @@ std::array<double, kIntervals + 1> make_table() {
     std::array<double, kIntervals + 1> table{};
     for (int i = 0; i <= kIntervals; ++i) {
         const double x = -kTableReach + 2 * kTableReach * i / kIntervals;
-        table[static_cast<std::size_t>(i)] = 0.5 * std::erfc(-x / std::numbers::sqrt2);
+        table[static_cast<std::size_t>(i)] = 0.5 * exact::erfc(-x / std::numbers::sqrt2);
     }
     table.front() = 0;
     table.back() = 1;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/generate/gaussian.h"
 #include "core/scene/outside.h"
 #include "core/survey/gauss.h"
@@ -75,7 +76,7 @@ GroundView ground_view(const Scene& scene, const ParticleSet& particles, const S
             ++met;
             const glm::dvec3 p = view.eye + (height - view.eye.y) / d.y * d;
             const double depth = depth_through(survey.volume, p, towards);
-            ground.shade = std::max(ground.shade, share * -std::expm1(-depth));
+            ground.shade = std::max(ground.shade, share * -exact::expm1(-depth));
         }
     ground.seen = static_cast<double>(met) / (kAcross * kDown);
     return ground;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/exact_math.h"
+
 namespace awan {
 namespace {
 
@@ -24,11 +26,11 @@ HazeRay::HazeRay(const Haze& haze, double y, double slope)
 // Over extinction; `start` >= 0 in scale heights, `length` may be infinite where it leads upwards or is level.
 double HazeRay::above(double start, double length) const {
     const double rise = rate_ == 0 ? 0 : rate_ * length;
-    const double density = std::exp(-std::max(std::min(start, start + rise), 0.0));
+    const double density = exact::exp(-std::max(std::min(start, start + rise), 0.0));
     if (density == 0 || length <= 0) return 0;
     const double x = std::abs(rise);
     const double mean =
-        x < 1e-5 ? length * (1 - x * (0.5 - x / 6)) : -std::expm1(-x) / std::abs(rate_);
+        x < 1e-5 ? length * (1 - x * (0.5 - x / 6)) : -exact::expm1(-x) / std::abs(rate_);
     return density * mean;
 }
 
@@ -43,7 +45,7 @@ double HazeRay::depth(double t) const {
 }
 
 double HazeRay::opacity(double t) const {
-    return -std::expm1(-depth(t));
+    return -exact::expm1(-depth(t));
 }
 
 // In either part the depth of a step is the one before's times a constant.
@@ -57,13 +59,13 @@ void HazeRay::opacities(double first, double step, int count, double* out) const
     const double start = start_ + rate_ * first;
     const bool in_layer = start_ + rate_ * (0.5 * (first + last)) <= 0;
     double depth = extinction_ * (in_layer ? step : above(start, step));
-    const double ratio = in_layer ? 1 : std::exp(-rise);
+    const double ratio = in_layer ? 1 : exact::exp(-rise);
     out[0] = opacity(first);
     for (int k = 1; k < count; ++k, depth *= ratio) {
         const double taken =
             depth < 0.01
                 ? depth * (1 - depth / 2 * (1 - depth / 3 * (1 - depth / 4 * (1 - depth / 5))))
-                : -std::expm1(-depth);
+                : -exact::expm1(-depth);
         out[k] = out[k - 1] + (1 - out[k - 1]) * taken;
     }
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/survey/haze_depth.h"
 #include "core/survey/outside_light.h"
 #include "core/survey/raster_ray.h"
@@ -103,9 +104,9 @@ RayFigures look_along(const Haze& haze, double ground, const Lights& lights, con
         const double t = (i + 0.5) * step;
         const glm::dvec3 at = view.eye + t * d;
         const double after = ray.opacity((i + 1) * step), middle = ray.opacity(t);
-        const double through = std::exp(-clouds);
+        const double through = exact::exp(-clouds);
         if (shines && through > 1e-3 && after > before) {
-            const double lit = std::exp(-depth_towards(volume, at, lights.to_sun));
+            const double lit = exact::exp(-depth_towards(volume, at, lights.to_sun));
             const double sun = through * (after - before) * albedo * lights.sun * p;
             figures.pixel += sun;
             figures.taken += sun * (1 - lit);
@@ -114,14 +115,14 @@ RayFigures look_along(const Haze& haze, double ground, const Lights& lights, con
         const bool inside = std::min({off.x, off.y, off.z}) >= 0 && off.x < volume.cells.x &&
                             off.y < volume.cells.y && off.z < volume.cells.z;
         const double depth = inside ? extinction_in(volume, at) * step : 0;
-        const double alpha = through * -std::expm1(-depth);
+        const double alpha = through * -exact::expm1(-depth);
         figures.pixel += alpha * (1 - middle) * lights.cloud;
         figures.pixel += through * (after - before) * albedo * lights.ambient;
         if (clouds <= kSeen && clouds + depth > kSeen) figures.to_clouds = ray.depth(t);
         clouds += depth;
         before = after;
     }
-    figures.pixel += std::exp(-clouds) * (1 - before) * luminance(sky_radiance(lights.sky, d));
+    figures.pixel += exact::exp(-clouds) * (1 - before) * luminance(sky_radiance(lights.sky, d));
     return figures;
 }
 

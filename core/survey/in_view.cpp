@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/base/exact_math.h"
 #include "core/generate/gaussian.h"
 
 namespace awan {
@@ -16,7 +17,7 @@ constexpr double kReach = 4;
 std::size_t particles_in_view(const ParticleSet& particles, const View& view) {
     const double across = view.tan_half_fov * view.aspect, up = view.tan_half_fov;
     // Lengths of the normals (1, across) and (1, up) of the four sides.
-    const double across_length = std::hypot(1, across), up_length = std::hypot(1, up);
+    const double across_length = exact::hypot(1, across), up_length = exact::hypot(1, up);
     std::size_t seen = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const glm::dvec3 p = particles.center[i] - view.eye;

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/base/exact_math.h"
 #include "core/base/instruction_sets.h"
 #include "core/base/parallel.h"
 #include "core/generate/gaussian.h"
@@ -385,8 +386,8 @@ Lattice fitted_cells(const MatterBox& box, int count) {
     if (flat == glm::dvec3(1)) return cubic;
     // About as many cells as a cubic lattice has: their common scale follows.
     const glm::dvec3 asked = box.size / (flat * cubic.cell);
-    const double scale = std::cbrt(asked.x * asked.y * asked.z /
-                                   (kCellsToCubic * static_cast<double>(cubic.size())));
+    const double scale = exact::cbrt(asked.x * asked.y * asked.z /
+                                     (kCellsToCubic * static_cast<double>(cubic.size())));
     Lattice made{box.corner, box.u, box.v, box.w, {}, {}};
     made.cells = glm::clamp(glm::ivec3(glm::round(asked / scale)), glm::ivec3(1),
                             glm::ivec3(kMostAlong * count));

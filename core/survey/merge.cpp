@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <memory>
 
+#include "core/base/exact_math.h"
 #include "core/generate/gaussian.h"
 #include "core/generate/keyed_random.h"
 #include "core/survey/merge_error.h"
@@ -110,13 +111,13 @@ Result<ParticleSet> merged(ParticleSet particles, const glm::dvec3& to_sun, doub
                 rays = merge_rays(particles, to_sun);
                 exact = transmittances(particles, blocks, rays, threads);
             }
-            error = std::hypot(
+            error = exact::hypot(
                 error, error_of_merging(
                            exact, transmittances(fewer, in_their_order(fewer), rays, threads)));
         }
         if (error > most_error) continue;
         fewer.cloud_density = particles.cloud_density;
-        fewer.error = std::hypot(particles.error, error);
+        fewer.error = exact::hypot(particles.error, error);
         fewer.variant = keyed(particles.variant, std::bit_cast<std::uint64_t>(scales.least[0]));
         fewer.whole = std::make_shared<const ParticleSet>(std::move(particles));
         return fewer;

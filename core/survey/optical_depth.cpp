@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "core/base/exact_math.h"
 #include "core/generate/gaussian.h"
 #include "core/survey/gauss.h"
 #include "core/survey/projection.h"
@@ -74,9 +75,9 @@ double parallel_optical_depth(const ParticleSet& particles, glm::dvec3 direction
         const int y0 = static_cast<int>(std::ceil(std::max(0.0, y - reach)));
         const int y1 = static_cast<int>(std::floor(std::min(side - 1.0, y + reach)));
         for (int a = x0; a <= x1; ++a)
-            along_x[static_cast<std::size_t>(a)] = std::exp(-(a - x) * (a - x) * inverse);
+            along_x[static_cast<std::size_t>(a)] = exact::exp(-(a - x) * (a - x) * inverse);
         for (int b = y0; b <= y1; ++b) {
-            const double row = depth * std::exp(-(b - y) * (b - y) * inverse);
+            const double row = depth * exact::exp(-(b - y) * (b - y) * inverse);
             double* out =
                 raster.depth.data() + static_cast<std::size_t>(b) * static_cast<std::size_t>(side);
             for (int a = x0; a <= x1; ++a) out[a] += row * along_x[static_cast<std::size_t>(a)];
@@ -158,7 +159,7 @@ EyeDepth eye_optical_depth(const ParticleSet& particles, const View& view) {
                 const double t = glm::dot(q, d);
                 const glm::dvec3 miss = (q - d * t) / s;
                 raster.depth[at] +=
-                    depth * std::exp(-0.5 * glm::dot(miss, miss)) * normal_cdf(t / s);
+                    depth * exact::exp(-0.5 * glm::dot(miss, miss)) * normal_cdf(t / s);
             }
     }
     largest = std::max(largest, raster.largest());
@@ -166,7 +167,7 @@ EyeDepth eye_optical_depth(const ParticleSet& particles, const View& view) {
     eye.particles_per_pixel = pairs / lines;
     double sum = 0, covered = 0;
     for (const double depth : raster.depth)
-        if (-std::expm1(-depth) > kCoveredShare * -std::expm1(-largest)) {
+        if (-exact::expm1(-depth) > kCoveredShare * -exact::expm1(-largest)) {
             covered += 1;
             sum += depth;
         }

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 #include "core/generate/gaussian.h"
 #include "core/survey/ground_view.h"
@@ -35,7 +36,7 @@ void measure_projection(const ParticleSet& particles, int image_height, Survey& 
         survey.max_projected_px = std::max(survey.max_projected_px, px);
         // Roughly what it covers: ln(1 + tau) instead of Ein.
         const double depth = central_depth(particles, i);
-        const double covered = s * s * std::log1p(depth);
+        const double covered = s * s * exact::log1p(depth);
         area += covered;
         if (px < least_width(depth)) narrow += covered;
     }

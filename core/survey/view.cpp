@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/survey/survey.h"
 
 namespace awan {
@@ -37,15 +38,15 @@ View resolve_view(const Camera& camera, const ImageSettings& image, const Bounds
     View view;
     view.aspect = static_cast<double>(image.width) / static_cast<double>(image.height);
     const double fov = camera.automatic ? kAutomaticFov : camera.fov;
-    view.tan_half_fov = std::tan(fov / 2 * kRadians);
+    view.tan_half_fov = exact::tan(fov / 2 * kRadians);
 
     const glm::dvec3 center = (bounds.min + bounds.max) / 2.0;
     glm::dvec3 forward;
     glm::dvec3 up(0, 1, 0);
     if (camera.automatic) {
-        forward =
-            -glm::dvec3(std::sin(kAutoAzimuth) * std::cos(kAutoElevation), std::sin(kAutoElevation),
-                        std::cos(kAutoAzimuth) * std::cos(kAutoElevation));
+        forward = -glm::dvec3(exact::sin(kAutoAzimuth) * exact::cos(kAutoElevation),
+                              exact::sin(kAutoElevation),
+                              exact::cos(kAutoAzimuth) * exact::cos(kAutoElevation));
     } else {
         view.eye = camera.eye;
         forward = camera.target - camera.eye;

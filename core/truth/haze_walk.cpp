@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/base/exact_math.h"
 #include "core/scene/outside.h"
 #include "core/truth/flight.h"
 
@@ -19,7 +20,7 @@ constexpr double kThinnest = 600;
 // What comes through the clouds of the sunlight to p; with detail by a flight, 0 or 1, right on average.
 double sun_through_from(const Setting& setting, const glm::dvec3& p, PathRandom& random) {
     const Matter& m = *setting.matter;
-    if (!m.detail) return std::exp(-depth_to_sun(m, p));
+    if (!m.detail) return exact::exp(-depth_to_sun(m, p));
     double unused;
     return fly(m, m.axes * p + m.shift, m.axes * setting.to_sun, kInfinity, random, unused) ? 0 : 1;
 }
@@ -56,10 +57,10 @@ HazePath::HazePath(const Haze& haze, double y, double slope) {
     } else if (slope < 0) {
         const double enters = up / -rate;
         const double from = up > kThinnest ? (up - kThinnest) / -rate : 0;
-        parts_[0] = {from, b * std::exp(-std::min(up, kThinnest)), rate, enters};
+        parts_[0] = {from, b * exact::exp(-std::min(up, kThinnest)), rate, enters};
         parts_[1] = {enters, b, 0, kInfinity};
     } else {
-        parts_[0] = {0, b * std::exp(-up), rate, kInfinity};
+        parts_[0] = {0, b * exact::exp(-up), rate, kInfinity};
         parts_[1] = {kInfinity, 0, 0, kInfinity};
     }
 }
@@ -68,7 +69,7 @@ HazePath::HazePath(const Haze& haze, double y, double slope) {
 double HazePath::depth_in(const Part& part, double length) {
     if (!(length > 0) || part.extinction == 0) return 0;
     if (part.rate == 0 || std::abs(part.rate * length) < 1e-9) return part.extinction * length;
-    return part.extinction * -std::expm1(-part.rate * length) / part.rate;
+    return part.extinction * -exact::expm1(-part.rate * length) / part.rate;
 }
 
 double HazePath::depth(double t) const {
@@ -79,7 +80,7 @@ double HazePath::depth(double t) const {
 }
 
 double HazePath::transmittance(double t) const {
-    return std::exp(-depth(t));
+    return exact::exp(-depth(t));
 }
 
 double HazePath::where(double depth) const {
@@ -92,7 +93,7 @@ double HazePath::where(double depth) const {
         }
         const double even = depth / part.extinction, z = even * part.rate;
         const double length = std::abs(z) < 1e-9 ? even
-                              : z < 1            ? -std::log1p(-z) / part.rate
+                              : z < 1            ? -exact::log1p(-z) / part.rate
                                                  : kInfinity;
         return std::min(part.from + length, part.end);
     }
@@ -102,12 +103,12 @@ double HazePath::where(double depth) const {
 glm::dvec3 haze_light(const HazeSetting& air, const Setting& setting, const HazePath& path,
                       const glm::dvec3& o, const glm::dvec3& direction, double end,
                       PathRandom& random) {
-    const double scattered = -std::expm1(-path.depth(end));
+    const double scattered = -exact::expm1(-path.depth(end));
     if (!(scattered > 0)) return glm::dvec3(0);
     double lit = 1;
     if (air.shaded && !setting.matter->empty) {
         // A distance with the density of haze that is met before the end.
-        const double t = std::min(path.where(-std::log1p(-random.unit() * scattered)), end);
+        const double t = std::min(path.where(-exact::log1p(-random.unit() * scattered)), end);
         if (std::isfinite(t))
             lit = sun_through_from(setting, o + (t / setting.matter->cell) * direction, random);
     }

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/base/exact_math.h"
 #include "core/base/float_runs.h"
 #include "core/base/parallel.h"
 
@@ -24,7 +25,7 @@ void profile(std::vector<float>& out, double c, double s, int first, int last) {
     const float scale = static_cast<float>(1 / (s * std::sqrt(2.0)));
     for (int i = first; i <= last; ++i) {
         const float x = static_cast<float>(i - c) * scale;
-        out[static_cast<std::size_t>(i - first)] = std::exp(-x * x);
+        out[static_cast<std::size_t>(i - first)] = exact::exp(-x * x);
     }
 }
 
@@ -135,7 +136,7 @@ LatticeGaussian narrowed(const LatticeGaussian& gaussian) {
     LatticeGaussian g = gaussian;
     const double wide = std::max(g.s, kNarrowest);
     const double narrow = std::sqrt(wide * wide - 1.0 / 6);
-    g.peak *= std::pow(g.s / narrow, 3);
+    g.peak *= exact::pow(g.s / narrow, 3);
     g.cut *= wide / narrow;
     g.s = narrow;
     return g;

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/truth/brick_sample.h"
 
 namespace awan::truth {
@@ -32,7 +33,7 @@ double listed_extinction(const Matter& m, std::size_t brick, const glm::dvec3& q
         const glm::dvec3 v = q - one.center;
         const double d2 = glm::dot(v, v);
         if (d2 >= one.reach2) continue;
-        const double part = one.peak * std::exp(-d2 / (2 * one.s * one.s));
+        const double part = one.peak * exact::exp(-d2 / (2 * one.s * one.s));
         visit(one, part);
         sum += part;
     }
@@ -61,13 +62,14 @@ double listed_depth(const Matter::Listed& one, const glm::dvec3& o, const glm::d
     // Arguments of one sign: no difference of two numbers near 1.
     double part;
     if (a > 0)
-        part = std::erfc(a * per) - std::erfc(b * per);
+        part = exact::erfc(a * per) - exact::erfc(b * per);
     else if (b < 0)
-        part = std::erfc(-b * per) - std::erfc(-a * per);
+        part = exact::erfc(-b * per) - exact::erfc(-a * per);
     else
-        part = std::erf(b * per) - std::erf(a * per);
+        part = exact::erf(b * per) - exact::erf(a * per);
     return std::max(
-        one.peak * one.s * std::sqrt(std::numbers::pi / 2) * std::exp(-b2 * per * per) * part, 0.0);
+        one.peak * one.s * std::sqrt(std::numbers::pi / 2) * exact::exp(-b2 * per * per) * part,
+        0.0);
 }
 
 float smooth_extinction_at(const Matter& m, const glm::dvec3& q) {
@@ -99,8 +101,8 @@ double listed_depth_to_sun(const Matter& m, const glm::dvec3& q) {
         const double past = (q.z - one.center.z) / one.s;
         if (past < -9) continue;
         const double whole = one.peak * one.s * std::sqrt(2 * std::numbers::pi) *
-                             std::exp(-b2 / (2 * one.s * one.s));
-        depth += past > 6 ? whole : whole * 0.5 * std::erfc(-past * std::sqrt(0.5));
+                             exact::exp(-b2 / (2 * one.s * one.s));
+        depth += past > 6 ? whole : whole * 0.5 * exact::erfc(-past * std::sqrt(0.5));
     }
     return depth;
 }

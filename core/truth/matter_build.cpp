@@ -4,6 +4,7 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
+#include "core/base/exact_math.h"
 #include "core/generate/gaussian.h"
 #include "core/truth/lists.h"
 #include "core/truth/matter.h"
@@ -45,7 +46,7 @@ struct Source {
 
 // Beyond cut * s a particle's optical depth is below 1e-5, or 1e-5 of its own.
 double cut_of(double central_depth) {
-    return std::clamp(std::sqrt(2 * std::log(1e5 * std::max(central_depth, 1.0))), 4.8, 9.0);
+    return std::clamp(std::sqrt(2 * exact::log(1e5 * std::max(central_depth, 1.0))), 4.8, 9.0);
 }
 
 struct Box {
@@ -92,7 +93,7 @@ double about_largest(const std::vector<Source>& sources, const Box& box) {
         largest = std::max(largest, g.peak);
         // What a Gaussian wider than a cell leaves in it.
         const double s2 = g.s * g.s + cell * cell / (2 * std::numbers::pi);
-        mass[index(cell_of(g))] += g.peak * std::pow(g.s * g.s / s2, 1.5);
+        mass[index(cell_of(g))] += g.peak * exact::pow(g.s * g.s / s2, 1.5);
     }
     // The true value at particles of full cells.
     std::vector<std::pair<double, std::size_t>> full;
@@ -106,7 +107,7 @@ double about_largest(const std::vector<Source>& sources, const Box& box) {
         double sum = 0;
         for (const Source& g : sources) {
             const glm::dvec3 v = (g.center - sources[full[k].second].center) / g.s;
-            sum += g.peak * std::exp(-0.5 * glm::dot(v, v));
+            sum += g.peak * exact::exp(-0.5 * glm::dot(v, v));
         }
         largest = std::max(largest, sum);
     }
@@ -121,7 +122,7 @@ double volume_of(const std::vector<Source>& sources, const Box& box, const glm::
                              static_cast<std::size_t>(n.z));
     double marks = 0;
     for (const Source& g : sources)
-        marks += std::pow(std::min(2 * g.cut * g.s / cell + 1, double{kLookSide}), 3);
+        marks += exact::pow(std::min(2 * g.cut * g.s / cell + 1, double{kLookSide}), 3);
     // Of very many wide ones some tell as much as all.
     const auto stride = static_cast<std::size_t>(std::ceil(std::max(marks / kMaxMarks, 1.0)));
     double count = 0;
@@ -156,11 +157,11 @@ double chosen_cell(const std::vector<Source>& sources, const Box& box, double vo
     const double wanted = std::min(typical_s(sources) / kCellsPerS, box.longest() / kMinSide);
     const glm::dvec3 size = box.size();
     double updates = 0;
-    for (const Source& g : sources) updates += std::pow(2 * g.cut * g.s, 3);
-    return std::max({wanted, std::cbrt(volume / kMaxCells),
-                     std::cbrt(size.x * size.y * size.z / kMaxBricks) / kBrick,
+    for (const Source& g : sources) updates += exact::pow(2 * g.cut * g.s, 3);
+    return std::max({wanted, exact::cbrt(volume / kMaxCells),
+                     exact::cbrt(size.x * size.y * size.z / kMaxBricks) / kBrick,
                      // Along one side, too, there are bricks to walk through.
-                     box.longest() / (kBrick * 2048.0), std::cbrt(updates / kMaxUpdates)});
+                     box.longest() / (kBrick * 2048.0), exact::cbrt(updates / kMaxUpdates)});
 }
 
 // Which of the sources are to be listed, by index; the others go on the lattice. bricks: with matter in them.
@@ -170,7 +171,7 @@ std::vector<bool> choose_listed(const std::vector<Source>& sources, double cell,
     // Those that would be good to list: what it spares (optical depth misplaced) for a brick that has it on its list.
     std::vector<std::pair<double, std::size_t>> wanted;
     const auto entries_of = [cell](const Source& g) {
-        return std::pow(2 * g.cut * g.s / (kBrick * cell) + 1, 3);
+        return exact::pow(2 * g.cut * g.s / (kBrick * cell) + 1, 3);
     };
     for (std::size_t i = 0; i < sources.size(); ++i) {
         const Source& g = sources[i];
@@ -311,7 +312,7 @@ Result<Matter> make_matter(const ParticleSet& particles, const glm::dvec3& to_su
     const std::vector<bool> listed =
         particles.detail
             ? std::vector<bool>(sources.size(), false)
-            : choose_listed(sources, cell, largest, volume / std::pow(kBrick * cell, 3));
+            : choose_listed(sources, cell, largest, volume / exact::pow(kBrick * cell, 3));
     for (std::size_t i = 0; i < sources.size(); ++i) {
         const Source& g = sources[i];
         const glm::dvec3 c = (m.axes * g.center - lattice_box.low) / cell + double{kBrick};

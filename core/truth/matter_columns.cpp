@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/exact_math.h"
 #include "core/base/float_runs.h"
 #include "core/base/parallel.h"
 #include "core/truth/lists.h"
@@ -33,12 +34,12 @@ Span covered(double c, double reach, int first, int last) {
 // exp(-(k - c)^2 / 2 s^2) for k in the span: from its middle outwards, each from the one before, in double.
 void profile(double c, double s, Span span, std::vector<float>& out) {
     out.resize(static_cast<std::size_t>(span.last - span.first + 1));
-    const double per = 1 / (s * s), shrink = std::exp(-per);
+    const double per = 1 / (s * s), shrink = exact::exp(-per);
     const int middle = std::clamp(static_cast<int>(std::lround(c)), span.first, span.last);
     for (const int way : {1, -1}) {
         const double at = (middle - c) * way;
-        double value = std::exp(-0.5 * at * at * per);
-        double ratio = std::exp(-(at + 0.5) * per);
+        double value = exact::exp(-0.5 * at * at * per);
+        double ratio = exact::exp(-(at + 0.5) * per);
         for (int k = middle; k >= span.first && k <= span.last; k += way) {
             out[static_cast<std::size_t>(k - span.first)] = static_cast<float>(value);
             value *= ratio;
@@ -105,8 +106,8 @@ void add_narrow(const Filling& f, std::size_t index, const glm::ivec2& first, Ro
     for (int n = 0; n < kBrickNodes; ++n) {
         const auto u = static_cast<float>((first.x + n - g.center.x) * per);
         const auto v = static_cast<float>((first.y + n - g.center.y) * per);
-        across_x[n] = std::exp(-u * u) * static_cast<float>(g.peak);
-        across_y[n] = std::exp(-v * v);
+        across_x[n] = exact::exp(-u * u) * static_cast<float>(g.peak);
+        across_y[n] = exact::exp(-v * v);
     }
     for (int i = x.first; i <= x.last; ++i)
         for (int j = y.first; j <= y.last; ++j) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/exact_math.h"
 #include "core/generate/gaussian.h"
 #include "core/scene/outside.h"
 #include "core/truth/phase_law.h"
@@ -26,13 +27,13 @@ double erf_between(double a, double b) {
         double sum = 0;
         for (int i = 0; i < 4; ++i) {
             const double x = middle - half * kX[i], y = middle + half * kX[i];
-            sum += kW[i] * (std::exp(-x * x) + std::exp(-y * y));
+            sum += kW[i] * (exact::exp(-x * x) + exact::exp(-y * y));
         }
         return sum * half * 2 / std::sqrt(std::numbers::pi);
     }
-    if (a > 0) return std::erfc(a) - std::erfc(b);
-    if (b < 0) return std::erfc(-b) - std::erfc(-a);
-    return std::erf(b) - std::erf(a);
+    if (a > 0) return exact::erfc(a) - exact::erfc(b);
+    if (b < 0) return exact::erfc(-b) - exact::erfc(-a);
+    return exact::erf(b) - exact::erf(a);
 }
 
 // Gauss & Kronrod's 7 and 15 points (QUADPACK, Piessens et al. 1983).
@@ -95,7 +96,7 @@ double line_optical_depth(const ParticleSet& particles, const glm::dvec3& origin
         // exp(-740) is below the smallest double.
         if (b2 > 740) continue;
         const double per = 1 / (std::sqrt(2.0) * s);
-        depth += 0.5 * central_depth(particles, i) * std::exp(-b2) *
+        depth += 0.5 * central_depth(particles, i) * exact::exp(-b2) *
                  erf_between((from - along) * per, (to - along) * per);
     }
     return depth;
@@ -105,7 +106,7 @@ double extinction_at(const ParticleSet& particles, const glm::dvec3& point) {
     double sum = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const glm::dvec3 v = (point - particles.center[i]) / gaussian_s(particles, i);
-        sum += static_cast<double>(particles.density[i]) * std::exp(-0.5 * glm::dot(v, v));
+        sum += static_cast<double>(particles.density[i]) * exact::exp(-0.5 * glm::dot(v, v));
     }
     return sum;
 }
@@ -157,10 +158,10 @@ glm::dvec3 single_scattering(const Scene& scene, const ParticleSet& particles,
         for (std::size_t i = 0; i < particles.size(); ++i) {
             const glm::dvec3 v = (p - particles.center[i]) / gaussian_s(particles, i);
             const double one =
-                static_cast<double>(particles.density[i]) * std::exp(-0.5 * glm::dot(v, v));
+                static_cast<double>(particles.density[i]) * exact::exp(-0.5 * glm::dot(v, v));
             sum += particles.color.empty() ? glm::dvec3(one) : one * glm::dvec3(particles.color[i]);
         }
-        return sum * std::exp(-line_optical_depth(particles, p, to_sun, 0, INFINITY) - depth(t));
+        return sum * exact::exp(-line_optical_depth(particles, p, to_sun, 0, INFINITY) - depth(t));
     };
     // A first look at the size of the answer, then every piece to its share.
     const double least = (high - low) / 256;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/base/exact_math.h"
 #include "core/generate/gaussian.h"
 #include "core/survey/narrow.h"
 #include "core/truth/oracles.h"
@@ -84,7 +85,7 @@ class Area {
         const double z = glm::dot(p, view_.forward), s = gaussian_s(particles_, i);
         const double depth = central_depth(particles_, i);
         const double cut =
-            std::clamp(std::sqrt(2 * std::log(std::max(1.0, depth * 1e7))), 4.0, 9.0);
+            std::clamp(std::sqrt(2 * exact::log(std::max(1.0, depth * 1e7))), 4.0, 9.0);
         if (!(z > 2 * cut * s)) return {pixel.x, pixel.y, 1e300, 1e300, i};
         const double per_x = width_ / (2 * view_.tan_half_fov * view_.aspect),
                      per_y = height_ / (2 * view_.tan_half_fov);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/exact_math.h"
 #include "core/generate/keyed_random.h"
 #include "core/truth/oracles.h"
 #include "core/truth/pixel_area.h"
@@ -50,8 +51,8 @@ class CloudRays {
         : picture_(picture), eye_(eye) {
         for (std::size_t i = 0; i < rays.area.rays.size(); ++i) {
             const AreaRay& ray = rays.area.rays[i];
-            const double covered = ray.share * -std::expm1(-ray.depth);
-            through_ += ray.share * std::exp(-ray.depth);
+            const double covered = ray.share * -exact::expm1(-ray.depth);
+            through_ += ray.share * exact::exp(-ray.depth);
             rest_ -= ray.share;
             if (!(covered > 0)) continue;
             covered_ += covered;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/base/exact_math.h"
 #include "core/truth/brick_sample.h"
 #include "core/truth/brick_walk.h"
 
@@ -130,7 +131,7 @@ PrimaryRay::PrimaryRay(const Matter& m, const glm::dvec3& from, const glm::dvec3
 
 double PrimaryRay::first_meeting(double share) const {
     // share = (1 - e^-depth) / (1 - e^-all)
-    const double depth = -std::log1p(share * std::expm1(-depth_.back()));
+    const double depth = -exact::log1p(share * exact::expm1(-depth_.back()));
     const auto above = std::upper_bound(depth_.begin(), depth_.end() - 1, depth);
     const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - depth_.begin(), 1));
     const double rise = depth_[i] - depth_[i - 1];
@@ -148,10 +149,10 @@ ParticleSet particles_near(const ParticleSet& particles, const glm::dvec3& eye,
     const glm::dvec3 axis = glm::normalize(corners[0] + corners[1] + corners[2] + corners[3]);
     double half = 0;
     for (const glm::dvec3& corner : corners)
-        half = std::max(half,
-                        std::atan2(glm::length(glm::cross(axis, corner)), glm::dot(axis, corner)));
+        half = std::max(
+            half, exact::atan2(glm::length(glm::cross(axis, corner)), glm::dot(axis, corner)));
     half += 1e-6;
-    const double sine = std::sin(half), cosine = std::cos(half);
+    const double sine = exact::sin(half), cosine = exact::cos(half);
     ParticleSet near;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const glm::dvec3 v = particles.center[i] - eye;

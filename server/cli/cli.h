@@ -104,8 +104,10 @@ int run_accuracy(const AccuracyCommand& command);
 struct ParticlesCommand {
     SceneInput scene;
     std::string output = "-";
-    // "", "json", "csv", "ply", "awn", "glb", "vdb".
+    // "", "json", "csv", "ply", "awn", "glb", "vdb", "xml".
     std::string format;
+    // Metres of a unit of length, in an .xml.
+    double unit = 100;
     // Cells along the longest side of a volume.
     int voxels = 128;
     // Whether that has the light too.

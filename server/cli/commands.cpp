@@ -2,6 +2,7 @@
 
 #include "core/formats/awa.h"
 #include "core/formats/awn.h"
+#include "core/formats/flightgear.h"
 #include "core/formats/particle_files.h"
 #include "core/formats/vdb_file.h"
 #include "core/generate/generate.h"
@@ -62,9 +63,10 @@ Status particles_to(const std::string& path, const std::string& format, const Sc
     }
     auto particles = generate(scene, command.threads, Deadline{});
     if (!particles) return particles.error();
-    if (format == "glb" || format == "vdb") {
-        auto bytes = format == "glb"
-                         ? write_glb(*particles)
+    if (format == "glb" || format == "vdb" || format == "xml") {
+        auto bytes = format == "glb" ? write_glb(*particles)
+                     : format == "xml"
+                         ? write_flightgear(scene, *particles, command.unit)
                          : encode_vdb(density_volume(*particles, command.voxels, kVolumeWork));
         if (!bytes) return bytes.error();
         return write_output(path, *bytes);
@@ -102,8 +104,9 @@ Result<std::vector<Moment>> moments_of(const ParticlesCommand& command, const Sc
 }  // namespace
 
 int run_particles(const ParticlesCommand& command) {
-    const auto format = output_format(command.output, command.format,
-                                      {"json", "csv", "ply", "awn", "awa", "glb", "vdb"}, "json");
+    const auto format =
+        output_format(command.output, command.format,
+                      {"json", "csv", "ply", "awn", "awa", "glb", "vdb", "xml"}, "json");
     if (!format) return bad_usage(format.error().message);
     if (command.light && *format != "vdb") return bad_usage("--light is of a .vdb");
     const bool binary = *format == "ply" || *format == "glb" || *format == "vdb";

@@ -358,12 +358,14 @@ Run add_particles(CLI::App& app) {
     CLI::App* particles = app.add_subcommand("particles", "a scene to its particles");
     add_scene(*particles, command->scene);
     add(*particles, "-o,--output", command->output,
-        "a .json, .csv, .ply, .awn, .awa, .glb (points) or .vdb (volume of extinction) file, or - "
-        "for "
-        "standard output");
+        "a .json, .csv, .ply, .awn, .awa, .glb (points), .vdb (volume of extinction) or .xml "
+        "(FlightGear's clouds) file, or - for standard output");
     add(*particles, "--format", command->format,
-        "json, csv, ply, awn, awa, glb or vdb, for standard output")
-        ->check(CLI::IsMember({"json", "csv", "ply", "awn", "awa", "glb", "vdb"}));
+        "json, csv, ply, awn, awa, glb, vdb or xml, for standard output")
+        ->check(CLI::IsMember({"json", "csv", "ply", "awn", "awa", "glb", "vdb", "xml"}));
+    add(*particles, "--unit", command->unit,
+        "metres that a unit of length is in an .xml, whose lengths are metres")
+        ->check(CLI::Range(1e-3, 1e6));
     add(*particles, "--voxels", command->voxels,
         "cells along the longest side of a .vdb; fewer where it would take long")
         ->check(CLI::Range(8, 1024));

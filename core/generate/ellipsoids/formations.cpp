@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/exact_math.h"
 #include "core/generate/keyed_random.h"
 
 namespace awan::ellipsoids {
@@ -27,13 +28,13 @@ double reach(const PlacedEllipsoid& one, const glm::dvec3& direction) {
 
 // The level unit vector at that azimuth, degrees from +z towards +x.
 glm::dvec3 level(double degrees) {
-    const SinCos turn = exact_sincos_degrees(degrees);
+    const exact::SinCos turn = exact::sincos_degrees(degrees);
     return {turn.sin, 0, turn.cos};
 }
 
 // A random direction up to `spread` degrees from upward, to any side.
 glm::dvec3 upward(const Formation& formation, const Draws& draws) {
-    const SinCos tilt = exact_sincos_degrees(formation.spread * draws(kTilt));
+    const exact::SinCos tilt = exact::sincos_degrees(formation.spread * draws(kTilt));
     const glm::dvec3 side = level(360 * draws(kTurn));
     return {side.x * tilt.sin, tilt.cos, side.z * tilt.sin};
 }
@@ -107,7 +108,7 @@ std::vector<PlacedEllipsoid> placed_ellipsoids(const EllipsoidsCloud& cloud, std
         PlacedEllipsoid one;
         one.center = given.center;
         one.radii = given.radii;
-        one.turn = exact_sincos_degrees(given.rotate_y);
+        one.turn = exact::sincos_degrees(given.rotate_y);
         const Translucence& own = cloud.translucence;
         one.translucence = {given.threshold.value_or(own.threshold),
                             given.threshold_edge.value_or(own.threshold_edge),

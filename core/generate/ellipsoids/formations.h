@@ -17,7 +17,7 @@ namespace awan::ellipsoids {
 struct PlacedEllipsoid {
     glm::dvec3 center{0}, radii{1};
     // Its turn about y, as that of Motion (motion.h).
-    SinCos turn{0, 1};
+    exact::SinCos turn{0, 1};
     // Its own where it has one, else the cloud's.
     Translucence translucence;
     // The index of an earlier one that it overlaps; -1: of none.

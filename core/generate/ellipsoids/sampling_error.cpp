@@ -4,6 +4,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 #include "core/generate/ellipsoids/lattice.h"
 
@@ -94,7 +95,7 @@ double error_of(const LatticeField& lattice, const ReadyParticles& particles, do
     std::array<double, 2 * kReach + 1> weights{};
     for (int k = -kReach; k <= kReach; ++k)
         weights[static_cast<std::size_t>(k + kReach)] =
-            std::exp(-0.5 * (k / kLatticeS) * (k / kLatticeS));
+            exact::exp(-0.5 * (k / kLatticeS) * (k / kLatticeS));
     const std::vector<double> columns = columns_of(lattice, particles);
     std::array<double, kLines * kLines> exact{}, made{};
     parallel_for(threads, exact.size(), [&](std::size_t i) {

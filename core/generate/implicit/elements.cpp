@@ -29,8 +29,8 @@ T at_time(const ImplicitPrimitive& primitive, const T& standard, bool smooth, do
 }
 
 glm::dmat3 turn(const glm::dvec3& degrees) {
-    const SinCos x = exact_sincos_degrees(degrees.x), y = exact_sincos_degrees(degrees.y),
-                 z = exact_sincos_degrees(degrees.z);
+    const exact::SinCos x = exact::sincos_degrees(degrees.x), y = exact::sincos_degrees(degrees.y),
+                        z = exact::sincos_degrees(degrees.z);
     // Rotations about the axes, by columns.
     const glm::dmat3 about_x({1, 0, 0}, {0, x.cos, x.sin}, {0, -x.sin, x.cos});
     const glm::dmat3 about_y({y.cos, 0, -y.sin}, {0, 1, 0}, {y.sin, 0, y.cos});

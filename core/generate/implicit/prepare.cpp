@@ -144,8 +144,8 @@ Box seen_box(const ImplicitSettings& s, const Box& macro, const ImplicitField& f
 // scales stay those of frame 0.
 SwirlPath swirl_path(double frame, bool printed) {
     const double degrees = 0.6 * frame;
-    const double sine = exact_sincos_degrees(degrees).sin,
-                 cosine = exact_sincos_degrees(degrees).cos;
+    const double sine = exact::sincos_degrees(degrees).sin,
+                 cosine = exact::sincos_degrees(degrees).cos;
     SwirlPath path;
     const double rise = 0.01215 * frame;
     if (printed) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/exact_math.h"
 #include "core/generate/implicit/sampling.h"
 
 namespace awan::implicit {
@@ -21,7 +22,7 @@ std::array<float, 2 * kReach + 1> weights_of_half() {
     for (int k = -kReach; k <= kReach; ++k) {
         const double x = (k + 0.25) / kLatticeS;
         weights[static_cast<std::size_t>(k + kReach)] = static_cast<float>(
-            std::exp(-0.5 * x * x) / (std::sqrt(2 * std::numbers::pi) * kLatticeS));
+            exact::exp(-0.5 * x * x) / (std::sqrt(2 * std::numbers::pi) * kLatticeS));
     }
     return weights;
 }
@@ -99,12 +100,13 @@ double sampling_error(const LatticeField& lattice, const LatticeField& fine, dou
     double wrong = 0, all = 0, count = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         // Lines of 5% of the largest opacity are cloud, as pixels are (core/accuracy/error_measures.h).
-        const double most = -std::expm1(-*std::max_element(exact[axis].begin(), exact[axis].end()));
+        const double most =
+            -exact::expm1(-*std::max_element(exact[axis].begin(), exact[axis].end()));
         for (std::size_t i = 0; i < exact[axis].size(); ++i) {
             // By the library's exponential: a figure for people, whose last bit does not matter.
-            const double opacity = -std::expm1(-exact[axis][i]);
+            const double opacity = -exact::expm1(-exact[axis][i]);
             if (!(opacity > 0) || opacity < 0.05 * most) continue;
-            const double off = -std::expm1(-cells[axis][i]) - opacity;
+            const double off = -exact::expm1(-cells[axis][i]) - opacity;
             wrong += off * off;
             all += opacity;
             ++count;

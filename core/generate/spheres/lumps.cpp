@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/exact_math.h"
 #include "core/generate/spheres/cut.h"
 
 namespace awan::spheres {
@@ -14,11 +15,11 @@ double covered(double depth) {
     constexpr int kSteps = 64;
     constexpr double kFrom = 1e-6;
     if (!(depth > kFrom)) return depth;
-    const double step = std::log(depth / kFrom) / kSteps;
+    const double step = exact::log(depth / kFrom) / kSteps;
     double sum = 0;
     for (int i = 0; i <= kSteps; ++i) {
         const double weight = i == 0 || i == kSteps ? 1 : i % 2 == 1 ? 4 : 2;
-        sum -= weight * std::expm1(-kFrom * std::exp(step * i));
+        sum -= weight * exact::expm1(-kFrom * exact::exp(step * i));
     }
     return kFrom + sum * step / 3;
 }
@@ -46,10 +47,10 @@ double lost_in_lumps(const SphereTree& tree, const std::vector<ClusterMoments>& 
         return 2 * std::numbers::pi * std::max(variance, 1e-12);
     };
     const int top = std::min(below, static_cast<int>(moments.size()) - 1);
-    double r = radius * std::pow(ratio, top);
+    double r = radius * exact::pow(ratio, top);
     double hidden = area(0) * r * r * covered(sigma * kLeafMass * r / area(0));
     for (int level = 1; level <= top; ++level) {
-        r = radius * std::pow(ratio, top - level);
+        r = radius * exact::pow(ratio, top - level);
         const double own = area(level) * r * r;
         hidden = own * covered(children * hidden / own);
     }

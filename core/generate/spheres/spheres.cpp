@@ -1,5 +1,6 @@
 // The hierarchy of spheres as Gaussians of extinction, as deep as the picture needs.
 #include "core/scene/spheres.h"
+#include "core/base/exact_math.h"
 
 #include <algorithm>
 #include <array>
@@ -44,7 +45,8 @@ double error_of_cut(const Span& ratios, double pixels, double mass_share) {
     const double met =
         5 * (ratios.low * ratios.low + ratios.low * ratios.high + ratios.high * ratios.high) / 3;
     const double porous = std::clamp((1.1 - met) / (1.1 - 0.72), 0.0, 1.0);
-    return std::cbrt(mass_share) * std::min(0.014 * (1 + porous) * pixels * std::sqrt(pixels), 0.7);
+    return exact::cbrt(mass_share) *
+           std::min(0.014 * (1 + porous) * pixels * std::sqrt(pixels), 0.7);
 }
 // The angle of a pixel where a request names none, radians: of a picture 1080 pixels high and 40 degrees.
 constexpr double kUsualPixel = 0.00067;
@@ -135,7 +137,7 @@ Result<ModelParticles> make_particles(const SpheresCloud& cloud, const ModelRequ
                 lumps += own / mass *
                          lost_in_lumps(tree, moments, radius / own, static_cast<int>(below), sigma);
         }
-        made.error = std::hypot(
+        made.error = exact::hypot(
             error_of_cut(tree.ratios(), 2 * cut.smallest / angle, cut_mass / mass), lumps);
     }
     return made;
