@@ -32,6 +32,10 @@ contains "presets" "cumulus" "$(cat out)"
 run 0 presets noon-cumulus
 mv out preset.json
 run 0 validate preset.json
+run 0 presets congestus
+mv out congestus.json
+run 0 presets "Cumulus congestus"
+cmp -s out congestus.json || fail "a genus is a name of its preset"
 run 2 presets nothing
 contains "which there are" "noon-cumulus" "$(cat err)"
 run 0 digest scene.json
@@ -41,6 +45,10 @@ run 0 digest scene.json --set /sun/elevation=12
 [ "$digest" = "$(cut -d' ' -f1 out)" ] && fail "another sun is another scene"
 
 # --- values by flag
+run 0 validate scene.json moving.json --set /sun/elevation=12 --seed 4
+run 3 validate scene.json moving.json --set /sun/elevation=95
+same "each with the value" 2 "$(grep -c "/sun/elevation" err)"
+run 3 accuracy scene.json -o a.json --set /sun/elevation=95
 run 0 convert scene.json out.json --set /sun/elevation=12 --set /fill=gardner --set '/cubes/0/size=[1,2,3]' --seed 9
 contains "elevation" '"elevation":12' "$(tr -d ' \n' <out.json)"
 contains "a word" '"fill":"gardner"' "$(tr -d ' \n' <out.json)"
@@ -87,6 +95,9 @@ assert line["rung"] == "transport-16" and 0 < line["error"] < 1 and not line["sk
 assert len(line["digest"]) == 32 and line["width"] == 32 and line["particles"] == 60, line
 assert line["times_ms"]["draw"] > 0, line
 END_PYTHON
+run 0 digest scene.json --set /image/format=exr
+same "its digest" "$(cut -d' ' -f1 out)" "$("$awan" render scene.json -o c.exr --json 2>err |
+    python3 -c 'import json, sys; print(json.load(sys.stdin)["digest"])')"
 run 2 render scene.json -o - --json
 
 # --- files that are there
@@ -126,8 +137,21 @@ for name in "bad.%04d" "bad.####"; do
     run 2 convert scene.json "$name.json"
     run 2 accuracy scene.json -o "$name.json"
     run 2 state scene.json -o "$name.state"
+    run 2 sky scene.json -o "$name.exr"
+    run 2 impostor scene.json -o "$name.png"
+    run 2 fly scene.json -o "$name.webp"
+    run 2 fly scene.json --report "$name.json"
+    run 2 plan scene.json --depfile "$name.d"
 done
-same "no literal names" "" "$(ls | grep bad\\.[%#])"
+# As other renderers write the place, which is none here.
+for name in 'bad.%4d' 'bad.%i' 'bad.$F4' 'bad.@@@@'; do
+    run 2 render scene.json -o "$name.png"
+    run 2 render moving.json --frames 0,1 -o "$name.png"
+    contains "what to write" "####" "$(cat err)"
+done
+run 0 convert scene.json '100%_$Free.json'
+run 2 render scene.json -o c.exr --bits 16
+same "no literal names" "" "$(ls | grep 'bad\.[%#$@]')"
 run 0 particles moving.json --frames 0-11x11 -o "p.%02d.csv"
 run 0 particles moving.json --time 2 -o late.csv
 cmp -s late.csv p.11.csv || fail "particles of a frame are those of its time"
@@ -150,6 +174,19 @@ run 0 render "my scene.json" -o a.png -o a.exr --depfile a.d
 same "depfile" 'a.png a.exr: my\ scene.json' "$(cat a.d)"
 run 0 particles moving.json --frames 0,1 -o "p.%d.csv" --depfile p.d
 same "depfile of frames" "p.0.csv p.1.csv: moving.json" "$(cat p.d)"
+for command in plan convert sky "impostor --views 2 --size 8"; do
+    result=made.json
+    case $command in sky) result=made.exr ;; impostor*) result=made.png ;; esac
+    output=(-o "$result")
+    [ "$command" = convert ] && output=("$result")
+    rm -f made.*
+    run 0 $command scene.json "${output[@]}" --depfile made.d
+    contains "depfile of $command" "$result" "$(cat made.d)"
+    contains "depfile of $command" ": scene.json" "$(cat made.d)"
+    before=$(stat -c %y "$result")
+    run 0 $command scene.json "${output[@]}" --skip-existing
+    same "$command is not run again" "$before" "$(stat -c %y "$result")"
+done
 if command -v make >/dev/null; then
     printf -- '-include q.d\nq.png:\n\t@%s render scene.json -o q.png --depfile q.d >/dev/null && echo made\n' "$awan" >Makefile
     same "made once" "made" "$(make -s q.png)"
@@ -220,6 +257,10 @@ run 0 completion bash
 same "bash completes" "--skip-existing" "$(bash -c '
 source out
 COMP_WORDS=(awan render --skip); COMP_CWORD=2; _awan; echo "${COMPREPLY[@]}"')"
+for command in fly sky impostor validate; do
+    contains "bash knows $command" "        $command) flags=" "$(cat out)"
+done
+contains "textures" "--texture" "$(cat out)"
 same "and commands" "validate" "$(bash -c '
 source out
 COMP_WORDS=(awan val); COMP_CWORD=1; _awan; echo "${COMPREPLY[@]}"')"

@@ -7,6 +7,7 @@
 
 #include "server/document/job_text.h"
 #include "service_fixture.h"
+#include "tests/gzip.h"
 
 namespace awan::test {
 namespace {
@@ -51,6 +52,25 @@ TEST_F(JobsTest, ResultIsTheSynchronousAnswer) {
     EXPECT_EQ(remove(job).status, 204);
     expect_problem(get(job["self"]), 404);
     expect_problem(get(job["result"]), 404);
+}
+
+TEST_F(JobsTest, BodiesComeAsTheyDoElsewhere) {
+    const std::string text =
+        R"({"$schema":"job.json","kind":"render","scene":)" + std::string(kScene) + "}";
+    submit(gzip(text), {{"Content-Encoding", "gzip"}});
+    EXPECT_EQ(service
+                  .answer(make_request("POST", "/v1/jobs", text,
+                                       {{"Content-Type", "application/vnd.farm+json"}}))
+                  .status,
+              202);
+    Request asked = make_request("POST", "/v1/jobs", text, {{"Content-Type", "application/json"}});
+    asked.query = {{"width", "7"}};
+    const Response refused = service.answer(asked);
+    expect_problem(refused, 400);
+    EXPECT_NE(refused.body.find("width"), std::string::npos);
+    const Response broken = post("/v1/jobs", "{\"kind\":\"render\",\n \"scene\":}");
+    expect_problem(broken, 400);
+    EXPECT_NE(broken.body.find("line 2, column 10"), std::string::npos) << broken.body;
 }
 
 TEST_F(JobsTest, FormatChoosesTheResult) {

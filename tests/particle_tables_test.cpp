@@ -222,6 +222,99 @@ TEST(TableCsv, NamesOfOtherToolsAreKnown) {
         EXPECT_FALSE(known_name(name)) << name;
 }
 
+TEST(TableCsv, WhatOtherToolsWriteAroundTheirNumbers) {
+    const struct {
+        const char *text, *note;
+    } tables[] = {
+        // R: names of rows without a name of their own. A data frame printed by Python.
+        {"\"x\" \"y\" \"z\" \"radius\"\n\"1\" 1 2 3 4\n", "first cell"},
+        {"     x    y    z  radius\n0  1.0  2.0  3.0     4.0\n", "first cell"},
+        {"\"\";\"x\";\"y\";\"z\";\"radius\"\n\"1\";1;2;3;4\n", ""},
+        // Units behind the names, and below them.
+        {"x [m],y [m],z [m],radius [m]\n1,2,3,4\n", ""},
+        {"X (m);Y (m);Z (m);Radius (m)\n1;2;3;4\n", ""},
+        {"x_m,y_m,z_m,radius_m\n1,2,3,4\n", ""},
+        {"x [m],y [m],z [m],r [m]\n1,2,3,4\n", "\"r [m]\""},
+        {"x,y,z,radius\nm,m,m,m\n1,2,3,4\n", "line 2"},
+        {"| x | y | z | radius |\n|---|---|---|---|\n| 1 | 2 | 3 | 4 |\n", "line 2"},
+        // Titles above them.
+        {"Particles of frame 12\n\nx,y,z,radius\n1,2,3,4\n", "above line 3"},
+        {"Frame,12,,\nCount,1,,\nx,y,z,radius\n1,2,3,4\n", "above line 3"},
+        // CloudCompare, with the number of points; its own fields.
+        {"//X Y Z scalar_Radius\n1\n1 2 3 4\n", ""},
+        // Unreal's and Houdini's vectors.
+        {"---,Location,Radius\nA,\"(X=1.0,Y=2.0,Z=3.0)\",4\n", "\"---\""},
+        {"ptnum,P,pscale\n0,\"(1, 2, 3)\",4\n", "\"ptnum\""},
+        {"position\tradius\n[1 2 3]\t4\n", ""},
+        // Blender's coordinates, yt's, Maya's.
+        {"co.x,co.y,co.z,radius\n1,2,3,4\n", ""},
+        {"particle_position_x,particle_position_y,particle_position_z,radius\n1,2,3,4\n", ""},
+        {"positionX,positionY,positionZ,radiusPP\n1,2,3,4\n", ""},
+        // Fortran's exponents; a minus as people write it.
+        {"x y z radius\n 0.1D+01 0.2D+01 3.0d0 4.0E+00\n", ""},
+    };
+    for (const auto& table : tables) {
+        const Reading reading =
+            read_as(sniff_scene_format(table.text), table.text, std::optional<double>());
+        ASSERT_TRUE(reading.draft.ok()) << table.text << ": " << reading.draft.error().message;
+        EXPECT_EQ(reading.ready().positions, (std::vector<glm::dvec3>{{1, 2, 3}})) << table.text;
+        EXPECT_EQ(reading.ready().radii, (std::vector<float>{4})) << table.text;
+        EXPECT_TRUE(*table.note == 0 || reading.notes_say(table.note)) << table.text;
+    }
+    EXPECT_EQ(csv("x;y;z;radius\n\u22121,5;2;3;4\n").ready().positions[0].x, -1.5);
+}
+
+TEST(TableCsv, WhatIsTakenForOneThingIsNotAnother) {
+    // Half of a decimal comma is no name of a row.
+    expect_error(csv("x,y,z,radius\n1,2,3,0,8\n"), "line 2", {"4", "5"});
+    // One row of words is no row of units.
+    expect_error(csv("x,y,z,radius\na,b,c,d\n"), "line 2", {"finite"});
+    expect_error(csv("x,y,z,radius\nm,m,m,m\n1,2,3,4\nm,m,m,m\n"), "line 4, column 1", {"\"m\""});
+    expect_error(csv("x,y,z,radius\nnan,nan,nan,4\n1,2,3,4\n"), "line 2, column 1", {"nan"});
+    expect_error(csv("//X Y Z radius\n2\n1 2 3 4\n"), "line 2", {"2 particles", "1 up to line 3"});
+    expect_error(csv("x [m],y [m],z [m],radius [mm]\n1,2,3,4\n"), "line 1",
+                 {"different units", "\"x [m]\"", "\"radius [mm]\""});
+    expect_error(csv("a,Location,Radius\n0,\"(X=1,Y=2,Z=3)\",4\n0,\"(X=1,Y=2)\",4\n"),
+                 "line 3, column 2", {"(X=1,Y=2)"});
+}
+
+TEST(TableCsv, ColoursOfVectorsAreFoundByTheirLetters) {
+    const Reading reading =
+        csv("Location,Color,Radius\n\"(X=1,Y=2,Z=3)\",\"(B=255,G=51,R=0,A=255)\",4\n");
+    ASSERT_TRUE(reading.draft.ok()) << reading.draft.error().message;
+    EXPECT_EQ(reading.ready().colors, (std::vector<glm::vec3>{{0, 0.2f, 1}}));
+}
+
+TEST(TableCsv, WordsForNoValueAreEmptyWhereACellMayBe) {
+    const Reading reading =
+        csv("x,y,z,radius,density\n0,0,0,1,1\n0,0,0,1,NA\n0,0,0,1,nan\n0,0,0,1,3\n");
+    ASSERT_TRUE(reading.draft.ok()) << reading.draft.error().message;
+    EXPECT_EQ(reading.ready().densities, (std::vector<float>{1, 2, 2, 3}));
+    EXPECT_TRUE(reading.notes_say("empty for 2 of 4"));
+    expect_error(csv("x,y,z,radius,density\n0,0,0,NA,1\n"), "line 2, column 4", {"radius", "NA"});
+}
+
+TEST(TableCsv, NumbersWithoutNamesArePlacesWhereTheRadiusIsGiven) {
+    for (const char* const text : {"1 2 3\n4 5 6\n", "1,2,3\n4,5,6\n", "1e0\t2.0\t3\n4\t5\t6\n"}) {
+        EXPECT_EQ(sniff_scene_format(text), SceneFormat::kCsv) << text;
+        const Reading reading = csv(text, 0.5);
+        ASSERT_TRUE(reading.draft.ok()) << text << reading.draft.error().message;
+        EXPECT_EQ(reading.ready().positions, (std::vector<glm::dvec3>{{1, 2, 3}, {4, 5, 6}}));
+        EXPECT_TRUE(reading.notes_say("x, y, z"));
+        expect_error(csv(text), "line 1", {"no x", "put a line of names above the numbers"});
+    }
+    expect_error(csv("1 2 3 4\n", 0.5), "line 1", {"no x", "above the numbers"});
+    EXPECT_EQ(sniff_scene_format("50\n1\n50, 1, 1, 1, 0, 0, 0, 1\n"), SceneFormat::kAwn);
+}
+
+TEST(TableCsv, NamesInMessagesAreWhole) {
+    expect_error(csv("länge_der_wolke,y,z,radius\n"), "line 1", {"\"länge_der_wolke\""});
+    expect_error(csv("x,y,z,size,scale\n1,2,3,4,5\n"), "line 1",
+                 {"\"size\"", "\"scale\"", "--radius"});
+    expect_error(csv(""), "line 1", {"there is nothing"});
+    expect_error(csv(std::string("PK\x03\x04\0\0", 6)), "", {"ZIP", "CSV"});
+}
+
 TEST(TableCsv, WhatIsNotUsedIsSaid) {
     EXPECT_TRUE(csv("x,y,z,radius,Temperature,vx\n1,2,3,4,5,6\n")
                     .notes_say("not used: \"Temperature\", \"vx\""));
@@ -317,6 +410,21 @@ TEST(FormsOfPly, ListsAndElementsAnywhereInBinaryOfEitherOrder) {
             EXPECT_EQ(reading.ready().radii, (std::vector<float>{0.125f, 0.125f}));
             EXPECT_EQ(reading.ready().colors, (std::vector<glm::vec3>{{1, 0, 0.2f}, {1, 0, 0.2f}}));
         }
+}
+
+TEST(FormsOfPly, CloudComparesFieldsAndOpacitiesOfBytesAreKnown) {
+    std::string bytes =
+        "ply\nformat binary_little_endian 1.0\nobj_info Generated by CloudCompare!\n"
+        "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float scalar_Radius\nproperty uchar opacity\nend_header\n";
+    for (const float value : {1.0f, 2.0f, 3.0f, 4.0f}) put(bytes, value, false);
+    bytes += '\x33';
+    const Reading reading = read_as(SceneFormat::kPly, bytes);
+    ASSERT_TRUE(reading.draft.ok()) << reading.draft.error().message;
+    EXPECT_EQ(reading.ready().radii, (std::vector<float>{4}));
+    EXPECT_NEAR(
+        static_cast<double>(reading.ready().densities[0]) * 2 * std::sqrt(2 * std::numbers::pi),
+        -std::log(0.8), 1e-6);
 }
 
 TEST(FormsOfPly, ListsThatClaimMuchCostNothing) {

@@ -128,6 +128,23 @@ TEST_F(SceneRequestTest, TheSkyComesAsAMap) {
     expect_problem(ask(service, "/v1/sky", {{"format", "csv"}}), 400);
 }
 
+TEST_F(SceneRequestTest, WhatAMapHasNotIsRefusedInAFormToo) {
+    const std::string form = "--X\r\nContent-Disposition: form-data; name=\"scene\"\r\n\r\n" +
+                             std::string(kScene) +
+                             "\r\n--X\r\nContent-Disposition: form-data; name=\"";
+    const Headers type = {{"Content-Type", "multipart/form-data; boundary=X"}};
+    EXPECT_EQ(ask(service, "/v1/sky", {}, form + "width\"\r\n\r\n16\r\n--X--\r\n", type).status,
+              200);
+    const Response seed = ask(service, "/v1/sky", {}, form + "seed\"\r\n\r\n16\r\n--X--\r\n", type);
+    expect_problem(seed, 400);
+    EXPECT_NE(seed.body.find("seed"), std::string::npos);
+}
+
+TEST_F(SceneRequestTest, PresetsAreFoundByTheirGenusToo) {
+    EXPECT_EQ(get("/v1/presets/cumulus-congestus").body, get("/v1/presets/congestus").body);
+    expect_problem(get("/v1/presets/cumulus-nimbus"), 404);
+}
+
 TEST_F(SceneRequestTest, ASlashTooManyIsAnotherPath) {
     Request request = make_request("POST", "/v1/render/", kScene);
     request.query = {{"width", "8"}, {"rung", "a b"}};

@@ -46,11 +46,16 @@ struct KnownName {
     Says says;
     // Of two names for the same thing in one file the one of lower rank counts.
     int rank;
+    // The unit that stands behind it, as tables have it: "m" of "x [m]", "Radius (mm)" or "z_cm". EMPTY: none.
+    std::string unit{};
 };
 
 // Nothing for a name that says nothing to us. Upper and lower case are the same; so is whatever is no letter and no
 // digit: "P[x]", "P.x" and "p_x".
 std::optional<KnownName> known_name(std::string_view name);
+
+// Whether it names a place or a colour as a whole, "Location" or "Cd": a column of vectors, or none.
+bool is_vector_name(std::string_view name);
 
 // How a column is called in messages: "radius".
 const char* name_of(Says says);

@@ -1,5 +1,7 @@
 // read_particles_ply(): PLY 1.0 (Turk 1994), ascii or binary of either order. The rows of `vertex` are particles; other
 // elements, before and after it, are passed over.
+#include <strings.h>
+
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -22,8 +24,10 @@ Error malformed_ply(std::string message) {
     return {ErrorCode::kMalformed, "", std::move(message)};
 }
 
-bool is_color(Says says) {
-    return says == Says::kRed || says == Says::kGreen || says == Says::kBlue;
+// Whether integers of it are shares of the whole that their type can say.
+bool is_share(Says says) {
+    return says == Says::kRed || says == Says::kGreen || says == Says::kBlue ||
+           says == Says::kOpacity;
 }
 
 // What the properties of a vertex say.
@@ -31,10 +35,10 @@ struct VertexPlan {
     const Element* element = nullptr;
     std::vector<std::optional<Says>> used;
 
-    // Colours of integer types span their type.
+    // Colours and opacities of integer types span their type.
     void store(std::size_t i, double value, ReadyRow& row) const {
         if (!used[i]) return;
-        if (is_color(*used[i])) value /= element->properties[i].type->white;
+        if (is_share(*used[i])) value /= element->properties[i].type->white;
         row[*used[i]] = value + 0.0;
     }
 };
@@ -204,7 +208,8 @@ Result<VertexPlan> plan_vertices(const ply::Header& header, ReadyColumns& column
     std::vector<std::string> names;
     std::string others;
     for (const Element& element : header.elements) {
-        if (element.name == "vertex" && plan.element == nullptr) plan.element = &element;
+        if (strcasecmp(element.name.c_str(), "vertex") == 0 && plan.element == nullptr)
+            plan.element = &element;
         if (names.size() < 4) others += (names.empty() ? "" : ", ") + short_quote(element.name);
         names.push_back(element.name);
     }

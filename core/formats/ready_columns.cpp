@@ -24,12 +24,13 @@ Error wrong(std::string message) {
     return {ErrorCode::kMalformed, "", std::move(message)};
 }
 
-// Names of a file, for a message: some of them, and how many more there are.
+// Names of a file, for a message or a header of HTTP: as many as a table that people look at has, and how many more
+// there are.
 std::string some_of(const std::vector<std::string>& names) {
-    constexpr std::size_t kMost = 4;
+    constexpr std::size_t kMost = 16;
     std::string out;
     for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
-        out += (i == 0 ? "" : ", ") + short_quote(std::string_view(names[i]).substr(0, 12));
+        out += (i == 0 ? "" : ", ") + short_quote(names[i]);
     if (names.size() > kMost) out += " and " + std::to_string(names.size() - kMost) + " more";
     return out;
 }
@@ -56,7 +57,8 @@ void ReadyColumns::note(std::string text) const {
 }
 
 // Of several ways to give a radius the plainest counts.
-Status ReadyColumns::choose_radius(std::vector<std::optional<Says>>& used) {
+Status ReadyColumns::choose_radius(const std::vector<std::string>& names,
+                                   std::vector<std::optional<Says>>& used) {
     const auto leave_only = [&](bool radius, bool width, bool radii, bool scales) {
         for (std::optional<Says>& says : used) {
             if (!says) continue;
@@ -87,9 +89,30 @@ Status ReadyColumns::choose_radius(std::vector<std::optional<Says>>& used) {
         return std::nullopt;
     }
     return wrong(
-        "x, y, z and a radius are required; there is no radius (or width, pscale, radius_x, ...), "
-        "and no "
-        "--radius or ?radius= for all");
+        "x, y, z and a radius are required; there is no radius (or width, pscale, radius_x, ...) "
+        "among " +
+        some_of(names) + ", and no --radius or ?radius= for all");
+}
+
+// Lengths are taken as they stand, so all of them have to be in one unit.
+Status ReadyColumns::check_units(const std::vector<std::string>& names,
+                                 const std::vector<std::optional<Says>>& used) const {
+    std::size_t first = names.size();
+    std::string unit;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        // The radius along the last axis is the last of the lengths.
+        if (!used[i] || *used[i] > Says::kRadiusZ) continue;
+        const std::string other = known_name(names[i])->unit;
+        if (other.empty()) continue;
+        if (first == names.size()) {
+            first = i;
+            unit = other;
+        } else if (other != unit) {
+            return wrong("lengths are in different units: " + short_quote(names[first]) + " and " +
+                         short_quote(names[i]) + "; give all in one");
+        }
+    }
+    return std::nullopt;
 }
 
 Result<std::vector<std::optional<Says>>> ReadyColumns::choose(
@@ -132,13 +155,15 @@ Result<std::vector<std::optional<Says>>> ReadyColumns::choose(
     // x, y, z, r: a radius, where there is no other colour.
     if (has(Says::kRed) && !has(Says::kGreen) && !has(Says::kBlue) && !has(Says::kRadius) &&
         !has(Says::kWidth) && !any(kRadiusSays) &&
-        names[column[static_cast<std::size_t>(Says::kRed)]].size() == 1) {
+        known_name(names[column[static_cast<std::size_t>(Says::kRed)]])->rank == 1) {
         used[column[static_cast<std::size_t>(Says::kRed)]] = Says::kRadius;
         drop(Says::kRed);
         has_[static_cast<std::size_t>(Says::kRadius)] = true;
-        note("radius: the column \"r\"");
+        note("radius: the column " +
+             short_quote(names[column[static_cast<std::size_t>(Says::kRed)]]));
     }
-    if (const Status missing = choose_radius(used)) return *missing;
+    if (const Status missing = choose_radius(names, used)) return *missing;
+    if (const Status mixed = check_units(names, used)) return *mixed;
     if (any(kColorSays) && !every(kColorSays))
         return wrong("a colour needs all of red, green and blue (or r, g, b)");
     if (every(kColorSays) || !every(kHarmonicSays)) drop_all(kHarmonicSays);

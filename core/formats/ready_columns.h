@@ -50,7 +50,10 @@ class ReadyColumns {
     bool has(Says says) const { return has_[static_cast<std::size_t>(says)]; }
     void drop(Says says) { has_[static_cast<std::size_t>(says)] = false; }
     void note(std::string text) const;
-    Status choose_radius(std::vector<std::optional<Says>>& used);
+    Status choose_radius(const std::vector<std::string>& names,
+                         std::vector<std::optional<Says>>& used);
+    Status check_units(const std::vector<std::string>& names,
+                       const std::vector<std::optional<Says>>& used) const;
     float radius_of(const ReadyRow& row) const;
     Status add_density(const ReadyRow& row, float radius);
     Status add_color(const ReadyRow& row);

@@ -96,8 +96,9 @@ int run_accuracy(const AccuracyCommand& command) {
         return bad_usage("only one scene comes from standard input");
     std::vector<Scene> scenes;
     for (const std::string& path : command.scenes) {
-        auto scene =
-            read_valid_scene({.path = path, .sets = {}, .seed = {}, .radius = {}, .state = {}});
+        SceneInput input = command.input;
+        input.path = path;
+        auto scene = read_valid_scene(input);
         if (!scene) return report_error(path, scene.error());
         scenes.push_back(*std::move(scene));
     }

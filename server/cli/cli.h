@@ -81,6 +81,8 @@ int run_fly(const FlyCommand& command);
 
 struct AccuracyCommand {
     std::vector<std::string> scenes;
+    // What takes the place of values in each of them; no path.
+    SceneInput input;
     std::vector<std::string> outputs;
     // "", "json", "csv", "png".
     std::string format;
@@ -130,6 +132,9 @@ struct SkyCommand {
     std::string format;
     // Pixels, even; half as high.
     int width = limits::kSkyMapWidth;
+    // As RenderCommand has them.
+    bool skip_existing = false;
+    std::string depfile;
     int threads = 1;
 };
 int run_sky(const SkyCommand& command);
@@ -141,6 +146,9 @@ struct ImpostorCommand {
     // "", "png", "exr".
     std::string format;
     ImpostorWish wish;
+    // As RenderCommand has them.
+    bool skip_existing = false;
+    std::string depfile;
     int threads = 1;
     DeviceChoice device = DeviceChoice::kAuto;
 };
@@ -149,6 +157,9 @@ int run_impostor(const ImpostorCommand& command);
 struct PlanCommand {
     SceneInput scene;
     std::string output = "-";
+    // As RenderCommand has them.
+    bool skip_existing = false;
+    std::string depfile;
     int threads = 1;
 };
 int run_plan(const PlanCommand& command);
@@ -159,6 +170,9 @@ struct StateCommand {
     std::string output;
     // The cloud's place in the scene; none: the only automaton.
     std::optional<std::uint64_t> cloud;
+    // As RenderCommand has them.
+    bool skip_existing = false;
+    std::string depfile;
     int threads = 1;
 };
 int run_state(const StateCommand& command);
@@ -168,12 +182,17 @@ struct ConvertCommand {
     std::string output;
     // "", "json", "awn".
     std::string format;
+    // As RenderCommand has them.
+    bool skip_existing = false;
+    std::string depfile;
 };
 int run_convert(const ConvertCommand& command);
 
 // Whether the scenes can be; a line for each.
 struct ValidateCommand {
     std::vector<std::string> scenes;
+    // What takes the place of values in each of them; no path.
+    SceneInput input;
 };
 int run_validate(const ValidateCommand& command);
 

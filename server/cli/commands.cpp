@@ -129,14 +129,15 @@ int run_particles(const ParticlesCommand& command) {
         if (const Status failed = particles_to(moment.path, *format, *scene, command))
             return report_error(failed->code == ErrorCode::kIo ? "" : command.scene.path, *failed);
     }
-    if (!command.depfile.empty())
-        if (const Status failed = write_depfile(command.depfile, outputs, files_of(command.scene)))
-            return report_error("", *failed);
+    if (const Status failed = write_dependencies(command.depfile, outputs, command.scene))
+        return report_error("", *failed);
     return kExitFine;
 }
 
 int run_plan(const PlanCommand& command) {
     if (const Status wrong = check_not_numbered(command.output)) return bad_usage(wrong->message);
+    if (command.skip_existing && is_finished(command.output))
+        return end_with(write_dependencies(command.depfile, {command.output}, command.scene));
     auto scene = read_valid_scene(command.scene);
     if (!scene) return report_error(command.scene.path, scene.error());
     auto planned = plan_only(*scene, command.threads, Deadline{}, measure_speed());
@@ -144,7 +145,7 @@ int run_plan(const PlanCommand& command) {
     if (const Status failed =
             write_output(command.output, plan_to_json(planned->survey, planned->plan)))
         return report_error("", *failed);
-    return kExitFine;
+    return end_with(write_dependencies(command.depfile, {command.output}, command.scene));
 }
 
 int run_convert(const ConvertCommand& command) {
@@ -152,6 +153,8 @@ int run_convert(const ConvertCommand& command) {
         output_format(command.output, command.format, {"json", "awn", "awa"}, "json");
     if (!format) return bad_usage(format.error().message);
     if (const Status wrong = check_not_numbered(command.output)) return bad_usage(wrong->message);
+    if (command.skip_existing && is_finished(command.output))
+        return end_with(write_dependencies(command.depfile, {command.output}, command.input));
     auto scene = read_valid_scene(command.input);
     if (!scene) return report_error(command.input.path, scene.error());
     std::string text;
@@ -164,7 +167,7 @@ int run_convert(const ConvertCommand& command) {
         if (!text.ends_with('\n')) text += '\n';
     }
     if (const Status failed = write_output(command.output, text)) return report_error("", *failed);
-    return kExitFine;
+    return end_with(write_dependencies(command.depfile, {command.output}, command.input));
 }
 
 }  // namespace awan

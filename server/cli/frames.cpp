@@ -40,6 +40,41 @@ std::optional<Place> place_in(std::string_view name) {
     return {};
 }
 
+// A place as printf and other renderers write it that is none here: "%4d", "%i", "$F4", "@@@@". EMPTY: there is none.
+std::string other_place_in(std::string_view name) {
+    const auto character = [&](std::size_t at) { return at < name.size() ? name[at] : '\0'; };
+    const auto is_letter = [](char c) { return (c | 0x20) >= 'a' && (c | 0x20) <= 'z'; };
+    for (std::size_t at = name.find_first_of("%$@"); at != std::string_view::npos;
+         at = name.find_first_of("%$@", at + 1)) {
+        std::size_t end = at + 1;
+        if (name[at] == '@') {
+            while (character(end) == '@') ++end;
+            if (end == at + 1) continue;
+        } else {
+            const auto skip_digits = [&] {
+                while (character(end) >= '0' && character(end) <= '9') ++end;
+            };
+            if (name[at] == '%') skip_digits();
+            const char letter = character(end++);
+            if (name[at] == '%' ? letter != 'd' && letter != 'i' && letter != 'u' : letter != 'F')
+                continue;
+            if (name[at] == '$') skip_digits();
+            // "100%dry.png" is a word.
+            if (is_letter(character(end))) continue;
+        }
+        return std::string(name.substr(at, end - at));
+    }
+    return {};
+}
+
+Status check_place(const std::string& output) {
+    if (place_in(output)) return std::nullopt;
+    const std::string other = other_place_in(output);
+    if (other.empty()) return std::nullopt;
+    return bad("-o " + output + ": " + other +
+               " is no place for a frame's number here; write %04d or ####");
+}
+
 }  // namespace
 
 Result<std::vector<std::uint64_t>> parse_frames(const std::string& text, std::uint64_t count) {
@@ -77,6 +112,7 @@ Result<std::vector<std::uint64_t>> parse_frames(const std::string& text, std::ui
 }
 
 Status check_numbered(const std::string& output, std::size_t frames) {
+    if (Status wrong = check_place(output)) return wrong;
     if (frames <= 1 || place_in(output)) return std::nullopt;
     return bad("-o " + output + ": " + std::to_string(frames) +
                " frames need a place for their number, such as cloud.%04d.png or cloud.####.png, "
@@ -84,11 +120,11 @@ Status check_numbered(const std::string& output, std::size_t frames) {
                ".webp or .apng");
 }
 
-Status check_not_numbered(const std::string& output) {
-    if (!place_in(output)) return std::nullopt;
-    return bad(
-        "-o " + output +
-        ": has a place for a frame's number, and there are no frames; say which with --frames");
+Status check_not_numbered(const std::string& output, const std::string& flag) {
+    if (!place_in(output) && other_place_in(output).empty()) return std::nullopt;
+    return bad(flag + output +
+               ": has a place for a frame's number, and there are no frames; render and particles "
+               "take --frames");
 }
 
 std::string numbered_name(const std::string& output, std::uint64_t frame) {

@@ -42,6 +42,9 @@ int run_impostor(const ImpostorCommand& command) {
         return bad_usage("an atlas and its layout are two files; give -o a name");
     if (const Status wrong = check_not_numbered(command.output)) return bad_usage(wrong->message);
     const std::string layout = layout_path(command.output);
+    if (command.skip_existing && is_finished(command.output) && is_finished(layout))
+        return end_with(
+            write_dependencies(command.depfile, {command.output, layout}, command.scene));
     for (const std::string& file : {command.output, layout})
         if (const Status failed = check_writable(file)) return report_error("", *failed);
     auto draft = read_scene_input(command.scene);
@@ -69,7 +72,7 @@ int run_impostor(const ImpostorCommand& command) {
     if (const Status failed =
             write_output(layout, impostor_to_json(*impostor, file, exr && !atlas->depth.empty())))
         return report_error("", *failed);
-    return kExitFine;
+    return end_with(write_dependencies(command.depfile, {command.output, layout}, command.scene));
 }
 
 }  // namespace awan

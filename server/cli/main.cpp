@@ -16,6 +16,7 @@
 #include "core/scene/rungs.h"
 #include "server/cli/cli.h"
 #include "server/cli/completion.h"
+#include "server/cli/frames.h"
 #include "server/service/problem.h"
 
 namespace {
@@ -59,9 +60,8 @@ void add_textures(CLI::App& command, SceneInput& scene) {
         ->allow_extra_args(false);
 }
 
-// The scene and what takes the place of values in it.
-void add_scene(CLI::App& command, SceneInput& scene, const std::string& name = "scene") {
-    command.add_option(name, scene.path, kSceneHelp)->required();
+// What takes the place of values in the scene, or in each of several.
+void add_values(CLI::App& command, SceneInput& scene) {
     add(command, "--set", scene.sets,
         "a value of the document, as /sun/elevation=12 or /clouds/0/density=auto; may be repeated")
         ->allow_extra_args(false);
@@ -70,6 +70,20 @@ void add_scene(CLI::App& command, SceneInput& scene, const std::string& name = "
     add(command, "--radius", scene.radius,
         "of ready particles (.ply, .csv), in place of what the file says of it")
         ->check(CLI::PositiveNumber);
+}
+
+void add_scene(CLI::App& command, SceneInput& scene, const std::string& name = "scene") {
+    command.add_option(name, scene.path, kSceneHelp)->required();
+    add_values(command, scene);
+}
+
+// A file that there is one of, whatever there are frames of.
+void only_one(CLI::Option* option) {
+    option->check([](const std::string& path) {
+        // Whose flag it is, is said before it.
+        const Status wrong = check_not_numbered(path, "");
+        return wrong ? wrong->message : std::string();
+    });
 }
 
 void add_state(CLI::App& command, SceneInput& scene) {
@@ -82,8 +96,8 @@ void add_farm_flags(CLI::App& command, bool& skip_existing, std::string& depfile
         .add_flag("--skip-existing", skip_existing,
                   "what is there already is not made again (files appear whole)")
         ->envname("AWAN_SKIP_EXISTING");
-    add(command, "--depfile", depfile,
-        "a file that says to make and ninja what the outputs are made of");
+    only_one(add(command, "--depfile", depfile,
+                 "a file that says to make and ninja what the outputs are made of"));
 }
 
 // A configuration file says for `serve` what its flags would: `queue = 4`, `allow-host = ["a"]`.
@@ -289,9 +303,9 @@ Run add_fly(CLI::App& app) {
     add(*fly, "--timeout", command->timeout_seconds,
         "seconds after which it stops with what is done; 0: at its end")
         ->check(CLI::Range(0.0, 1e6));
-    add(*fly, "--report", command->report,
-        "a .json or .txt file: time, frames, particles, billboards, frames a second, stages, "
-        "memory; the text is printed too");
+    only_one(add(*fly, "--report", command->report,
+                 "a .json or .txt file: time, frames, particles, billboards, frames a second, "
+                 "stages, memory; the text is printed too"));
     add(*fly, "--set", command->input.sets,
         "a value of the first document, as /sun/elevation=12; may be repeated")
         ->allow_extra_args(false);
@@ -318,6 +332,7 @@ Run add_accuracy(CLI::App& app) {
         "accuracy", "what accuracy costs a scene: every rung's time and its error to the truth");
     accuracy->add_option("scene", command->scenes, std::string(kSceneHelp) + "; or several")
         ->required();
+    add_values(*accuracy, command->input);
     add(*accuracy, "-o,--output", command->outputs,
         "a .json, .csv or .png (plot) file, or - for standard output; may be repeated")
         ->required()
@@ -397,6 +412,7 @@ Run add_sky(CLI::App& app) {
         ->check(CLI::IsMember({"exr", "png"}));
     add(*sky, "--width", command->width, "pixels, an even number; the map is half as high")
         ->check(CLI::Range(2, limits::kMaxImageSide));
+    add_farm_flags(*sky, command->skip_existing, command->depfile);
     add_threads(*sky, command->threads);
     sky->footer(
         "Equirectangular: +y is up, +z (azimuth 0) in the middle, +x (azimuth 90) a quarter from\n"
@@ -425,6 +441,7 @@ Run add_impostor(CLI::App& app) {
         ->add_flag("--full", *full,
                    "from below too: octahedral instead of hemi-octahedral, down to the horizon")
         ->envname("AWAN_FULL");
+    add_farm_flags(*impostor, command->skip_existing, command->depfile);
     add_threads(*impostor, command->threads);
     add_device(*impostor, command->device);
     return [command, full] {
@@ -439,6 +456,7 @@ Run add_plan(CLI::App& app) {
     CLI::App* plan = app.add_subcommand("plan", "what would be simulated, and why, as JSON");
     add_scene(*plan, command->scene);
     add(*plan, "-o,--output", command->output, "a file, or - for standard output");
+    add_farm_flags(*plan, command->skip_existing, command->depfile);
     add_state(*plan, command->scene);
     add_threads(*plan, command->threads);
     return [command] { return run_plan(*command); };
@@ -453,6 +471,7 @@ Run add_state_command(CLI::App& app) {
     add(*state, "-o,--output", command->output, "a file, or - for standard output")->required();
     add(*state, "--cloud", command->cloud,
         "which of the scene's clouds, from 0; needed when several are automata");
+    add_farm_flags(*state, command->skip_existing, command->depfile);
     add_threads(*state, command->threads);
     return [command] { return run_state(*command); };
 }
@@ -467,6 +486,7 @@ Run add_convert(CLI::App& app) {
         ->required();
     add(*convert, "--format", command->format, "json, awn or awa, for standard output")
         ->check(CLI::IsMember({"json", "awn", "awa"}));
+    add_farm_flags(*convert, command->skip_existing, command->depfile);
     return [command] { return run_convert(*command); };
 }
 
@@ -476,6 +496,7 @@ Run add_validate(CLI::App& app) {
         app.add_subcommand("validate", "whether scenes can be, and what is wrong with them");
     validate->add_option("scene", command->scenes, std::string(kSceneHelp) + "; or several")
         ->required();
+    add_values(*validate, command->input);
     return [command] { return run_validate(*command); };
 }
 
@@ -483,7 +504,8 @@ Run add_presets(CLI::App& app) {
     auto command = std::make_shared<PresetsCommand>();
     CLI::App* presets = app.add_subcommand(
         "presets", "the scenes that ship with this program, or one as a document");
-    presets->add_option("name", command->name, "of one of them");
+    presets->add_option("name", command->name,
+                        "of one of them, or its genus, as \"cumulus congestus\"");
     return [command] { return run_presets(*command); };
 }
 

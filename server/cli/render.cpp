@@ -64,11 +64,6 @@ Result<std::vector<std::uint64_t>> frames_of(const Scene& scene, const Work& wor
     return frames;
 }
 
-Status write_dependencies(const RenderCommand& command, const std::vector<std::string>& outputs) {
-    if (command.depfile.empty()) return std::nullopt;
-    return write_depfile(command.depfile, outputs, files_of(command.scene));
-}
-
 }  // namespace
 
 int run_render(const RenderCommand& command) {
@@ -95,6 +90,9 @@ int run_render(const RenderCommand& command) {
     for (const Target& target : *targets)
         if (target.sheet && is_standard(target))
             return bad_usage("--flipbook: a sheet and its layout are two files; give -o a name");
+    const auto is_png = [](const Target& target) { return target.format == "png"; };
+    if (command.bits && std::none_of(targets->begin(), targets->end(), is_png))
+        return bad_usage("--bits is of a .png");
     if (command.columns > 0 && !command.flipbook) return bad_usage("--columns is of --flipbook");
     if (command.json && std::any_of(targets->begin(), targets->end(), is_standard))
         return bad_usage("--json: standard output takes either the picture or the line");
@@ -112,7 +110,8 @@ int run_render(const RenderCommand& command) {
             if (const Status failed = check_writable(target.path)) return report_error("", *failed);
         }
         if (const Status failed = render_still(*scene, work)) return report_error(name, *failed);
-        if (const Status failed = write_dependencies(command, command.outputs))
+        if (const Status failed =
+                write_dependencies(command.depfile, command.outputs, command.scene))
             return report_error("", *failed);
         return kExitFine;
     }
@@ -135,7 +134,7 @@ int run_render(const RenderCommand& command) {
             outputs.push_back(std::move(file));
     const auto made = render_frames(*scene, *frames, work);
     if (!made) return report_error(name, made.error());
-    if (const Status failed = write_dependencies(command, outputs))
+    if (const Status failed = write_dependencies(command.depfile, outputs, command.scene))
         return report_error("", *failed);
     return kExitFine;
 }

@@ -88,4 +88,10 @@ std::vector<std::string> files_of(const SceneInput& input) {
     return files;
 }
 
+Status write_dependencies(const std::string& depfile, const std::vector<std::string>& outputs,
+                          const SceneInput& input) {
+    if (depfile.empty()) return std::nullopt;
+    return write_depfile(depfile, outputs, files_of(input));
+}
+
 }  // namespace awan

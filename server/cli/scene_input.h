@@ -31,6 +31,10 @@ Result<Scene> read_valid_scene(const SceneInput& input);
 // The files that it is made of, for a depfile.
 std::vector<std::string> files_of(const SceneInput& input);
 
+// Writes what make and ninja read to know that `outputs` are made of them; depfile "": nobody asks.
+Status write_dependencies(const std::string& depfile, const std::vector<std::string>& outputs,
+                          const SceneInput& input);
+
 // Gives the state in a file ("": none) to the automaton of the scene that it belongs to (state.cpp).
 Status begin_with_state(const std::string& path, SceneDraft& draft);
 

@@ -6,14 +6,14 @@
 #include "server/cli/cli.h"
 #include "server/cli/scene_input.h"
 #include "server/cli/support.h"
-#include "server/service/pages.h"
+#include "server/document/presets.h"
 
 namespace awan {
 
 int run_validate(const ValidateCommand& command) {
     int code = kExitFine;
     for (const std::string& path : command.scenes) {
-        SceneInput input;
+        SceneInput input = command.input;
         input.path = path;
         const auto scene = read_valid_scene(input);
         if (!scene)
@@ -25,21 +25,19 @@ int run_validate(const ValidateCommand& command) {
 }
 
 int run_presets(const PresetsCommand& command) {
-    std::string names;
-    for (const Preset& preset : make_presets()) {
-        const PresetEntry& entry = preset.entry;
-        if (command.name == entry.name) {
-            std::fwrite(entry.text.data(), 1, entry.text.size(), stdout);
-            return kExitFine;
-        }
-        if (command.name.empty())
+    const std::vector<PresetEntry> presets = preset_entries();
+    if (command.name.empty()) {
+        for (const PresetEntry& entry : presets)
             std::printf("%-24s %s%s\n", std::string(entry.name).c_str(),
                         std::string(entry.title).c_str(),
                         entry.genus.empty() ? "" : (" (" + std::string(entry.genus) + ")").c_str());
-        names += (names.empty() ? "" : ", ") + std::string(entry.name);
+        return kExitFine;
     }
-    if (command.name.empty()) return kExitFine;
-    return bad_usage("there is no preset " + command.name + "; there are " + names);
+    const PresetEntry* const found = find_preset(presets, command.name);
+    if (found == nullptr)
+        return bad_usage("there is no preset " + command.name + "; there are " + names_of(presets));
+    std::fwrite(found->text.data(), 1, found->text.size(), stdout);
+    return kExitFine;
 }
 
 int run_digest(const DigestCommand& command) {

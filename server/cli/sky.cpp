@@ -5,6 +5,7 @@
 #include "core/scene/validate.h"
 #include "server/cli/cli.h"
 #include "server/cli/files.h"
+#include "server/cli/frames.h"
 #include "server/cli/support.h"
 
 namespace awan {
@@ -17,6 +18,9 @@ int run_sky(const SkyCommand& command) {
     if (!format) return bad_usage(format.error().message);
     if (binary_to_terminal(command.output))
         return bad_usage("-o -: an image is not written to a terminal");
+    if (const Status wrong = check_not_numbered(command.output)) return bad_usage(wrong->message);
+    if (command.skip_existing && is_finished(command.output))
+        return end_with(write_dependencies(command.depfile, {command.output}, command.scene));
     auto draft = read_scene_input(command.scene);
     if (!draft) return report_error(command.scene.path, draft.error());
     auto scene = validate(*std::move(draft));
@@ -31,7 +35,7 @@ int run_sky(const SkyCommand& command) {
     if (!bytes) return report_error(command.scene.path, bytes.error());
     if (const Status failed = write_output(command.output, *bytes))
         return report_error("", *failed);
-    return kExitFine;
+    return end_with(write_dependencies(command.depfile, {command.output}, command.scene));
 }
 
 }  // namespace awan

@@ -86,6 +86,8 @@ int run_state(const StateCommand& command) {
     auto scene = read_valid_scene(command.scene);
     if (!scene) return report_error(command.scene.path, scene.error());
     if (const Status wrong = check_not_numbered(command.output)) return bad_usage(wrong->message);
+    if (command.skip_existing && is_finished(command.output))
+        return end_with(write_dependencies(command.depfile, {command.output}, command.scene));
     if (binary_to_terminal(command.output))
         return bad_usage("-o -: a state is not written to a terminal");
     const auto k = choose_cloud(**scene, command);
@@ -98,7 +100,7 @@ int run_state(const StateCommand& command) {
     if (!state) return report_error(command.scene.path, state.error());
     if (const Status failed = write_output(command.output, write_state(*state)))
         return report_error("", *failed);
-    return kExitFine;
+    return end_with(write_dependencies(command.depfile, {command.output}, command.scene));
 }
 
 }  // namespace awan

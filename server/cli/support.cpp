@@ -46,6 +46,10 @@ int bad_usage(const std::string& message) {
     return kExitUsage;
 }
 
+int end_with(const Status& failed) {
+    return failed ? report_error("", *failed) : kExitFine;
+}
+
 Result<std::string> output_format(const std::string& output, const std::string& format,
                                   const std::vector<std::string>& known,
                                   const std::string& otherwise) {

@@ -41,6 +41,9 @@ class ProgressLine {
 // Prints the message; the exit code of bad usage.
 int bad_usage(const std::string& message);
 
+// The code to exit with after the last step: fine, or what failed in reading or writing.
+int end_with(const Status& failed);
+
 // The format an output is written in: its extension, or --format, which must agree with it.
 // For standard output: --format, or `otherwise`.
 Result<std::string> output_format(const std::string& output, const std::string& format,

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "server/document/json_place.h"
 #include "server/document/json_text.h"
 
 namespace awan {
@@ -46,7 +47,7 @@ class JobScanner {
         return {ErrorCode::kInvalidScene, pointer, what};
     }
     Error malformed(const std::string& what) const {
-        return {ErrorCode::kMalformed, "", "not JSON at byte " + std::to_string(at_) + ": " + what};
+        return {ErrorCode::kMalformed, "", not_json(text_, at_, what)};
     }
 
     static Status member(std::string_view name, std::string_view value, JobText& job) {
@@ -63,7 +64,8 @@ class JobScanner {
                                                          : nullptr;
         if (to == nullptr) {
             // As everywhere in a document: such names are the client's own.
-            if (name.starts_with('_') || name == "name" || name == "description")
+            if (name.starts_with('_') || name == "name" || name == "description" ||
+                name == "$schema")
                 return std::nullopt;
             return invalid(
                 "",

@@ -40,25 +40,11 @@ std::string plain_name(std::string_view name) {
     return plain;
 }
 
-const PresetEntry* find_preset(const std::vector<PresetEntry>& presets, std::string_view name) {
-    const std::string plain = plain_name(name);
-    const auto at = std::find_if(presets.begin(), presets.end(), [&](const PresetEntry& preset) {
-        return plain == preset.name || (!preset.genus.empty() && plain == plain_name(preset.genus));
-    });
-    return at == presets.end() ? nullptr : &*at;
-}
-
 Error no_preset(const std::vector<PresetEntry>& presets, const json& named) {
-    std::string names;
-    for (const PresetEntry& preset : presets) {
-        if (!names.empty()) names += ", ";
-        names += preset.name;
-        if (!preset.genus.empty()) names += " (" + std::string(preset.genus) + ")";
-    }
     const std::string what =
         named.is_string() ? short_quote(named.get_ref<const std::string&>()) : named.type_name();
     return {ErrorCode::kInvalidScene, "/preset",
-            "must be the name of a preset, not " + what + "; there are " + names};
+            "must be the name of a preset, not " + what + "; there are " + names_of(presets)};
 }
 
 // Of members that exclude each other, those that the document names stand alone.
@@ -93,6 +79,28 @@ std::vector<PresetEntry> preset_entries() {
                 {name, value_of(object, "\"title\""), text, value_of(object, "\"genus\"")});
     }
     return presets;
+}
+
+bool is_called(const PresetEntry& preset, std::string_view name) {
+    const std::string plain = plain_name(name);
+    return plain == preset.name || (!preset.genus.empty() && plain == plain_name(preset.genus));
+}
+
+const PresetEntry* find_preset(const std::vector<PresetEntry>& presets, std::string_view name) {
+    const auto at = std::find_if(presets.begin(), presets.end(), [&](const PresetEntry& preset) {
+        return is_called(preset, name);
+    });
+    return at == presets.end() ? nullptr : &*at;
+}
+
+std::string names_of(const std::vector<PresetEntry>& presets) {
+    std::string names;
+    for (const PresetEntry& preset : presets) {
+        if (!names.empty()) names += ", ";
+        names += preset.name;
+        if (!preset.genus.empty()) names += " (" + std::string(preset.genus) + ")";
+    }
+    return names;
 }
 
 Result<std::string> with_preset(std::string_view text) {

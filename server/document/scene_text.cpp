@@ -48,6 +48,10 @@ bool set_radii(SceneDraft& draft, double radius) {
 
 Result<SceneDraft> read_scene(SceneFormat format, std::string_view bytes,
                               const ParticleReading& reading) {
+    if (bytes.starts_with("PK\x03\x04"))
+        return Error{ErrorCode::kMalformed, "",
+                     "this is a ZIP archive, as .xlsx, .ods and .npz files are; save a table as "
+                     "CSV"};
     std::optional<std::string> text;
     if (format != SceneFormat::kPly || !bytes.starts_with("ply")) {
         auto converted = from_utf16(bytes);
@@ -90,6 +94,34 @@ std::optional<SceneFormat> scene_format_of_name(std::string_view file_name) {
     return std::nullopt;
 }
 
+namespace {
+
+// How many words a line has; more than two are counted as two.
+int words_of(std::string_view line) {
+    line = trim(line);
+    if (line.empty()) return 0;
+    return line.find_first_of(" \t,;|") == std::string_view::npos ? 1 : 2;
+}
+
+// Layouts begin with two lines of one number each; tables of numbers have several in their lines.
+bool is_layout(std::string_view text) {
+    for (int lines = 0; lines < 2 && !text.empty();) {
+        const int words = words_of(take_line(text));
+        if (words > 1) return false;
+        lines += words;
+    }
+    return true;
+}
+
+// A text of JSON, which is no scene, or the first name of a table.
+bool is_one_string(std::string_view bytes) {
+    const std::size_t end = bytes.find('"', 1);
+    return end == std::string_view::npos ||
+           bytes.find_first_not_of(" \t\r\n", end + 1) == std::string_view::npos;
+}
+
+}  // namespace
+
 SceneFormat sniff_scene_format(std::string_view bytes) {
     bytes = without_byte_order_mark(bytes);
     // Of UTF-16 the first letters are enough.
@@ -99,8 +131,8 @@ SceneFormat sniff_scene_format(std::string_view bytes) {
     const std::size_t start = bytes.find_first_not_of(" \t\r\n");
     if (start == std::string_view::npos) return SceneFormat::kJson;
     bytes.remove_prefix(start);
-    if (bytes.front() == '{' || bytes.front() == '[' || bytes.front() == '"')
-        return SceneFormat::kJson;
+    if (bytes.front() == '{' || bytes.front() == '[') return SceneFormat::kJson;
+    if (bytes.front() == '"') return is_one_string(bytes) ? SceneFormat::kJson : SceneFormat::kCsv;
     if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return SceneFormat::kPly;
     if (is_awa(bytes)) return SceneFormat::kAwa;
     const std::string_view line = bytes.substr(0, std::min(bytes.find('\n'), bytes.size()));
@@ -110,8 +142,9 @@ SceneFormat sniff_scene_format(std::string_view bytes) {
         return l >= 'a' && l <= 'z' && l != 'e';
     });
     // Comments stand in tables only.
-    if (line.starts_with("#") || line.starts_with("//")) return SceneFormat::kCsv;
-    return letters ? SceneFormat::kCsv : SceneFormat::kAwn;
+    if (line.starts_with("#") || line.starts_with("//") || line.starts_with("%"))
+        return SceneFormat::kCsv;
+    return letters || !is_layout(bytes) ? SceneFormat::kCsv : SceneFormat::kAwn;
 }
 
 }  // namespace awan

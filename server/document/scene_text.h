@@ -24,8 +24,8 @@ inline constexpr std::string_view kSceneTypes =
 // From a file's name, by its extension (any case; .gz behind it does not count).
 std::optional<SceneFormat> scene_format_of_name(std::string_view file_name);
 
-// From the bytes themselves: '{' JSON, "ply" PLY, a "awa" a layout of textures, a first line with letters CSV,
-// else a layout.
+// From the bytes themselves: '{' JSON, "ply" PLY, a "awa" a layout of textures, a first line with letters or with
+// several numbers CSV, else a layout.
 SceneFormat sniff_scene_format(std::string_view bytes);
 
 }  // namespace awan

@@ -2,10 +2,13 @@
 #include <algorithm>
 
 #include "core/formats/numbers.h"
+#include "core/formats/quote.h"
 #include "core/scene/rungs.h"
 #include "server/document/job_text.h"
+#include "server/document/scene_text.h"
 #include "server/service/negotiation.h"
 #include "server/service/problem.h"
+#include "server/service/scene_request.h"
 #include "server/service/state.h"
 
 namespace awan {
@@ -270,7 +273,13 @@ Response tell_result(const JobView& view, const Request& request) {
 }  // namespace
 
 std::optional<Response> check_job_request(const Request& request) {
-    if (media_type(request.header("Content-Type")) != "application/json") {
+    if (!request.query.empty())
+        return problem(400,
+                       "there is no query parameter " + short_quote(request.query[0].first) +
+                           " here; a job says all in its body",
+                       "", request.id);
+    const std::string type = media_type(request.header("Content-Type"));
+    if (scene_format_of_type(type) != SceneFormat::kJson) {
         Response response =
             problem(415, "a job comes as application/json, in UTF-8", "", request.id);
         response.headers.emplace_back("Accept", "application/json");
@@ -286,8 +295,11 @@ std::optional<Response> check_job_request(const Request& request) {
 
 Response submit_job(Service::State& state, const Request& request) {
     const std::string key(request.header("Idempotency-Key"));
-    const std::string digest = make_etag({request.body});
-    const auto text = parse_job(request.body);
+    const auto unpacked = unpacked_body(request);
+    if (!unpacked) return fail(unpacked.error(), request);
+    const std::string_view body = *unpacked ? std::string_view(**unpacked) : request.body;
+    const std::string digest = make_etag({body});
+    const auto text = parse_job(body);
     if (!text) return fail(text.error(), request);
     auto work = work_of(*text, request);
     if (!work) return fail(work.error(), request);

@@ -42,13 +42,18 @@ bool is_form(std::string_view type) {
     return type == kUrlencoded || type == kMultipart;
 }
 
+// A map of the sky has nothing else of a picture.
+Status check_of_map(const Request& request, std::string_view what, std::string_view name) {
+    if (request.path != kSkyPath || name == "width" || name == "format") return std::nullopt;
+    return Error{ErrorCode::kMalformed, "",
+                 "there is no " + std::string(what) + " " + short_quote(name) +
+                     " of a map; there are width and format"};
+}
+
 Status check_names(const Request& request) {
     const bool accuracy = request.path == kAccuracyPath;
     for (const auto& [name, value] : request.query) {
-        if (request.path == kSkyPath && name != "width" && name != "format")
-            return Error{ErrorCode::kMalformed, "",
-                         "there is no query parameter " + short_quote(name) +
-                             " of a map; there are width and format"};
+        if (Status wrong = check_of_map(request, "query parameter", name)) return wrong;
         if (is_override(name)) continue;
         if (accuracy &&
             std::find(kAccuracyNames.begin(), kAccuracyNames.end(), name) != kAccuracyNames.end())
@@ -130,7 +135,7 @@ Status add_texture(const FormPart& part, GivenTextures& textures) {
     return std::nullopt;
 }
 
-Result<SceneBytes> of_form(std::vector<FormPart> parts, SceneBytes scene) {
+Result<SceneBytes> of_form(const Request& request, std::vector<FormPart> parts, SceneBytes scene) {
     for (FormPart& part : parts) {
         if (is_scene(part)) continue;
         if (part.name == "texture") {
@@ -138,6 +143,8 @@ Result<SceneBytes> of_form(std::vector<FormPart> parts, SceneBytes scene) {
             continue;
         }
         const bool placed = part.name.starts_with('/');
+        if (!placed)
+            if (const Status wrong = check_of_map(request, "field", part.name)) return *wrong;
         if (!placed && !is_override(part.name))
             return Error{ErrorCode::kMalformed, "",
                          "there is no field " + short_quote(part.name) +
@@ -161,31 +168,33 @@ Result<SceneBytes> of_form(std::vector<FormPart> parts, SceneBytes scene) {
 Result<SceneBytes> scene_bytes(const Request& request) {
     SceneBytes scene;
     scene.fields = request.query;
-    std::string_view body = request.body;
-    std::string unpacked;
-    if (is_packed(request)) {
-        auto out = gunzip(body, limits::kMaxBodyBytes);
-        if (!out) return out.error();
-        unpacked = *std::move(out);
-        body = unpacked;
-    }
+    auto unpacked = unpacked_body(request);
+    if (!unpacked) return unpacked.error();
+    const std::string_view body = *unpacked ? std::string_view(**unpacked) : request.body;
     const std::string type = media_type(request.header("Content-Type"));
     if (type == kUrlencoded) {
         auto parts = read_urlencoded(body);
         if (!parts) return parts.error();
-        return of_form(*std::move(parts), std::move(scene));
+        return of_form(request, *std::move(parts), std::move(scene));
     }
     if (type == kMultipart) {
         auto parts = read_multipart(request.header("Content-Type"), body);
         if (!parts) return parts.error();
-        return of_form(*std::move(parts), std::move(scene));
+        return of_form(request, *std::move(parts), std::move(scene));
     }
     scene.format = *scene_format_of_type(type);
-    if (is_packed(request)) scene.bytes = std::move(unpacked);
+    scene.bytes = *std::move(unpacked);
     return scene;
 }
 
 }  // namespace
+
+Result<std::optional<std::string>> unpacked_body(const Request& request) {
+    if (!is_packed(request)) return std::optional<std::string>();
+    auto out = gunzip(request.body, limits::kMaxBodyBytes);
+    if (!out) return out.error();
+    return std::optional<std::string>(*std::move(out));
+}
 
 std::optional<Response> check_scene_head(const Request& request) {
     const std::string type = media_type(request.header("Content-Type"));

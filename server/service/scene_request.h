@@ -14,6 +14,10 @@
 
 namespace awan {
 
+// The body as it was before it was packed (Content-Encoding: gzip), of limits::kMaxBodyBytes at most; nothing for one
+// that came as it is.
+Result<std::optional<std::string>> unpacked_body(const Request& request);
+
 // What of a request can be looked at before its body: Content-Type (415), Content-Encoding (415), the names and values
 // of its query (400).
 std::optional<Response> check_scene_head(const Request& request);

@@ -109,7 +109,7 @@ Route find_route(const Service::State& state, std::string_view path) {
          {"/healthz", "/readyz", "/metrics", "/version", "/v1/presets"})
         if (path == get) return {get, true, false};
     for (const Preset& preset : state.presets)
-        if (path.starts_with("/v1/presets/") && path.substr(12) == preset.entry.name)
+        if (path.starts_with("/v1/presets/") && is_called(preset.entry, path.substr(12)))
             return {"/v1/presets/{name}", true, false, nullptr, &preset};
     for (const Page& page : state.pages)
         if (path == page.path)

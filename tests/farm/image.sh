@@ -38,7 +38,7 @@ fi
 stage=()
 if [ $# -ge 1 ]; then
     mkdir -p "$work/build/awan/build/release"
-    cp "$(dirname "$1")"/{awan,awan_openvdb.so} "$work/build/awan/build/release/" || exit 1
+    cp "$(dirname "$1")"/{awan,awan_openvdb.so,awan_pictures.so} "$work/build/awan/build/release/" || exit 1
     stage=(--build-context "build=$work/build")
 fi
 # Docker's own format: the other one has no health check.
@@ -96,5 +96,11 @@ for rung in transport-16 harris; do
         -H 'Content-Type: application/json' --data-binary "@$work/scene.json" "http://127.0.0.1:$port/v1/render")"
 done
 same "a volume, by the module" 0 "$(inside awan particles - -o /var/cache/awan/cloud.vdb <"$work/scene.json" >"$work/vdb" 2>&1; echo $?)"
+# The other module reads pictures that scenes are painted with; the picture that was just rendered is one.
+printf '{"texture":"mine","cubes":[{"particles":60,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],
+    "image":{"width":32,"height":24}}' >"$work/painted.json"
+same "a texture, by the module" "200 image/png" "$(curl -s -o "$work/painted.png" -w '%{http_code} %{content_type}' \
+    -F "scene=<$work/painted.json;type=application/json" -F "texture=@$work/cloud.png;filename=mine.png" \
+    "http://127.0.0.1:$port/v1/render")"
 [ "$failures" = 0 ] && echo "image.sh: built, $(du -sm "$image" | cut -f1) MB, healthy as user $user, root read-only"
 exit "$failures"
