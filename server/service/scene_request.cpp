@@ -115,7 +115,7 @@ Result<FormPart*> scene_part(std::vector<FormPart>& parts) {
 }
 
 // A texture is called as its file, without folder and ending.
-Status add_texture(const FormPart& part, GivenTextures& textures) {
+Status add_texture(const FormPart& part, const Deadline& deadline, GivenTextures& textures) {
     // A page sends its chosen file, and if there is none, an empty one.
     if (part.value.empty() && part.file_name.empty()) return std::nullopt;
     if (textures.size() == limits::kMaxTextures)
@@ -124,17 +124,18 @@ Status add_texture(const FormPart& part, GivenTextures& textures) {
             "a form may have at most " + std::to_string(limits::kMaxTextures) + " textures"};
     std::string_view name = part.file_name;
     name.remove_prefix(name.find_last_of("/\\") + 1);
-    auto texture = read_texture(std::string(name.substr(0, name.rfind('.'))), part.value);
+    auto texture = read_texture(std::string(name.substr(0, name.rfind('.'))), part.value, deadline);
     if (!texture) return texture.error();
     textures.push_back(*std::move(texture));
     return std::nullopt;
 }
 
-Result<SceneBytes> of_form(std::vector<FormPart> parts, SceneBytes scene) {
+Result<SceneBytes> of_form(std::vector<FormPart> parts, const Deadline& deadline,
+                           SceneBytes scene) {
     for (FormPart& part : parts) {
         if (is_scene(part)) continue;
         if (part.name == "texture") {
-            if (const Status wrong = add_texture(part, scene.textures)) return *wrong;
+            if (const Status wrong = add_texture(part, deadline, scene.textures)) return *wrong;
             continue;
         }
         const bool placed = part.name.starts_with('/');
@@ -173,12 +174,12 @@ Result<SceneBytes> scene_bytes(const Request& request) {
     if (type == kUrlencoded) {
         auto parts = read_urlencoded(body);
         if (!parts) return parts.error();
-        return of_form(*std::move(parts), std::move(scene));
+        return of_form(*std::move(parts), request.deadline, std::move(scene));
     }
     if (type == kMultipart) {
         auto parts = read_multipart(request.header("Content-Type"), body);
         if (!parts) return parts.error();
-        return of_form(*std::move(parts), std::move(scene));
+        return of_form(*std::move(parts), request.deadline, std::move(scene));
     }
     scene.format = *scene_format_of_type(type);
     if (is_packed(request)) scene.bytes = std::move(unpacked);
@@ -198,6 +199,17 @@ std::optional<Response> check_scene_head(const Request& request) {
     if (const auto overrides = read_overrides(request.query); !overrides)
         return problem(overrides.error(), request.id);
     return std::nullopt;
+}
+
+bool may_bring_texture(const Request& request) {
+    if (media_type(request.header("Content-Type")) != kMultipart) return false;
+    constexpr std::string_view kNotChosen = "; filename=\"\"";
+    const std::string_view body = request.body;
+    for (const std::string_view field : {"name=\"texture\"", "name=texture"})
+        for (std::size_t at = body.find(field); at != std::string_view::npos;
+             at = body.find(field, at + 1))
+            if (!body.substr(at + field.size()).starts_with(kNotChosen)) return true;
+    return false;
 }
 
 std::optional<Response> check_scene_body(const Request& request) {
