@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/base/thrown.h"
 #include "server/document/json.h"
@@ -272,6 +273,10 @@ std::string_view Request::header(std::string_view name) const {
 }
 std::string_view Response::header(std::string_view name) const {
     return find_header(headers, name);
+}
+
+void Response::share() {
+    if (!body.empty()) shared = std::make_shared<const std::string>(std::exchange(body, {}));
 }
 
 std::string joined_header(const Request& request, std::string_view name) {
