@@ -24,7 +24,7 @@ constexpr std::size_t kGather = 64u << 10;
 constexpr std::size_t kSlice = 1u << 20;
 
 // What one client takes at once, so that a fast one does not keep the thread that polls from the others.
-constexpr std::size_t kMostAtOnce = 4u << 20;
+constexpr std::size_t kMostAtOnce = 1u << 20;
 
 // How often a writer that waits for its client looks whether it is still there.
 constexpr int kLookMs = 100;

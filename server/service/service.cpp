@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "core/base/thrown.h"
 #include "server/document/json.h"
@@ -276,7 +275,11 @@ std::string_view Response::header(std::string_view name) const {
 }
 
 void Response::share() {
-    if (!body.empty()) shared = std::make_shared<const std::string>(std::exchange(body, {}));
+    if (body.empty()) return;
+    // Where there is no memory for this, the body is still where it was.
+    const auto bytes = std::make_shared<std::string>();
+    bytes->swap(body);
+    shared = bytes;
 }
 
 std::string joined_header(const Request& request, std::string_view name) {
