@@ -4,6 +4,9 @@
 #include <chrono>
 #include <cstddef>
 
+#include "core/formats/picture_program.h"
+#include "core/scene/limits.h"
+
 namespace awan::limits {
 
 // --- One request
@@ -107,7 +110,7 @@ inline constexpr std::size_t kParticlesPerPiece = 4096;
 
 // Kept at once, each of 16 KiB.
 inline constexpr std::size_t kMaxKeptTextures = 256;
-// What reading one takes at its peak: its pixels as the file has them, up to 16 bytes each, and as they are read.
-inline constexpr std::size_t kTextureWorkBytes = std::size_t{320} << 20;
+// What reading one takes at its peak: its file, and the program that reads it.
+inline constexpr std::size_t kTextureWorkBytes = kMaxTextureBytes + kPictureMemory;
 
 }  // namespace awan::limits

@@ -109,6 +109,12 @@ touch .awan-0123456789abcdef.tmp
 contains "a limit on files" "limited.csv" "$(cat err)"
 same "what was left is removed" "" "$(find . -name '.awan-*' -o -name limited.csv)"
 "$awan" --version >/dev/full 2>err; same "a version that nobody got" 5 "$?"
+for words in presets "presets cumulus" "digest scene.json" "validate scene.json" "completion bash" \
+    "render scene.json --json -o unsaid.png"; do
+    "$awan" $words >/dev/full 2>err; same "$words, which nobody got" 5 "$?"
+    contains "$words, which nobody got" "standard output" "$(cat err)"
+done
+rm -f unsaid.png
 # A file that another still writes is not removed.
 mkfifo held
 (flock -x 9; cat held >/dev/null) 9>.awan-writing.tmp &
@@ -213,7 +219,7 @@ for display in cubes quads billboards bounding_boxes show_texture; do
     run 0 render painted.awa --set "/display=$display" -o display.png -o display.exr
     cmp -s display.png painted.png && fail "$display is drawn as if it were lit"
 done
-if [ -e "$(dirname "$awan")/awan_pictures.so" ]; then
+if [ -e "$(dirname "$awan")/awan_pictures" ]; then
     run 0 render scene.json --texture mine=painted.png --set /texture=mine -o mine.png
     run 3 render scene.json --texture mine=scene.json --set /texture=mine -o mine.png
     contains "no picture" "mine" "$(cat err)"

@@ -338,7 +338,7 @@ TEST_F(ServiceOnDisk, AnswersAreFoundByTheServerAfterThisOne) {
         const Response again = ask(" " + std::string(kScene), memory);
         EXPECT_EQ(again.header("Awan-Cache"), "disk");
         EXPECT_EQ(again.reason, "disk hit");
-        EXPECT_EQ(again.body, first.body);
+        EXPECT_EQ(again.bytes(), first.bytes());
         for (const char* name : {"ETag", "Awan-Rung", "Awan-Error", "Content-Type", "Vary"})
             EXPECT_EQ(again.header(name), first.header(name));
         EXPECT_NE(text.find("awan_cache_disk_hits_total 1\n"), std::string::npos) << text;
@@ -356,7 +356,7 @@ TEST_F(ServiceOnDisk, DamageIsRenderedAnew) {
     const Response again = ask(kScene);
     EXPECT_EQ(again.status, 200);
     EXPECT_EQ(again.header("Awan-Cache"), "miss");
-    EXPECT_EQ(again.body, first.body);
+    EXPECT_EQ(again.bytes(), first.bytes());
     EXPECT_NE(text.find("awan_cache_disk_damaged_total 1\n"), std::string::npos);
     EXPECT_EQ(begun, 2);
     EXPECT_EQ(ask(kScene).header("Awan-Cache"), "disk");

@@ -45,7 +45,10 @@ TEST_F(JobsTest, ResultIsTheSynchronousAnswer) {
     const Response result = get(job["result"]);
     const Response answer = post("/v1/render");
     EXPECT_EQ(result.status, 200);
-    EXPECT_EQ(result.body, answer.body);
+    EXPECT_EQ(result.bytes(), answer.bytes());
+    // However many fetch it, it stands in memory once.
+    ASSERT_TRUE(result.shared);
+    EXPECT_EQ(get(job["result"]).shared, result.shared);
     EXPECT_EQ(result.header("ETag"), answer.header("ETag"));
     EXPECT_EQ(get(job["result"], {{"If-None-Match", std::string(answer.header("ETag"))}}).status,
               304);
@@ -173,7 +176,7 @@ TEST_F(JobsTest, SequencesBecomeAnimations) {
     ASSERT_TRUE(reaches(job, "done")) << state_of(job);
     const Response result = get(job["result"]);
     EXPECT_EQ(result.header("Content-Type"), "image/webp");
-    EXPECT_TRUE(result.body.starts_with("RIFF"));
+    EXPECT_TRUE(result.bytes().starts_with("RIFF"));
     EXPECT_EQ(renderer.begun(), 3);
 }
 
@@ -186,8 +189,9 @@ TEST_F(JobsTest, ImpostorsAreAnAtlasAndItsLayout) {
     EXPECT_EQ(renderer.begun(), 9);
     const Response archive = get(job["result"]);
     EXPECT_EQ(archive.header("Content-Type"), "application/zip");
-    EXPECT_NE(archive.body.find("impostor.png"), std::string::npos);
-    EXPECT_NE(archive.body.find(R"("mapping":"octahedral","views":3,"size":8)"), std::string::npos);
+    EXPECT_NE(archive.bytes().find("impostor.png"), std::string::npos);
+    EXPECT_NE(archive.bytes().find(R"("mapping":"octahedral","views":3,"size":8)"),
+              std::string::npos);
     const auto refused = [&](const std::string& more, const char* pointer) {
         expect_problem(post("/v1/jobs", impostor(more)), 422, pointer);
     };
@@ -210,13 +214,13 @@ TEST_F(JobsTest, FlightsAreAnimationsAndReports) {
     EXPECT_EQ(state_of(job)["kind"], "fly");
     const Response film = get(job["result"]);
     EXPECT_EQ(film.header("Content-Type"), "image/webp");
-    EXPECT_TRUE(film.body.starts_with("RIFF"));
+    EXPECT_TRUE(film.bytes().starts_with("RIFF"));
     EXPECT_EQ(renderer.begun(), 3);
     const json told = submit(fly(R"("format":"json","frames":2,)"));
     ASSERT_TRUE(reaches(told, "done")) << state_of(told);
     const Response answer = get(told["result"]);
     EXPECT_EQ(answer.header("Content-Type"), "application/json");
-    const json report = json::parse(answer.body);
+    const json report = json::parse(answer.bytes());
     EXPECT_EQ(report["path"], "orbit");
     EXPECT_EQ(report["frames"], 2);
     EXPECT_EQ(report["each"].size(), 2U);
@@ -227,7 +231,7 @@ TEST_F(JobsTest, FlightsAreAnimationsAndReports) {
     ASSERT_TRUE(reaches(packed, "done")) << state_of(packed);
     const Response archive = get(packed["result"]);
     for (const char* const name : {"frame.0000.png", "report.json", "report.txt"})
-        EXPECT_NE(archive.body.find(name), std::string::npos) << name;
+        EXPECT_NE(archive.bytes().find(name), std::string::npos) << name;
 
     expect_problem(post("/v1/jobs", fly(R"("path":"loop",)")), 422, "/path");
     expect_problem(post("/v1/jobs", fly(R"("path":"keys",)")), 422, "/scene/sequence/camera");

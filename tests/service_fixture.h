@@ -30,7 +30,7 @@ inline Request make_request(std::string method, std::string path, std::string bo
 }
 
 inline std::string whole_body(const Response& response) {
-    std::string body = response.body;
+    std::string body(response.bytes());
     if (response.stream)
         while (response.stream(body)) {
         }

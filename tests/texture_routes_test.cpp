@@ -5,6 +5,7 @@
 #include "core/scene/limits.h"
 #include "core/scene/texture.h"
 #include "server/limits.h"
+#include "server/service/texture_store.h"
 #include "service_fixture.h"
 
 namespace awan {
@@ -100,14 +101,22 @@ TEST_F(TextureRoutes, WhatIsNoTextureIsRefused) {
     EXPECT_EQ(service.answer(make_request("PUT", "/v1/render", picture(1), {})).status, 405);
 }
 
-TEST_F(TextureRoutes, SoManyAreKeptAndNoMore) {
-    const std::string file = picture(1);
+TEST(TextureStore, SoManyAreKeptAndNoMore) {
+    TextureStore store;
+    bool was_there = false;
+    const auto keep = [&](const std::string& name) {
+        return store.keep(std::make_shared<const Texture>(Texture{name, name, {}}), was_there);
+    };
     for (std::size_t i = 0; i < limits::kMaxKeptTextures; ++i)
-        ASSERT_EQ(ask("PUT", "t" + std::to_string(i), file).status, 201);
-    expect_problem(ask("PUT", "another", file), 413);
-    EXPECT_EQ(ask("PUT", "t0", file).status, 200);
-    EXPECT_EQ(ask("DELETE", "t1").status, 204);
-    EXPECT_EQ(ask("PUT", "another", file).status, 201);
+        ASSERT_FALSE(keep("t" + std::to_string(i)));
+    EXPECT_FALSE(was_there);
+    const Status full = keep("another");
+    ASSERT_TRUE(full);
+    EXPECT_EQ(full->code, ErrorCode::kTooLarge);
+    EXPECT_FALSE(keep("t0"));
+    EXPECT_TRUE(was_there);
+    EXPECT_TRUE(store.remove("t1"));
+    EXPECT_FALSE(keep("another"));
 }
 
 TEST_F(TextureRoutes, AFormMayBringThem) {

@@ -87,10 +87,11 @@ Result<Animation> Animation::begin(AnimationFormat format, double frames_per_sec
     return Animation(std::move(state));
 }
 
-Status Animation::add(const Image& image, const FilmSettings& film) {
+Status Animation::add(const Image& image, const FilmSettings& film, const Deadline& deadline) {
     State& state = *state_;
+    if (Status over = deadline.over()) return over;
     if (state.apng) {
-        auto png = encode_png(image, film);
+        auto png = encode_png(image, film, 8, deadline);
         if (!png.ok()) return png.error();
         return state.apng->add(*png);
     }

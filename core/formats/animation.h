@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "core/base/deadline.h"
 #include "core/base/image.h"
 #include "core/base/result.h"
 #include "core/formats/tone.h"
@@ -23,8 +24,9 @@ class Animation {
     Animation& operator=(Animation&& other) noexcept;
     ~Animation();
 
-    // The picture goes through the same curve as in encode_png.
-    Status add(const Image& image, const FilmSettings& film);
+    // The picture goes through the same curve as in encode_png. libwebp cannot be told to stop: of WebP the deadline is
+    // looked at before a frame.
+    Status add(const Image& image, const FilmSettings& film, const Deadline& deadline = {});
     // The file, once all frames were added.
     Result<std::string> end();
 

@@ -3,22 +3,11 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/formats/module.h"
-#include "core/formats/picture_module.h"
+#include "core/formats/picture_reader.h"
 #include "core/scene/limits.h"
 
 namespace awan {
 namespace {
-
-struct Picture {
-    int width = 0, height = 0;
-    std::vector<unsigned char> values;
-};
-
-constexpr PictureBounds kBounds{limits::kMaxTexturePixels, limits::kMaxTexturePictureSide,
-                                "it has more than 16384 pixels along a side or 16777216 in all"};
-static_assert(limits::kMaxTexturePixels == 16777216 && limits::kMaxTexturePictureSide == 16384,
-              "the text above says it");
 
 // Means of a row of `size` values, `stride` apart and with as much of nothing before them as behind, that is `whole`
 // long in all, over kTextureSide even parts of it.
@@ -37,7 +26,7 @@ void part_means(const Value* values, std::size_t stride, int size, int whole, do
     }
 }
 
-std::vector<std::uint8_t> as_texture(const Picture& picture) {
+std::vector<std::uint8_t> as_texture(const GreyPicture& picture) {
     constexpr auto kSide = static_cast<std::size_t>(kTextureSide);
     const int whole = std::max(picture.width, picture.height);
     std::vector<double> rows(kSide * static_cast<std::size_t>(picture.height));
@@ -56,7 +45,8 @@ std::vector<std::uint8_t> as_texture(const Picture& picture) {
 
 }  // namespace
 
-Result<std::shared_ptr<const Texture>> read_texture(std::string name, std::string_view bytes) {
+Result<std::shared_ptr<const Texture>> read_texture(std::string name, std::string_view bytes,
+                                                    const Deadline& deadline) {
     if (Status wrong = check_texture_name(name)) return *wrong;
     const auto refused = [&](ErrorCode code, const std::string& why) {
         return Error{code, "", "the texture " + name + " cannot be used: " + why};
@@ -65,25 +55,15 @@ Result<std::shared_ptr<const Texture>> read_texture(std::string name, std::strin
         return refused(
             ErrorCode::kTooLarge,
             "its file is longer than " + std::to_string(limits::kMaxTextureBytes) + " bytes");
-    std::string reason;
-    auto* const read =
-        reinterpret_cast<ReadPicture*>(module_function(kPictureModule, kReadPicture, reason));
-    if (read == nullptr)
-        return refused(ErrorCode::kUnsupported, std::string("pictures need the module ") +
-                                                    kPictureModule +
-                                                    ", which cannot be loaded: " + reason);
-    Picture picture;
-    const auto take = [](void* to, int width, int height, const unsigned char* values) {
-        auto& taken = *static_cast<Picture*>(to);
-        taken = {
-            width,
-            height,
-            {values, values + static_cast<std::size_t>(width) * static_cast<std::size_t>(height)}};
-    };
-    if (const char* const wrong = read(bytes.data(), bytes.size(), kBounds, take, &picture))
-        return refused(wrong == kBounds.too_large ? ErrorCode::kTooLarge : ErrorCode::kInvalidScene,
-                       wrong);
-    std::vector<std::uint8_t> depth = as_texture(picture);
+    const auto picture = read_picture(bytes, deadline);
+    if (!picture) {
+        const Error& error = picture.error();
+        const bool of_picture = error.code == ErrorCode::kInvalidScene ||
+                                error.code == ErrorCode::kTooLarge ||
+                                error.code == ErrorCode::kUnsupported;
+        return of_picture ? refused(error.code, error.message) : error;
+    }
+    std::vector<std::uint8_t> depth = as_texture(*picture);
     if (std::all_of(depth.begin(), depth.end(), [](std::uint8_t one) { return one == 0; }))
         return refused(ErrorCode::kInvalidScene,
                        "there is nothing in it: its alpha (or luminance) is 0 everywhere");

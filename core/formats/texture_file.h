@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/deadline.h"
 #include "core/scene/texture.h"
 
 namespace awan {
@@ -14,7 +15,8 @@ namespace awan {
 // linear, 0 to 1); its colour does not count. It is laid into a square, in the middle, and brought to kTextureSide by
 // means over areas.
 // Errors: kInvalidScene (the name, no picture, a broken one, one in which there is nothing), kTooLarge (bytes, pixels),
-// kUnsupported (the module is not there).
-Result<std::shared_ptr<const Texture>> read_texture(std::string name, std::string_view bytes);
+// and those of read_picture (picture_reader.h).
+Result<std::shared_ptr<const Texture>> read_texture(std::string name, std::string_view bytes,
+                                                    const Deadline& deadline = {});
 
 }  // namespace awan

@@ -533,6 +533,13 @@ Run add_completion(CLI::App& app) {
     };
 }
 
+// What was printed has to have arrived: a full disk is no success.
+int once_printed(int code) {
+    const bool arrived = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    if (arrived || code != kExitFine) return code;
+    return report_error("", Error{ErrorCode::kIo, "", "cannot write standard output"});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -584,7 +591,7 @@ int main(int argc, char** argv) {
     }
     try {
         for (const auto& [name, run] : commands)
-            if (app.got_subcommand(name)) return run();
+            if (app.got_subcommand(name)) return once_printed(run());
         // E.g. std::bad_alloc, or a thread that cannot be made.
     } catch (const std::exception& e) {
         return report_error("", error_of_thrown(e));

@@ -22,7 +22,9 @@ class CodecStream : public httplib::Stream {
         return static_cast<ssize_t>(n);
     }
     ssize_t write(const char* from, std::size_t size) override {
-        failed_ = failed_ || !sink_.write({from, size});
+        // httplib only passes on what it is to write.
+        const bool is_shared = shared_ && from == shared_->data() && size == shared_->size();
+        failed_ = failed_ || !(is_shared ? sink_.write_shared(shared_) : sink_.write({from, size}));
         return failed_ ? -1 : static_cast<ssize_t>(size);
     }
     void get_remote_ip_and_port(std::string&, int&) const override {}
@@ -30,12 +32,14 @@ class CodecStream : public httplib::Stream {
     socket_t socket() const override { return INVALID_SOCKET; }
 
     void drop() { failed_ = true; }
+    void share(std::shared_ptr<const std::string> bytes) { shared_ = std::move(bytes); }
     bool failed() const { return failed_; }
 
   private:
     std::string head_;
     std::size_t read_ = 0;
     ByteSink& sink_;
+    std::shared_ptr<const std::string> shared_;
     bool failed_ = false;
 };
 
@@ -109,6 +113,15 @@ class HttpCodec::Impl : public httplib::Server {
             }
         }
         out.headers.emplace("Date", date());
+        if (response.shared) {
+            stream_->share(response.shared);
+            out.set_content_provider(
+                response.shared->size(), type,
+                [bytes = response.shared](std::size_t, std::size_t, httplib::DataSink& to) {
+                    return to.write(bytes->data(), bytes->size());
+                });
+            return;
+        }
         if (!response.stream) {
             out.body = std::move(response.body);
             if (!type.empty()) out.headers.emplace("Content-Type", type);

@@ -25,6 +25,10 @@ class ByteSink {
     virtual ~ByteSink() = default;
     // False: the connection is of no more use.
     virtual bool write(std::string_view bytes) = 0;
+    // The last of an answer. It may be held instead of copied.
+    virtual bool write_shared(const std::shared_ptr<const std::string>& bytes) {
+        return write(*bytes);
+    }
 };
 
 // One a thread: it holds the request being answered.

@@ -23,6 +23,9 @@ constexpr std::size_t kGather = 64u << 10;
 // A large answer is copied and sent in slices, so that it stands in memory once and not twice.
 constexpr std::size_t kSlice = 1u << 20;
 
+// What one client takes at once, so that a fast one does not keep the thread that polls from the others.
+constexpr std::size_t kMostAtOnce = 1u << 20;
+
 // How often a writer that waits for its client looks whether it is still there.
 constexpr int kLookMs = 100;
 
@@ -61,22 +64,38 @@ Received receive(const Connection& connection, std::size_t limit, std::string& t
     return Received::kClosed;
 }
 
-bool send_unsent(Connection& c, std::atomic<std::size_t>& parked_in_all) {
-    bool alive = true;
-    while (c.unsent()) {
-        const ssize_t n = send(c.socket.get(), c.out.data() + c.sent, c.out.size() - c.sent,
+namespace {
+
+// Whether all went out. False also where the client takes no more now; `alive`: it may take more later.
+bool send_some(int socket, std::string_view bytes, std::size_t& sent, std::size_t& left,
+               bool& alive) {
+    while (sent < bytes.size() && left > 0) {
+        const ssize_t n = send(socket, bytes.data() + sent, std::min(bytes.size() - sent, left),
                                MSG_DONTWAIT | MSG_NOSIGNAL);
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) {
             alive = errno == EAGAIN || errno == EWOULDBLOCK;
-            break;
+            return false;
         }
-        c.sent += static_cast<std::size_t>(n);
+        sent += static_cast<std::size_t>(n);
+        left -= static_cast<std::size_t>(n);
     }
-    if (!c.unsent()) {
+    return sent == bytes.size();
+}
+
+}  // namespace
+
+bool send_unsent(Connection& c, std::atomic<std::size_t>& parked_in_all) {
+    bool alive = true;
+    std::size_t left = kMostAtOnce;
+    if (send_some(c.socket.get(), c.out, c.sent, left, alive)) {
         // Not clear(): a kept connection must not keep the memory of a large answer.
         c.out = {};
         c.sent = 0;
+        if (c.shared && send_some(c.socket.get(), *c.shared, c.shared_sent, left, alive)) {
+            c.shared.reset();
+            c.shared_sent = 0;
+        }
     }
     count_parked(c, parked_in_all);
     return alive;
@@ -96,6 +115,12 @@ bool ConnectionSink::write(std::string_view bytes) {
         bytes.remove_prefix(n);
         if ((!gathers_ || connection_.out.size() >= kGather) && !send_or_wait()) return false;
     }
+    return true;
+}
+
+bool ConnectionSink::write_shared(const std::shared_ptr<const std::string>& bytes) {
+    connection_.shared = bytes;
+    connection_.shared_sent = 0;
     return true;
 }
 

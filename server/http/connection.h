@@ -68,7 +68,10 @@ struct Connection {
     // Bytes of the answer that the client has not yet taken.
     std::string out;
     std::size_t sent = 0;
-    // Bytes counted for it among all parked bytes.
+    // What follows `out`, kept for others too; none: null.
+    std::shared_ptr<const std::string> shared;
+    std::size_t shared_sent = 0;
+    // Bytes counted for it among all parked bytes; shared ones are not its own.
     std::size_t parked = 0;
     bool close_after = false;
     // A worker has it, and hands it back.
@@ -77,7 +80,7 @@ struct Connection {
     bool alive = true;
     Connection* done_before = nullptr;
 
-    bool unsent() const { return sent < out.size(); }
+    bool unsent() const { return sent < out.size() || shared; }
 };
 
 // From now on only the one that answers writes.
@@ -93,8 +96,8 @@ enum class Received { kBytes, kNothing, kClosed };
 // Appends what is there, at most `limit` bytes.
 Received receive(const Connection& connection, std::size_t limit, std::string& to);
 
-// Sends what the client takes now of `out`, and counts what stays in `parked_in_all`. False when
-// the connection is of no more use.
+// Sends what the client takes now of `out` and `shared`, some MiB at once at most, and counts what stays in
+// `parked_in_all`. False when the connection is of no more use.
 bool send_unsent(Connection& connection, std::atomic<std::size_t>& parked_in_all);
 
 // Brings the count of parked bytes up to date.
@@ -110,6 +113,7 @@ class ConnectionSink : public ByteSink {
         : connection_(connection), parked_(parked_in_all), never_wait_(never_wait), until_(until) {}
 
     bool write(std::string_view bytes) override;
+    bool write_shared(const std::shared_ptr<const std::string>& bytes) override;
     // From now on every write goes out at once.
     void gather_nothing() { gathers_ = false; }
     // To be called once after the last write.

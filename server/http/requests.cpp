@@ -128,7 +128,7 @@ void HttpServer::State::log(const Connection& c, const Response& response, std::
     record.route = response.route;
     record.status = response.status;
     record.bytes_in = bytes_in;
-    record.bytes_out = response.body.size();
+    record.bytes_out = response.bytes().size();
     if (c.stand == Stand::kWorking)
         record.seconds = std::chrono::duration<double>(Clock::now() - c.read_at).count();
     record.stages = &response.stages;

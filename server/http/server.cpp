@@ -272,6 +272,7 @@ void HttpServer::State::end(Connection& c) {
     body_bytes -= std::exchange(c.body_charged, 0);
     c.out.clear();
     c.sent = 0;
+    c.shared.reset();
     count_parked(c, parked);
     c.socket.close();
 }

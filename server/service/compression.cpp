@@ -73,7 +73,8 @@ void compress(const Request& request, Response& response) {
     if (!response.header("Content-Encoding").empty() ||
         !is_packable(response.header("Content-Type")))
         return;
-    if (!response.stream && (response.body.size() < kWorthIt || response.body.size() > (1u << 30)))
+    if (!response.stream &&
+        (response.bytes().size() < kWorthIt || response.bytes().size() > (1u << 30)))
         return;
     if (!takes_gzip(joined_header(request, "Accept-Encoding"))) return;
     auto packer = std::make_shared<Packer>();
@@ -81,8 +82,9 @@ void compress(const Request& request, Response& response) {
     mark(response);
     if (!response.stream) {
         std::string packed;
-        packed.reserve(response.body.size() / 3);
-        packer->pack(response.body, true, packed);
+        packed.reserve(response.bytes().size() / 3);
+        packer->pack(response.bytes(), true, packed);
+        response.shared.reset();
         response.body = std::move(packed);
         return;
     }

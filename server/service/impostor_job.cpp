@@ -1,6 +1,5 @@
 // A job of kind impostor: the views of a scene from many sides on one atlas, and its layout, in an archive. Each view
 // has a lane for itself, so that others compute between two of them.
-#include <chrono>
 #include <thread>
 
 #include "core/formats/atlas.h"
@@ -13,16 +12,6 @@
 
 namespace awan {
 namespace {
-
-// Waits for a lane as long as the job may take.
-Status enter_patiently(Lanes::Pass& pass, const Request& request) {
-    const LaneWork lane{Weight::kLong, 2 * kShort_ms, request.client};
-    while (pass.enter(lane, request.deadline) != Lanes::Entry::kIn) {
-        if (auto over = request.deadline.over()) return over;
-        std::this_thread::sleep_for(kLinesAreFull);
-    }
-    return std::nullopt;
-}
 
 Drawn draw_view(Service::State& state, const Request& request, const Scene& scene) {
     Lanes::Pass pass(state.lanes);
@@ -45,7 +34,7 @@ Error in_job(Error error) {
 }  // namespace
 
 Response answer_impostor(Service::State& state, const Request& request, const JobWork& work) {
-    const auto scene = read_request_scene(state, request);
+    const auto scene = read_job_scene(state, request);
     if (!scene) return fail(scene.error(), request);
     const bool exr = (*scene)->image.format == ImageFormat::kExr;
     const auto pixels = static_cast<std::size_t>(work.impostor.views * work.impostor.size);

@@ -1,5 +1,6 @@
 // /v1/jobs: work that is asked for now and fetched later.
 #include <algorithm>
+#include <thread>
 
 #include "core/formats/numbers.h"
 #include "core/formats/quote.h"
@@ -343,6 +344,28 @@ Response tell_job(Service::State& state, const Request& request) {
     response.status = 200;
     std::erase_if(response.headers, [](const auto& h) { return h.first == "Location"; });
     return response;
+}
+
+Status enter_patiently(Lanes::Pass& pass, const Request& request) {
+    const LaneWork lane{Weight::kLong, 2 * kShort_ms, request.client};
+    while (pass.enter(lane, request.deadline) != Lanes::Entry::kIn) {
+        if (auto over = request.deadline.over()) return over;
+        std::this_thread::sleep_for(kLinesAreFull);
+    }
+    return std::nullopt;
+}
+
+Result<Scene> read_job_scene(Service::State& state, const Request& request) {
+    const std::size_t bytes = reading_bytes(request.body.size());
+    WorkBudget::Lease reading = state.budget.take(bytes);
+    while (!reading) {
+        if (const auto over = request.deadline.over()) return *over;
+        std::this_thread::sleep_for(kLinesAreFull);
+        reading = state.budget.take(bytes);
+    }
+    Lanes::Pass pass(state.lanes);
+    if (const Status over = enter_patiently(pass, request)) return *over;
+    return read_request_scene(state, request);
 }
 
 Response answer_job_work(Service::State& state, const JobWork& work, const Request& request) {

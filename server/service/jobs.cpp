@@ -124,7 +124,7 @@ bool Jobs::remove(std::string_view id) {
     if (found == jobs_.end()) return false;
     Job& job = **found;
     if (view_of(job).finished()) {
-        if (job.result) bytes_ -= job.result->body.size();
+        if (job.result) bytes_ -= job.result->bytes().size();
         jobs_.erase(found);
     } else {
         *job.cancelled = true;
@@ -156,12 +156,14 @@ void Jobs::drop_old() {
             ++job;
             continue;
         }
-        if ((*job)->result) bytes_ -= (*job)->result->body.size();
+        if ((*job)->result) bytes_ -= (*job)->result->bytes().size();
         job = jobs_.erase(job);
     }
 }
 
 void Jobs::finish(Job& job, Response response) {
+    // Errors are small, and written anew for whoever asks.
+    if (response.status == 200) response.share();
     auto result = std::make_shared<const Response>(std::move(response));
     const std::lock_guard lock(mutex_);
     job.state = *job.cancelled          ? JobState::kCancelled
@@ -171,7 +173,7 @@ void Jobs::finish(Job& job, Response response) {
     job.work.request.body = {};
     if (job.state == JobState::kDone) job.progress = 1;
     if (job.state != JobState::kCancelled) {
-        bytes_ += result->body.size();
+        bytes_ += result->bytes().size();
         job.result = std::move(result);
     }
     ++job.version;

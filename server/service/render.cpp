@@ -8,6 +8,7 @@
 
 #include "core/formats/image_file.h"
 #include "core/scene/fingerprint.h"
+#include "core/scene/layers.h"
 #include "server/document/json.h"
 #include "server/service/negotiation.h"
 #include "server/service/problem.h"
@@ -52,6 +53,18 @@ std::string effects_on(const Plan& plan) {
     return names;
 }
 
+// Channels of a picture's layers.
+double layer_channels(const Scene& scene) {
+    const auto layers = read_layers(scene->image.layers);
+    double channels = 0;
+    for (int i = 0; i < kLayerCount; ++i) {
+        const auto layer = static_cast<Layer>(i);
+        if (!layers || !layers->has(layer)) continue;
+        channels += layer == Layer::kDepth || layer == Layer::kTransmittance ? 1 : 3;
+    }
+    return channels;
+}
+
 // What encoding a pixel takes, ns, on the machine of the calibration: 17 to 27 of PNG (800 x 600), 65 to 70 of half
 // floats and 275 of floats (2048 x 1024) were measured; that, and half as much again. Of an EXR, threads share all but
 // a tenth, which hands the lines over.
@@ -59,7 +72,10 @@ double encode_ms(const Scene& scene, std::string_view type, const MachineSpeed& 
                  int threads) {
     const double ns = type == kPng ? 40 : scene->image.precision == Precision::kHalf ? 105 : 415;
     const double share = type == kPng ? 1 : 0.1 + 0.9 / threads;
-    return 1e-6 * ns * share * speed.slowness * scene->image.width * scene->image.height;
+    // Those figures are of four channels.
+    const double channels = type == kPng ? 4 : 4 + layer_channels(scene);
+    return 1e-6 * ns * channels / 4 * share * speed.slowness * scene->image.width *
+           scene->image.height;
 }
 
 // A number as text for a header.
@@ -160,16 +176,17 @@ bool keeps_answers(const Service::State& state) {
     return state.results.keeps() || state.options.disk;
 }
 
-// An answer that is good without being kept is not lost for want of the memory to keep it. What is too large for either
-// place is not even copied.
-void keep_answer(Service::State& state, const std::string& etag, const Response& response) {
+// An answer that is good without being kept is not lost for want of the memory to keep it. What is kept is shared with
+// the answer; what is too large for either place stays the answer's own.
+void keep_answer(Service::State& state, const std::string& etag, Response& response) {
     const DiskCache* const disk = state.options.disk.get();
     if (response.body.size() >
         std::max(state.results.most_of_one(), disk ? disk->most_of_one() : 0))
         return;
     try {
-        const auto kept = std::make_shared<const KeptResult>(
-            KeptResult{response.headers, std::make_shared<const std::string>(response.body)});
+        response.share();
+        const auto kept =
+            std::make_shared<const KeptResult>(KeptResult{response.headers, response.shared});
         state.results.keep(etag, kept);
         if (state.options.disk) state.options.disk->keep(etag, kept);
     } catch (const std::bad_alloc&) {
@@ -180,7 +197,7 @@ void keep_answer(Service::State& state, const std::string& etag, const Response&
 Response kept_answer(const KeptResult& kept, const char* where, std::string_view reason) {
     Response response;
     response.headers = kept.headers;
-    response.body = *kept.body;
+    response.shared = kept.body;
     response.headers.emplace_back("Awan-Cache", where);
     response.reason = reason;
     return response;

@@ -264,7 +264,9 @@ Response answer_scene_request(Service::State& state, const Request& request) {
     if (auto refused =
             not_let_in(pass.enter(work, request.deadline), state.lanes, work.weight, request))
         return std::move(*refused);
-    WorkBudget::Lease reading = state.budget.take(reading_bytes(unpacked_bytes(request)));
+    WorkBudget::Lease reading =
+        state.budget.take(reading_bytes(unpacked_bytes(request)) +
+                          (may_bring_texture(request) ? limits::kTextureWorkBytes : 0));
     if (!reading) return no_memory(state, request);
     if (auto refused = check_scene_body(request)) return *std::move(refused);
     const auto read = read_scene_request(request, state.textures.all());

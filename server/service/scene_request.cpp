@@ -120,7 +120,7 @@ Result<FormPart*> scene_part(std::vector<FormPart>& parts) {
 }
 
 // A texture is called as its file, without folder and ending.
-Status add_texture(const FormPart& part, GivenTextures& textures) {
+Status add_texture(const FormPart& part, const Deadline& deadline, GivenTextures& textures) {
     // A page sends its chosen file, and if there is none, an empty one.
     if (part.value.empty() && part.file_name.empty()) return std::nullopt;
     if (textures.size() == limits::kMaxTextures)
@@ -129,7 +129,7 @@ Status add_texture(const FormPart& part, GivenTextures& textures) {
             "a form may have at most " + std::to_string(limits::kMaxTextures) + " textures"};
     std::string_view name = part.file_name;
     name.remove_prefix(name.find_last_of("/\\") + 1);
-    auto texture = read_texture(std::string(name.substr(0, name.rfind('.'))), part.value);
+    auto texture = read_texture(std::string(name.substr(0, name.rfind('.'))), part.value, deadline);
     if (!texture) return texture.error();
     textures.push_back(*std::move(texture));
     return std::nullopt;
@@ -139,7 +139,7 @@ Result<SceneBytes> of_form(const Request& request, std::vector<FormPart> parts, 
     for (FormPart& part : parts) {
         if (is_scene(part)) continue;
         if (part.name == "texture") {
-            if (const Status wrong = add_texture(part, scene.textures)) return *wrong;
+            if (const Status wrong = add_texture(part, request.deadline, scene.textures)) return *wrong;
             continue;
         }
         const bool placed = part.name.starts_with('/');
@@ -207,6 +207,17 @@ std::optional<Response> check_scene_head(const Request& request) {
     if (const auto overrides = read_overrides(request.query); !overrides)
         return problem(overrides.error(), request.id);
     return std::nullopt;
+}
+
+bool may_bring_texture(const Request& request) {
+    if (media_type(request.header("Content-Type")) != kMultipart) return false;
+    constexpr std::string_view kNotChosen = "; filename=\"\"";
+    const std::string_view body = request.body;
+    for (const std::string_view field : {"name=\"texture\"", "name=texture"})
+        for (std::size_t at = body.find(field); at != std::string_view::npos;
+             at = body.find(field, at + 1))
+            if (!body.substr(at + field.size()).starts_with(kNotChosen)) return true;
+    return false;
 }
 
 std::optional<Response> check_scene_body(const Request& request) {

@@ -25,6 +25,9 @@ std::optional<Response> check_scene_head(const Request& request);
 // 415 for JSON that is called a form, as `curl -d @scene.json` does.
 std::optional<Response> check_scene_body(const Request& request);
 
+// Whether a form seems to hold a texture, which takes limits::kTextureWorkBytes to read.
+bool may_bring_texture(const Request& request);
+
 struct SceneRequest {
     Scene scene;
     // From the query and the fields of a form.

@@ -62,7 +62,7 @@ class Reel {
     }
     Status add(const Rendered& rendered, const Scene& scene, std::uint64_t frame,
                const Deadline& deadline) {
-        if (animation_) return animation_->add(rendered.image, film_of(scene));
+        if (animation_) return animation_->add(rendered.image, film_of(scene), deadline);
         if (layout_) {
             if (frame == 0) sheet_ = begin_sheet(*layout_, rendered.image.opaque);
             put_on_sheet(*layout_, frame, rendered.image, sheet_);
@@ -150,10 +150,10 @@ Status grow_lease(WorkBudget::Lease& lease, std::size_t bytes, const Deadline& d
     return std::nullopt;
 }
 
-// One frame, drawn; or what is to be said instead. in_view: its particles in the picture.
+// One frame, drawn; or what is to be said instead. in_view: its particles in the picture. pass: in a lane after it, in
+// which it is encoded.
 Drawn frame_of(Service::State& state, const Request& request, const Settled& settled, double time,
-               Scene& scene, std::size_t& in_view) {
-    Lanes::Pass pass(state.lanes);
+               Scene& scene, std::size_t& in_view, Lanes::Pass& pass) {
     const LaneWork work{Weight::kLong, 2 * kShort_ms, request.client};
     if (auto refused =
             not_let_in(pass.enter(work, request.deadline), state.lanes, Weight::kLong, request))
@@ -176,9 +176,7 @@ Drawn frame_of(Service::State& state, const Request& request, const Settled& set
 Result<Settled> settle_job(Service::State& state, const Request& request, const JobWork& work,
                            Result<Scene>& scene) {
     Lanes::Pass pass(state.lanes);
-    const LaneWork lane{Weight::kLong, 2 * kShort_ms, request.client};
-    while (pass.enter(lane, request.deadline) != Lanes::Entry::kIn)
-        if (const auto over = request.deadline.over()) return *over;
+    if (const Status over = enter_patiently(pass, request)) return *over;
     const int threads = threads_of_one(state);
     if (work.kind == "fly") {
         auto flight = flight_of(**scene, work.flight, threads, request.deadline);
@@ -213,7 +211,7 @@ FlightReport flight_report_of(const JobWork& work, const SceneDraft& scene,
 
 Response answer_sequence(Service::State& state, const Request& request, const JobWork& work) {
     const auto start = Deadline::Clock::now();
-    auto scene = read_request_scene(state, request);
+    auto scene = read_job_scene(state, request);
     if (!scene) return fail(scene.error(), request);
     WorkBudget::Lease lease = state.budget.take(work_bytes(**scene, true));
     if (!lease) return no_memory(state, request);
@@ -232,9 +230,11 @@ Response answer_sequence(Service::State& state, const Request& request, const Jo
         Scene still = *scene;
         std::size_t in_view = 0;
         const double time = frame_time(sequence, i);
-        Drawn drawn = frame_of(state, request, *settled, time, still, in_view);
+        Lanes::Pass pass(state.lanes);
+        Drawn drawn = frame_of(state, request, *settled, time, still, in_view, pass);
         // The lines are full at the moment. What has been drawn is not lost for that.
         if (drawn.refused && drawn.refused->status == 429 && !request.deadline.over()) {
+            pass.leave();
             std::this_thread::sleep_for(kLinesAreFull);
             continue;
         }
@@ -244,6 +244,7 @@ Response answer_sequence(Service::State& state, const Request& request, const Jo
         const auto encoding = Deadline::Clock::now();
         if (const Status failed = reel->add(*drawn.rendered, still, i, request.deadline))
             return fail(*failed, request);
+        pass.leave();
         if (reel->bytes() > limits::kJobBytes)
             return fail(
                 {ErrorCode::kTooLarge, "/scene/sequence/frames",

@@ -274,6 +274,14 @@ std::string_view Response::header(std::string_view name) const {
     return find_header(headers, name);
 }
 
+void Response::share() {
+    if (body.empty()) return;
+    // Where there is no memory for this, the body is still where it was.
+    const auto bytes = std::make_shared<std::string>();
+    bytes->swap(body);
+    shared = bytes;
+}
+
 std::string joined_header(const Request& request, std::string_view name) {
     std::string all;
     for (const auto& [key, value] : request.headers)

@@ -50,7 +50,10 @@ struct Response {
     // Content-Length is not among them; the transport adds it.
     std::vector<std::pair<std::string, std::string>> headers;
     std::string body;
-    // Instead of `body`: appends the next piece to its argument; false when that was the last. Must
+    // Instead of `body`: bytes that are kept for others too, so that however many take them at once, they stand in
+    // memory once. Not empty.
+    std::shared_ptr<const std::string> shared;
+    // Instead of both: appends the next piece to its argument; false when that was the last. Must
     // not throw.
     std::function<bool(std::string& piece)> stream;
     // Nobody waits for it any more: it need not be written.
@@ -60,6 +63,10 @@ struct Response {
     std::vector<std::pair<const char*, double>> stages;
     std::string_view reason;
 
+    // Of `body` or `shared`; "" of a stream.
+    std::string_view bytes() const { return shared ? *shared : body; }
+    // From now on, what is in `body` is shared.
+    void share();
     // "" when absent; names ignore case.
     std::string_view header(std::string_view name) const;
 };

@@ -96,6 +96,11 @@ Response answer_job_work(Service::State& state, const JobWork& work, const Reque
 // a sheet and its layout in one, "flipbook"; of a flight also only its report, "json", which is in its archive too
 // (sequence_job.cpp).
 Response answer_sequence(Service::State& state, const Request& request, const JobWork& work);
+// A lane for a piece of a job, which waits for it as long as the job may take.
+Status enter_patiently(Lanes::Pass& pass, const Request& request);
+// The scene of a job, read in a lane and within the budget as any request's is; both are waited for.
+Result<Scene> read_job_scene(Service::State& state, const Request& request);
+
 // A job of kind impostor (impostor_job.cpp).
 Response answer_impostor(Service::State& state, const Request& request, const JobWork& work);
 

@@ -64,7 +64,7 @@ Response keep_texture(Service::State& state, std::string_view name, const Reques
         return std::move(*refused);
     const WorkBudget::Lease lease = state.budget.take(limits::kTextureWorkBytes);
     if (!lease) return no_memory(state, request);
-    auto texture = read_texture(std::string(name), request.body);
+    auto texture = read_texture(std::string(name), request.body, request.deadline);
     if (!texture) return fail(texture.error(), request);
     std::string body = "{";
     json_text::member("name", (*texture)->name, body);

@@ -28,6 +28,10 @@ def post(body, kind=b"application/json", more=b"", path=b"/v1/plan"):
             str(len(body)).encode() + b"\r\n" + more + b"\r\n" + body)
 
 
+def put(name, body):
+    return b"PUT /v1/textures/" + name + b" HTTP/1.1\r\n" + HOST + b"Content-Length: %d\r\n\r\n" % len(body) + body
+
+
 def length(value, body=b"{}"):
     return raw(b"Content-Length: " + value + b"\r\n", body + HIDDEN)
 
@@ -273,6 +277,9 @@ BODIES = [
     ("a header of PLY without end", post(b"ply\nformat ascii 1.0\n" + b"comment x\n" * 100_000, b"application/x-ply"), 400),
     ("a layout of 10^18", post(b"1000000000000000000\n1\n1000000000000000000 1 1 1 0 0 0 1\n", b"text/x-awn"), {400, 413, 422}),
     ("a layout of as many lines", post(b"1\n1000000000\n", b"text/x-awn"), {400, 413, 422}),
+    ("a picture of 16 GiB in 42 bytes", put(b"bomb", b"GIF89a\xff\xff\xff\xff\x80\0\0\0\0\0\xff\xff\xff"
+                                            b",\0\0\0\0\1\0\1\0\0\2\2\x44\1\0;"), {413, 422}),
+    ("a texture that goes up", put(b"..%2f..%2fx", b"x"), {400, 404, 422}, {400, 404, 422}),
     ("more work than a day's", post(json.dumps({
         "cubes": [{"particles": 4_000_000, "size": [9, 9, 9], "center": [0, 0, 0], "radius": 0.1}],
         "image": {"width": 8192, "height": 4096}, "accuracy": {"rung": "truth"}}).encode(), path=b"/v1/render"),

@@ -16,7 +16,7 @@ import threading
 import time
 
 import attack_table as table
-from serving import Checks, Server
+from serving import SCENE, Checks, Server
 
 AWAN = sys.argv[1]
 WAYS = sys.argv[2:] or ["direct", "nginx"]
@@ -232,6 +232,38 @@ def try_connections(front):
         check.that(front.well(), f"{way}: well beside one that does not read")
 
 
+def try_results(server):
+    """One large result of a job, which a crowd asks for and nobody reads: it stands in memory once."""
+    scene = {**SCENE, "image": {"width": 2048, "height": 1024, "format": "exr", "precision": "float"},
+             "accuracy": {"rung": "single"}, "sky": "physical"}
+    job = server.post("/v1/jobs", {"kind": "render", "scene": scene}).json()
+    until = time.monotonic() + 60
+    while server.ask("GET", job["self"]).json()["state"] in ("queued", "running") and time.monotonic() < until:
+        time.sleep(0.2)
+    whole = server.ask("GET", job["self"] + "/result")
+    check.that(whole.status == 200 and len(whole.body) > 4 << 20, "a large result", whole.status, len(whole.body))
+    before = server.resident_kib()
+    crowd = [connect(server.port) for _ in range(40)]
+    for client in crowd:
+        client.sendall(table.get(job["self"].encode() + b"/result"))
+    time.sleep(2)
+    grown = server.resident_kib() - before
+    check.that(grown < 48 << 10, "a result that many fetch stands in memory once", grown)
+    begun = time.monotonic()
+    check.that(server.ask("GET", "/healthz").status == 200 and time.monotonic() - begun < 1, "well beside them")
+    # Whoever does read it gets it whole.
+    crowd[7].settimeout(30)
+    got = b""
+    while not got.endswith(whole.body[-1000:]):
+        more = crowd[7].recv(1 << 20)
+        if not more:
+            break
+        got += more
+    check.that(got.partition(b"\r\n\r\n")[2] == whole.body, "a result that is read late is whole", len(got))
+    for client in crowd:
+        client.close()
+
+
 def main():
     rows = len(table.FRAMING + table.CHUNKS + table.LINES + table.HEADERS + table.BODIES + table.PIPELINED)
     for way in WAYS:
@@ -242,6 +274,8 @@ def main():
                 try_rows(front)
                 try_pipelines(front)
                 try_connections(front)
+                if way == "direct":
+                    try_results(server)
             finally:
                 front.stop()
             until = time.monotonic() + 20

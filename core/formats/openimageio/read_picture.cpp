@@ -1,14 +1,18 @@
-// awan_read_picture(): the module's only function, and the only user of OpenImageIO.
-#include <ImfThreading.h>
+// awan_pictures: a program that reads one picture (picture_program.h). The only user of OpenImageIO.
 #include <OpenImageIO/imageio.h>
-#include <sys/mman.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <memory>
-#include <string>
+#include <new>
+#include <string_view>
 #include <vector>
 
-#include "core/formats/picture_module.h"
+#include "core/base/descriptor.h"
+#include "core/formats/picture_program.h"
+#include "core/scene/limits.h"
 
 namespace {
 
@@ -19,31 +23,36 @@ constexpr const char* kKinds[] = {"png",  "jpeg",      "tiff", "openexr", "webp"
                                   "fits", "jpeg2000",  "iff",  "sgi",     "ico",  "pnm",
                                   "rla",  "softimage", "targa"};
 
-// The bytes as a file without a name on any disk: readers of every kind take a path.
-class FileOfBytes {
-  public:
-    FileOfBytes(const char* bytes, std::size_t size) : file_(memfd_create("picture", MFD_CLOEXEC)) {
-        for (std::size_t done = 0; file_ >= 0 && done < size;) {
-            const ssize_t wrote = write(file_, bytes + done, size - done);
-            if (wrote <= 0) return;
-            done += static_cast<std::size_t>(wrote);
-        }
-        whole_ = file_ >= 0;
-    }
-    FileOfBytes(const FileOfBytes&) = delete;
-    FileOfBytes& operator=(const FileOfBytes&) = delete;
-    ~FileOfBytes() {
-        if (file_ >= 0) close(file_);
-    }
-    bool whole() const { return whole_; }
-    std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
+// Standard input, for readers of every kind take a path.
+constexpr const char* kPath = "/proc/self/fd/0";
 
-  private:
-    int file_;
-    bool whole_ = false;
-};
+constexpr const char* kTooLarge = "it has more than 16384 pixels along a side or 16777216 in all";
+static_assert(awan::limits::kMaxTexturePixels == 16777216 &&
+                  awan::limits::kMaxTexturePictureSide == 16384,
+              "the text above says it");
 
-std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path, OIIO::ImageSpec& spec) {
+void limit(int what, unsigned long long most) {
+    const rlimit both{most, most};
+    setrlimit(static_cast<__rlimit_resource>(what), &both);
+}
+
+// Nothing of the program that started this one is of use here; and when that one goes, this goes too.
+void keep_within_bounds() {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    close_range(STDERR_FILENO + 1, ~0u, 0);
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_CPU, awan::kPictureSeconds);
+#ifndef AWAN_SANITIZED
+    limit(RLIMIT_DATA, awan::kPictureMemory);
+#endif
+}
+
+void say(const awan::PictureHead& head, std::string_view rest) {
+    awan::write_all(STDOUT_FILENO, {reinterpret_cast<const char*>(&head), sizeof head});
+    awan::write_all(STDOUT_FILENO, rest);
+}
+
+std::unique_ptr<OIIO::ImageInput> open_picture(OIIO::ImageSpec& spec) {
     for (const char* const kind : kKinds) {
         std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(kind);
         if (!input) {
@@ -51,7 +60,9 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path, OIIO::Im
             continue;
         }
         try {
-            if (input->open(path, spec)) return input;
+            if (input->open(kPath, spec)) return input;
+        } catch (const std::bad_alloc&) {
+            throw;
         } catch (const std::exception&) {
         }
         input->geterror();
@@ -59,24 +70,21 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path, OIIO::Im
     return nullptr;
 }
 
-const char* read(const char* bytes, std::size_t size, const awan::PictureBounds& bounds,
-                 awan::TakePicture* take, void* to) {
-    // OpenEXR has one set of threads for the whole process: it stays as it is.
-    const int threads = Imf::globalThreadCount();
-    OIIO::attribute("exr_threads", threads == 0 ? -1 : threads);
+// Null, or what is wrong with it.
+const char* read(int& width, int& height, std::vector<unsigned char>& values) {
+    OIIO::attribute("exr_threads", -1);
     OIIO::attribute("threads", 1);
-    const FileOfBytes file(bytes, size);
-    if (!file.whole()) return "there is no room to read it";
     OIIO::ImageSpec spec;
-    const std::unique_ptr<OIIO::ImageInput> input = open_picture(file.path(), spec);
+    const std::unique_ptr<OIIO::ImageInput> input = open_picture(spec);
     if (!input)
         return "it is no picture of a kind that is read (PNG, JPEG, TIFF, OpenEXR, WebP ...)";
     if (spec.width < 1 || spec.height < 1 || spec.depth != 1 || spec.nchannels < 1 || spec.deep)
         return "it holds no flat picture";
-    if (spec.width > bounds.side || spec.height > bounds.side ||
+    constexpr auto kSide = static_cast<int>(awan::limits::kMaxTexturePictureSide);
+    if (spec.width > kSide || spec.height > kSide ||
         static_cast<unsigned long long>(spec.width) * static_cast<unsigned long long>(spec.height) >
-            bounds.pixels)
-        return bounds.too_large;
+            awan::limits::kMaxTexturePixels)
+        return kTooLarge;
     if (spec.nchannels > 16 || spec.tile_width > spec.width + 4096 ||
         spec.tile_height > spec.height + 4096)
         return "it has too many channels, or tiles that are larger than it is";
@@ -85,7 +93,7 @@ const char* read(const char* bytes, std::size_t size, const awan::PictureBounds&
     const int count = has_alpha || spec.nchannels < 3 ? 1 : 3;
     const std::size_t pixels =
         static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-    std::vector<unsigned char> values(pixels * static_cast<std::size_t>(count));
+    values.resize(pixels * static_cast<std::size_t>(count));
     if (!input->read_image(0, 0, first, first + count, OIIO::TypeDesc::UINT8, values.data())) {
         input->geterror();
         return "it is broken, or ends too soon";
@@ -96,18 +104,33 @@ const char* read(const char* bytes, std::size_t size, const awan::PictureBounds&
             values[i] = static_cast<unsigned char>(
                 (2126 * values[3 * i] + 7152 * values[3 * i + 1] + 722 * values[3 * i + 2]) /
                 10000);
-    take(to, spec.width, spec.height, values.data());
+    values.resize(pixels);
+    width = spec.width;
+    height = spec.height;
     return nullptr;
 }
 
 }  // namespace
 
-extern "C" const char* awan_read_picture(const char* bytes, std::size_t size,
-                                         const awan::PictureBounds& bounds, awan::TakePicture* take,
-                                         void* to) {
+int main() {
+    keep_within_bounds();
+    awan::PictureHead head;
+    std::vector<unsigned char> values;
+    const char* wrong = nullptr;
     try {
-        return read(bytes, size, bounds, take, to);
+        wrong = read(head.width, head.height, values);
+    } catch (const std::bad_alloc&) {
+        wrong = "it takes more memory to read than it may";
     } catch (const std::exception&) {
-        return "it cannot be read";
+        wrong = "it cannot be read";
     }
+    if (wrong == nullptr) {
+        head.outcome = awan::PictureOutcome::kRead;
+        say(head, {reinterpret_cast<const char*>(values.data()), values.size()});
+    } else {
+        if (wrong == kTooLarge) head.outcome = awan::PictureOutcome::kTooLarge;
+        say(head, wrong);
+    }
+    // Not by way of what the libraries do at the end.
+    _exit(0);
 }

@@ -1,0 +1,28 @@
+// What the program says that reads pictures, awan_pictures. OpenImageIO brings more libraries than all else together,
+// its readers are of all ages, keep every word of a file's metadata for as long as their process lives, and cannot be
+// told to stop: so each picture is read by a process of its own, within bounds, that is ended when nobody waits.
+#pragma once
+
+#include <cstdint>
+
+namespace awan {
+
+// What it may take: memory, bytes, for the pixels as the file has them, up to 16 bytes each, as they are read, and the
+// libraries' own; and seconds of a processor, of which the largest picture of the slowest kind takes a few.
+inline constexpr std::uint64_t kPictureMemory = 384u << 20;
+inline constexpr std::uint64_t kPictureSeconds = 30;
+
+// Its name, beside the program or in ../lib/awan of it.
+inline constexpr const char* kPictureProgram = "awan_pictures";
+
+enum class PictureOutcome : std::int32_t { kRead, kTooLarge, kRefused };
+
+// Its standard output begins with this. Its standard input is a file, the picture. What follows: of kRead width x
+// height bytes, row by row from the top left, the alpha of each pixel or where there is none its luminance; else what
+// is wrong, in words.
+struct PictureHead {
+    PictureOutcome outcome = PictureOutcome::kRefused;
+    std::int32_t width = 0, height = 0;
+};
+
+}  // namespace awan
