@@ -1,0 +1,149 @@
+// page_controls.mjs ORIGIN SCRATCH: every control beside the picture once, by keyboard alone: each changes the document, what
+// comes of it is a document, and one step of undo takes it back. Then files of textures, there and back. Started by
+// page_test.sh.
+
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import path from "node:path";
+
+import { download, group, openQuiet, runTests, scratch } from "./page_browser.mjs";
+
+// What changes no document, by what it is called.
+const NO_EDITS = [
+  "Outline", "Factor", "Start with", "Scatter twins", "within", "Insert a file…", "A texture of your own…", "Aim at the cloud",
+  "What does accuracy cost?", "Copy the command: Numbered pictures", "Copy the command: An animation", "With the picture of every rung",
+];
+// What needs something else first: a thickness, a measurement.
+const AFTER_THE_SERVICE = ["Thin", "Medium", "Thick", "Scatter", "Scale all axes"];
+
+const CUBES = [{ particles: 20, size: [2, 2, 2], center: [0, 0, 0], radius: 1 }, { particles: 9, size: [1, 2, 3], center: [3, 0, 0], radius: 0.5, density: 2 }];
+const FULL = {
+  cubes: CUBES, texture: "puff", billboards: 4, time: 1, seed: 5, density: 0.5,
+  sun: { elevation: 30, azimuth: 50, intensity: 20, color: [1, 0.9, 0.8] }, camera: { eye: [3, 2, 20], target: [0, 0, 0], fov: 40 },
+  sky: { model: "gradient" }, ground: { height: -5 }, haze: { extinction: 0.01, scale_height: 10 }, detail: { amount: 0.5, size: 2 },
+  medium: { phase: "mie", droplet: 20 },
+  sequence: { to: 4, frames: 8, camera: [{ time: 0, eye: [0, 0, 20], target: [0, 0, 0], fov: 40 }, { time: 2, eye: [9, 0, 20], target: [0, 0, 0], fov: 30 }] },
+  image: { width: 320, height: 200, exposure: -2 }, accuracy: { error: 0.2 },
+};
+const cloud = (model, own) => ({ clouds: [{ model, [model]: own, translate: [1, 0, 0], velocity: [1, 0, 0], density: 0.5 }] });
+const DOCUMENTS = {
+  cubes: FULL,
+  "cubes as words": { cubes: CUBES },
+  automaton: cloud("automaton", { random: {}, ellipsoids: [{ center: [48, 6, 48], radii: [14, 10, 14] }], wind: { ellipsoids: [{ from: 1, to: 9 }] } }),
+  spheres: cloud("spheres", { kind: "cirrus", morph: {} }),
+  implicit: cloud("implicit", { primitives: [{}], growth: {}, attractors: [{ strength: 1, reach: 60 }], vortices: [{ angle: 90, reach: 60 }] }),
+  ellipsoids: cloud("ellipsoids", { formations: [{}], ellipsoids: [{ center: [0, 0, 0], radii: [1, 1, 1] }], plane: {} }),
+};
+
+const write = async (page, scene) => {
+  await page.locator("#json").fill(JSON.stringify(scene));
+  await page.locator("#json").blur();
+};
+const text = (page) => page.inputValue("#json");
+const nameOf = (control) => control.evaluate((one) => one.getAttribute("aria-label") || one.labels?.[0]?.textContent || one.textContent);
+
+// By keyboard, as people would; a colour alone has no keys but those of a dialogue of the browser's.
+async function use(page, control) {
+  const { tag, type } = await control.evaluate((one) => ({ tag: one.tagName, type: one.type }));
+  if (type === "color") {
+    await control.evaluate((one) => {
+      one.value = one.value === "#808080" ? "#404040" : "#808080";
+      for (const name of ["input", "change"]) one.dispatchEvent(new Event(name, { bubbles: true }));
+    });
+    return;
+  }
+  const before = await text(page);
+  await control.focus();
+  const keys = tag === "BUTTON" ? ["Enter"] : type === "checkbox" ? ["Space"] : tag === "SELECT" ? ["ArrowDown", "ArrowUp"]
+    : type === "range" ? ["ArrowRight", "ArrowLeft"] : type === "number" ? ["ArrowUp", "ArrowDown"] : [];
+  for (const key of keys) {
+    await page.keyboard.press(key);
+    if ((await text(page)) !== before) return;
+  }
+  if (tag === "INPUT" && ["number", "text"].includes(type)) {
+    for (const figures of ["1", "2"]) {
+      await control.fill(figures);
+      if ((await text(page)) !== before) return;
+    }
+  }
+}
+
+const tests = {
+  async "has a control for everything, each of which changes the document, and is taken back"() {
+    const page = await openQuiet();
+    await page.evaluate(() => document.querySelectorAll("#groups details").forEach((one) => { one.open = true; }));
+    const used = new Map(); // name -> whether it ever changed the document
+    for (const [title, scene] of Object.entries(DOCUMENTS)) {
+      await write(page, scene);
+      if (title !== "cubes as words") await page.locator("#shape select[multiple]").selectOption({ index: title === "cubes" ? 1 : 0 });
+      const controls = await page.$$("#groups :is(button, select, input):not([type=file])");
+      for (const control of controls) {
+        if (!(await control.isVisible())) continue;
+        const name = (await nameOf(control)).trim();
+        // Groups that are the same for every model are used once, with each of their forms.
+        const own = await control.evaluate((one) => one.closest(".group")?.querySelector("h2").textContent);
+        const key = `${own}: ${name}`;
+        if (used.get(key) || NO_EDITS.includes(name) || AFTER_THE_SERVICE.includes(name)) continue;
+        const before = await text(page);
+        await use(page, control);
+        const after = await text(page);
+        used.set(key, after !== before);
+        if (after === before) continue;
+        assert.doesNotThrow(() => JSON.parse(after), key);
+        for (let i = 0; i < 3 && (await text(page)) !== before; i += 1) await page.evaluate(() => document.querySelector("#undo").click());
+        assert.equal(await text(page), before, `${title}, ${key}: undone`);
+      }
+    }
+    const idle = [...used].filter(([, changed]) => !changed).map(([key]) => key);
+    console.log(`  ${used.size} controls`);
+    assert.deepEqual(idle, [], "controls that do nothing");
+    assert.ok(used.size > 200, `${used.size} controls`);
+    await page.close();
+  },
+
+  async "paints cubes, and keeps their textures in files of layouts"() {
+    const page = await openQuiet();
+    await group(page, "JSON").locator("summary").click();
+    await write(page, { cubes: CUBES });
+    await page.locator("#shape select[multiple]").selectOption(["/cubes/0", "/cubes/1"]);
+    const shape = page.locator("#shape");
+    await shape.getByLabel("Texture", { exact: true }).selectOption("puff");
+    await shape.getByLabel("Billboards of the cubes").fill("12");
+    const painted = JSON.parse(await text(page)).cubes;
+    assert.deepEqual(painted.map(({ texture, billboards }) => [texture, billboards]), [["puff", 12], ["puff", 12]]);
+    await page.locator("#shape select[multiple]").selectOption("/cubes/1");
+    await shape.getByLabel("Texture", { exact: true }).selectOption("");
+    assert.equal(JSON.parse(await text(page)).cubes[1].texture, undefined);
+    const { bytes } = await download(page, () => page.getByRole("button", { name: ".awa", exact: true }).click());
+    assert.match(bytes.toString(), /^awa 1\r?\n/);
+    const file = path.join(scratch, "painted.awa");
+    fs.writeFileSync(file, bytes);
+    await write(page, { cubes: [] });
+    await page.setInputFiles("#file", file);
+    await page.waitForFunction(() => /puff/.test(document.querySelector("#json").value));
+    const opened = JSON.parse(await text(page)).cubes;
+    assert.deepEqual(opened.map(({ texture, size }) => [texture, size]), [["puff", [2, 2, 2]], [undefined, [1, 2, 3]]]);
+    await page.close();
+  },
+
+  async "makes keys of a camera that moves"() {
+    const page = await openQuiet();
+    await group(page, "JSON").locator("summary").click();
+    await write(page, { cubes: CUBES, camera: { eye: [3, 2, 20], target: [0, 0, 0], fov: 40 }, sequence: { to: 4, frames: 8 } });
+    await group(page, "Time").locator("summary").click();
+    const add = group(page, "Time").getByRole("button", { name: "Add the camera as a key" });
+    await add.click();
+    await page.locator("#stage").focus();
+    await page.keyboard.press("ArrowRight");
+    await add.click();
+    const { camera: [first, second] } = JSON.parse(await text(page)).sequence;
+    assert.deepEqual(first, { time: 0, eye: [3, 2, 20], target: [0, 0, 0], fov: 40 });
+    assert.equal(second.time, 1);
+    assert.notDeepEqual(second.eye, first.eye);
+    await group(page, "Time").getByLabel("camera key 2, time").fill("2.5");
+    assert.equal(JSON.parse(await text(page)).sequence.camera[1].time, 2.5);
+    await page.close();
+  },
+};
+
+process.exit(await runTests(tests, "/#cumulus") ? 0 : 1);
