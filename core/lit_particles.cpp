@@ -9,13 +9,10 @@ namespace awan {
 Result<Scene> scene_of_light(const Scene& scene) {
     SceneDraft draft = *scene;
     const Rung* const named = draft.accuracy.rung ? find_rung(*draft.accuracy.rung) : nullptr;
-    if (named != nullptr && named->cells == 0)
-        return Error{ErrorCode::kInvalidScene, "/accuracy/rung",
-                     std::string("rung ") + named->name +
-                         " has no grid of light; particles are lit by the rungs transport-*"};
     if (draft.look != Look::kPhysical)
         return Error{ErrorCode::kInvalidScene, "/look", "a look has no light of particles to give"};
-    if (named == nullptr) draft.accuracy = {{}, {}, rung_of(RungId::kTransport16).name};
+    if (named == nullptr || named->cells == 0)
+        draft.accuracy = {{}, {}, rung_of(RungId::kTransport16).name};
     draft.detail.reset();
     draft.sequence.reset();
     return validate(std::move(draft));

@@ -9,8 +9,7 @@
 namespace awan {
 
 // The scene as its particles are lit: by the rung `transport-*` that it names, else by transport-16; without detail
-// and at its own time, whatever its sequence. Errors: kInvalidScene, of another rung that it names, and of a look,
-// which has no light.
+// and at its own time, whatever its sequence. Error: kInvalidScene, of a look, which has no light.
 Result<Scene> scene_of_light(const Scene& scene);
 
 // The light of the particles towards the scene's eye (core/draw/particle_light.h). lit: of scene_of_light(); planned:

@@ -1,6 +1,5 @@
-// page_controls.mjs ORIGIN SCRATCH: every control beside the picture once, by keyboard alone: each changes the document, what
-// comes of it is a document, and one step of undo takes it back. Then files of textures, there and back. Started by
-// page_test.sh.
+// page_controls.mjs ORIGIN SCRATCH: every control beside the picture once: each changes the document, and undo takes it back.
+// Then files of textures, there and back, and keys of a camera. Started by page_test.sh.
 
 import assert from "node:assert/strict";
 import fs from "node:fs";
@@ -40,33 +39,50 @@ const write = async (page, scene) => {
   await page.locator("#json").blur();
 };
 const text = (page) => page.inputValue("#json");
-const nameOf = (control) => control.evaluate((one) => one.getAttribute("aria-label") || one.labels?.[0]?.textContent || one.textContent);
 
-// By keyboard, as people would; a colour alone has no keys but those of a dialogue of the browser's.
-async function use(page, control) {
-  const { tag, type } = await control.evaluate((one) => ({ tag: one.tagName, type: one.type }));
-  if (type === "color") {
-    await control.evaluate((one) => {
-      one.value = one.value === "#808080" ? "#404040" : "#808080";
-      for (const name of ["input", "change"]) one.dispatchEvent(new Event(name, { bubbles: true }));
-    });
-    return;
-  }
-  const before = await text(page);
-  await control.focus();
-  const keys = tag === "BUTTON" ? ["Enter"] : type === "checkbox" ? ["Space"] : tag === "SELECT" ? ["ArrowDown", "ArrowUp"]
-    : type === "range" ? ["ArrowRight", "ArrowLeft"] : type === "number" ? ["ArrowUp", "ArrowDown"] : [];
-  for (const key of keys) {
-    await page.keyboard.press(key);
-    if ((await text(page)) !== before) return;
-  }
-  if (tag === "INPUT" && ["number", "text"].includes(type)) {
-    for (const figures of ["1", "2"]) {
-      await control.fill(figures);
-      if ((await text(page)) !== before) return;
+// Uses every control that can be seen, in the page itself; what it did to the document, and whether one step back undoes it.
+// skipped: names of controls, and those that are known already, as "group: name".
+const useAll = (page, skipped) => page.evaluate((skip) => {
+  const json = document.querySelector("#json");
+  const nameOf = (one) => (one.getAttribute("aria-label") || one.labels?.[0]?.textContent || one.textContent).trim();
+  const tell = (one, ...types) => types.forEach((type) => one.dispatchEvent(new Event(type, { bubbles: true })));
+  const values = {
+    color: (one) => [one.value === "#808080" ? "#404040" : "#808080"],
+    number: (one) => [1, 2, 0.5, 8].map((step) => String(Number(one.value) + step)).concat(["1", "2"]),
+    text: () => ["1", "2"],
+    range: (one) => [one.min, one.max],
+  };
+  function use(one) {
+    const before = json.value;
+    one.focus();
+    if (one.tagName === "BUTTON" || one.type === "checkbox") one.click();
+    const of = one.tagName === "SELECT" ? [...one.options].map(({ value }) => value) : values[one.type]?.(one) ?? [];
+    for (const value of of) {
+      if (json.value !== before) break;
+      if (one.value === value) continue;
+      one.value = value;
+      tell(one, "input", "change");
     }
+    document.activeElement.blur();
   }
-}
+  const done = [];
+  for (const one of document.querySelectorAll("#groups :is(button, select, input):not([type=file])")) {
+    if (!one.isConnected || !one.offsetParent || one.disabled) continue;
+    const name = nameOf(one);
+    const key = `${one.closest(".group")?.querySelector("h2").textContent}: ${name}`;
+    if (skip.includes(name) || skip.includes(key)) continue;
+    const before = json.value;
+    use(one);
+    const after = json.value;
+    let steps = 0;
+    while (json.value !== before && steps < 3) {
+      document.querySelector("#undo").click();
+      steps += 1;
+    }
+    done.push({ key, changed: after !== before, isJson: (() => { try { return Boolean(JSON.parse(after)); } catch { return false; } })(), back: json.value === before });
+  }
+  return done;
+}, skipped);
 
 const tests = {
   async "has a control for everything, each of which changes the document, and is taken back"() {
@@ -76,22 +92,10 @@ const tests = {
     for (const [title, scene] of Object.entries(DOCUMENTS)) {
       await write(page, scene);
       if (title !== "cubes as words") await page.locator("#shape select[multiple]").selectOption({ index: title === "cubes" ? 1 : 0 });
-      const controls = await page.$$("#groups :is(button, select, input):not([type=file])");
-      for (const control of controls) {
-        if (!(await control.isVisible())) continue;
-        const name = (await nameOf(control)).trim();
-        // Groups that are the same for every model are used once, with each of their forms.
-        const own = await control.evaluate((one) => one.closest(".group")?.querySelector("h2").textContent);
-        const key = `${own}: ${name}`;
-        if (used.get(key) || NO_EDITS.includes(name) || AFTER_THE_SERVICE.includes(name)) continue;
-        const before = await text(page);
-        await use(page, control);
-        const after = await text(page);
-        used.set(key, after !== before);
-        if (after === before) continue;
-        assert.doesNotThrow(() => JSON.parse(after), key);
-        for (let i = 0; i < 3 && (await text(page)) !== before; i += 1) await page.evaluate(() => document.querySelector("#undo").click());
-        assert.equal(await text(page), before, `${title}, ${key}: undone`);
+      const known = [...used].filter(([, changed]) => changed).map(([key]) => key);
+      for (const { key, changed, isJson, back } of await useAll(page, [...NO_EDITS, ...AFTER_THE_SERVICE, ...known])) {
+        used.set(key, changed || used.get(key) === true);
+        assert.ok(isJson && back, `${title}, ${key}: ${isJson ? "one step back undoes it" : "a document"}`);
       }
     }
     const idle = [...used].filter(([, changed]) => !changed).map(([key]) => key);
@@ -104,7 +108,7 @@ const tests = {
   async "paints cubes, and keeps their textures in files of layouts"() {
     const page = await openQuiet();
     await group(page, "JSON").locator("summary").click();
-    await write(page, { cubes: CUBES });
+    await write(page, { cubes: CUBES.map(({ density: _density, ...cube }) => cube) }); // which no layout says
     await page.locator("#shape select[multiple]").selectOption(["/cubes/0", "/cubes/1"]);
     const shape = page.locator("#shape");
     await shape.getByLabel("Texture", { exact: true }).selectOption("puff");

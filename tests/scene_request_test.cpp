@@ -79,8 +79,7 @@ TEST_F(SceneRequestTest, ParticlesMayHaveTheirLight) {
     const char* const scene =
         R"({"cubes":[{"particles":20,"size":[2,1,2],"center":[0,0,0],"radius":0.5}]})";
     const Response bare = ask(service, "/v1/particles", {{"format", "ply"}}, scene, json);
-    const Response lit =
-        ask(service, "/v1/particles", {{"format", "ply"}, {"light", "1"}}, scene, json);
+    const Response lit = ask(service, "/v1/particles", {{"light", "1"}}, scene, json);
     ASSERT_EQ(lit.status, 200) << lit.body;
     EXPECT_EQ(lit.header("Awan-Particles"), "20");
     EXPECT_NE(lit.header("Awan-Exposure"), "");
@@ -106,9 +105,12 @@ TEST_F(SceneRequestTest, ParticlesMayHaveTheirLight) {
           Query{{"format", "ply"}, {"light", "1"}, {"light", "1"}}})
         expect_problem(ask(service, "/v1/particles", query, scene, json), 400);
     expect_problem(ask(service, "/v1/plan", {{"light", "1"}}, scene, json), 400);
-    expect_problem(ask(service, "/v1/particles",
-                       {{"format", "ply"}, {"light", "1"}, {"rung", "harris"}}, scene, json),
-                   422, "/accuracy/rung");
+    expect_problem(ask(service, "/v1/particles", {{"light", "1"}}, scene,
+                       {{"Content-Type", "application/json"}, {"Accept", "text/csv"}}),
+                   406);
+    const char* const look =
+        R"({"clouds":[{"model":"ellipsoids","ellipsoids":{}}],"look":"gardner"})";
+    expect_problem(ask(service, "/v1/particles", {{"light", "1"}}, look, json), 422, "/look");
 }
 
 TEST_F(SceneRequestTest, AnAnswerComesBackIn) {

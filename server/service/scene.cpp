@@ -33,7 +33,13 @@ constexpr std::array<std::string_view, 1> kLayerOffers = {"image/x-exr"};
 constexpr std::size_t kLongDocument = 1u << 20;
 constexpr std::uint64_t kManyParticles = 200'000;
 
-std::span<const std::string_view> offers_of(std::string_view path) {
+std::span<const std::string_view> offers_of(const Request& request) {
+    const std::string_view path = request.path;
+    const std::pair<std::string, std::string> light{"light", "1"};
+    const auto& query = request.query;
+    // Only PLY holds it.
+    if (path == kParticlesPath && std::find(query.begin(), query.end(), light) != query.end())
+        return std::span(kParticleOffers).subspan(2, 1);
     if (path == kParticlesPath) return kParticleOffers;
     if (path == "/v1/render") return kRenderOffers;
     if (path == kSkyPath) return kRenderOffersExrFirst;
@@ -133,7 +139,7 @@ std::size_t unpacked_bytes(const Request& request) {
 
 Response not_offered(const Request& request, int status, std::string_view what) {
     std::string detail(what);
-    const auto offers = offers_of(request.path);
+    const auto offers = offers_of(request);
     for (const std::string_view offer : offers)
         detail.append(offer == offers.front() ? " " : ", ").append(offer);
     return problem(status, detail, "", request.id);
@@ -144,11 +150,11 @@ bool has_layers(std::string_view path, const Scene& scene) {
 }
 
 // What there is of a scene, in the order that its document prefers.
-std::span<const std::string_view> offers_of(std::string_view path, const Scene& scene) {
-    if (has_layers(path, scene)) return kLayerOffers;
-    if (path == "/v1/render" && scene->image.format == ImageFormat::kExr)
+std::span<const std::string_view> offers_of(const Request& request, const Scene& scene) {
+    if (has_layers(request.path, scene)) return kLayerOffers;
+    if (request.path == "/v1/render" && scene->image.format == ImageFormat::kExr)
         return kRenderOffersExrFirst;
-    return offers_of(path);
+    return offers_of(request);
 }
 
 Response answer_as(Service::State& state, const Request& request, const Scene& scene,
@@ -173,7 +179,7 @@ std::optional<Response> check_scene_request(const Request& request) {
         if (const Status wrong = check_accuracy_query(request)) return fail(*wrong, request);
     if (request.path == kParticlesPath)
         if (const Status wrong = check_particles_query(request)) return fail(*wrong, request);
-    const auto offers = offers_of(request.path);
+    const auto offers = offers_of(request);
     for (const auto& [name, value] : request.query)
         if (name == "format") {
             if (chosen_offer(request, value, offers)) return std::nullopt;
@@ -206,7 +212,7 @@ Response answer_scene_request(Service::State& state, const Request& request) {
             return std::move(*refused);
 
     const std::string format = read->overrides.format.value_or("");
-    const auto type = chosen_offer(request, format, offers_of(request.path, scene));
+    const auto type = chosen_offer(request, format, offers_of(request, scene));
     if (!type && has_layers(request.path, scene))
         return problem(format.empty() ? 406 : 400,
                        "only an EXR holds layers (" + scene->image.layers +
