@@ -112,7 +112,7 @@ const tests = {
     await page.locator("#shape select[multiple]").selectOption(["/cubes/0", "/cubes/1"]);
     const shape = page.locator("#shape");
     await shape.getByLabel("Texture", { exact: true }).selectOption("puff");
-    await shape.getByLabel("Billboards of the cubes").fill("12");
+    await shape.getByLabel("Billboards", { exact: true }).fill("12");
     const painted = JSON.parse(await text(page)).cubes;
     assert.deepEqual(painted.map(({ texture, billboards }) => [texture, billboards]), [["puff", 12], ["puff", 12]]);
     await page.locator("#shape select[multiple]").selectOption("/cubes/1");

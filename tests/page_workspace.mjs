@@ -235,7 +235,7 @@ const tests = {
     await shape.getByRole("button", { name: "Scale all axes" }).click();
     assert.deepEqual((await json(page)).cubes[1], { particles: 40, size: [4, 4, 6], center: [0, 2, 0], radius: 2 });
     await shape.getByLabel("Texture", { exact: true }).selectOption("puff");
-    await shape.getByLabel("Billboards of the cubes").fill("5");
+    await shape.getByLabel("Billboards", { exact: true }).fill("5");
     assert.deepEqual((await json(page)).cubes[1], { particles: 40, size: [4, 4, 6], center: [0, 2, 0], radius: 2, texture: "puff", billboards: 5 });
     while (JSON.stringify(await json(page)) !== JSON.stringify(SCENE)) await page.click("#undo");
   },

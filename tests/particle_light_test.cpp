@@ -93,7 +93,10 @@ TEST(ParticleLight, IsTheSunsScatteredOnceInThinMatter) {
 TEST(ParticleLight, MakesAboutTheSamePicture) {
     SceneDraft draft;
     draft.clouds.resize(1);
-    draft.clouds[0].cubes = {{400, {4, 2, 3}, {0, 0, 0}, 0.9}};
+    Cube& cube = draft.clouds[0].cubes.emplace_back();
+    cube.particles = 400;
+    cube.size = {4, 2, 3};
+    cube.radius = 0.9;
     draft.detail.reset();
     draft.image.width = draft.image.height = 24;
     draft.image.background = Background::kTransparent;

@@ -82,11 +82,12 @@ export function createPanel(store, { actions, select, ids, items, selection, act
   const texture = el("select", { id: textureId, onchange: () => paint("texture", texture.value || undefined) },
     el("option", { value: "" }, "as the cloud's"), ...fieldAt("/cubes/0/texture").examples.map((name) => el("option", { value: name }, name)));
   const billboards = numberInput({
-    pointer: "/cubes/0/billboards", optional: true, placeholder: "as particles", "aria-label": "Billboards of the cubes",
+    id: freshId("billboards"), class: "wide", pointer: "/cubes/0/billboards", optional: true, placeholder: "as particles",
     get: () => ofActive("billboards"), set: (value) => paint("billboards", value),
   });
-  const painted = el("div", { class: "field", hidden: true, title: fieldAt("/cubes/0/texture").says },
-    el("label", { for: textureId }, "Texture"), texture, billboards.input);
+  const painted = el("div", { hidden: true },
+    el("div", { class: "field", title: fieldAt("/cubes/0/texture").says }, el("label", { for: textureId }, "Texture"), texture),
+    el("div", { class: "field", title: fieldAt("/cubes/0/billboards").says }, el("label", { for: billboards.input.id }, "Billboards"), billboards.input));
   function refreshPaint() {
     painted.hidden = cubes().length === 0;
     if (painted.hidden) return;

@@ -13,7 +13,7 @@ namespace awan {
 // both for the same.
 void compress(const Request& request, Response& response);
 
-// What is packed once and sent often: packed as small as gzip can. "" where that would be no smaller, or memory is short.
+// What is packed once and sent often: as small as gzip can. "" where that is no smaller, or memory is short.
 std::string packed_whole(std::string_view text);
 // The same as compress(), with the body as packed_whole() made it.
 void send_packed(const Request& request, std::string_view packed, Response& response);

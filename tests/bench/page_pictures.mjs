@@ -1,7 +1,7 @@
-// page_pictures.mjs ORIGIN SCRATCH: README's pictures of the page, into web/presets/pictures/: page-light.webp, page-dark.webp
+// page_pictures.mjs ORIGIN SCRATCH [light] [dark] [film]: README's pictures of the page, into web/presets/pictures/: page-light.webp, page-dark.webp
 // and page.webp, in which someone turns the cloud, moves a part of it and the sun. Needs build/node (tests/run.sh), WebGL and
 // a server:
-//     build/release/awan serve & AWAN_PAGE_GL=1 node tests/bench/page_pictures.mjs http://127.0.0.1:8080 /tmp/pictures
+//     build/release/awan serve --deadline 300 & AWAN_PAGE_GL=1 node tests/bench/page_pictures.mjs http://127.0.0.1:8080 /tmp/pictures
 import fs from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
@@ -126,9 +126,13 @@ async function film() {
   await page.close();
 }
 
-await still("cumulus", "light", "page-light.webp", (page) => pick(page, "/cubes/3"));
-await still("silver-lining", "dark", "page-dark.webp", async () => {});
-await film();
+const MAKE = {
+  light: () => still("cumulus", "light", "page-light.webp", (page) => pick(page, "/cubes/3")),
+  dark: () => still("silver-lining", "dark", "page-dark.webp", (page) => page.getByRole("button", { name: "Fly", exact: true }).click()),
+  film,
+};
+const wanted = process.argv.slice(4);
+for (const [name, make] of Object.entries(MAKE)) if (!wanted.length || wanted.includes(name)) await make();
 for (const file of ["page-light.webp", "page-dark.webp", "page.webp"]) {
   console.log(`${file}: ${(fs.statSync(path.join(pictures, file)).size / 1000).toFixed(0)} kB`);
 }
