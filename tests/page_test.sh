@@ -54,6 +54,8 @@ arguments=
 use page.mjs
 rm -rf "$scratch/profile"
 use page_state.mjs
+rm -rf "$scratch/profile"
+use page_controls.mjs
 use page_form.mjs
 rm -rf "$scratch/profile"
 use page_looks.mjs

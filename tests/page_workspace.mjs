@@ -234,6 +234,9 @@ const tests = {
     await shape.getByLabel("Factor").fill("2");
     await shape.getByRole("button", { name: "Scale all axes" }).click();
     assert.deepEqual((await json(page)).cubes[1], { particles: 40, size: [4, 4, 6], center: [0, 2, 0], radius: 2 });
+    await shape.getByLabel("Texture", { exact: true }).selectOption("puff");
+    await shape.getByLabel("Billboards", { exact: true }).fill("5");
+    assert.deepEqual((await json(page)).cubes[1], { particles: 40, size: [4, 4, 6], center: [0, 2, 0], radius: 2, texture: "puff", billboards: 5 });
     while (JSON.stringify(await json(page)) !== JSON.stringify(SCENE)) await page.click("#undo");
   },
 
@@ -283,7 +286,7 @@ const tests = {
   async "shows particles while something moves, and the picture when it rests"() {
     const page = await open("/#cumulus");
     await page.waitForFunction(() => document.querySelector('[data-mode="translate"]')?.offsetParent != null);
-    await page.waitForTimeout(300);
+    await page.waitForFunction(() => document.querySelector("#stage").dataset.light === "service");
     const { x, y } = await box(page);
     await page.mouse.move(x + 30, y + 30);
     await page.mouse.down();
@@ -292,6 +295,7 @@ const tests = {
       await page.waitForTimeout(20);
     }
     assert.ok(await page.$("#stage.sprites"), "sprites during the drag");
+    assert.equal(await page.$eval("#stage", (stage) => stage.dataset.light), "service", "in the light that the service said");
     await page.mouse.up();
     await settled(page);
     await page.waitForFunction(() => !document.querySelector("#stage.sprites"));
@@ -375,6 +379,32 @@ const tests = {
     await page.locator("#stage").focus();
     await page.keyboard.press("Delete");
     assert.equal((await json(page)).clouds.length, 2);
+    assert.equal(await page.textContent("#alert"), "");
+  },
+
+  async "takes hold of parcels, which are in cells, and of keys"(page) {
+    const text = page.locator("#json");
+    const shape = page.locator("#shape");
+    await text.fill(JSON.stringify({ ...SCENE, cubes: undefined, clouds: [
+      { model: "automaton", translate: [-4, 0, 0], scale: 2, automaton: { cells: [16, 8, 16], cell: 0.25, ellipsoids: [{ center: [8, 4, 8], radii: [4, 2, 4] }] } },
+      { model: "implicit", translate: [3, 0, 0], implicit: { resolution: 32, primitives: [
+        { shape: "sphere", radius: 1, keys: [{ time: 0, center: [0, 0, 0] }, { time: 1, center: [0, 3, 0], radius: 2 }] }] } },
+    ] }));
+    await text.blur();
+    await clickAt(page, [-4, 2, 0]); // its middle: half a unit a cell, from the middle of the grid's floor
+    assert.deepEqual(await selected(page), ["/clouds/0/automaton/ellipsoids/0"]);
+    assert.equal(await shape.getByLabel("Lengths, x").inputValue(), "4");
+    await shape.getByLabel("Place, y").fill("3");
+    await shape.getByLabel("Lengths, z").fill("2");
+    assert.deepEqual((await json(page)).clouds[0].automaton.ellipsoids, [{ center: [8, 6, 8], radii: [4, 2, 2] }]);
+    await clickAt(page, [3, 3, 0]);
+    assert.deepEqual(await selected(page), ["/clouds/1/implicit/primitives/0/keys/1"]);
+    await shape.getByLabel("Place, x").fill("4");
+    const { keys } = (await json(page)).clouds[1].implicit.primitives[0];
+    assert.deepEqual(keys, [{ time: 0, center: [0, 0, 0] }, { time: 1, center: [1, 3, 0], radius: 2 }]);
+    await page.locator("#stage").focus();
+    await page.keyboard.press("Delete");
+    assert.equal((await json(page)).clouds[1].implicit.primitives[0].keys.length, 1);
     assert.equal(await page.textContent("#alert"), "");
   },
 

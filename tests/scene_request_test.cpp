@@ -1,6 +1,8 @@
 // Requests as people's programs send them: queries, forms, packed bodies, paths with a slash too many.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
 #include <string>
 
 #include "server/document/problem_page.h"
@@ -70,6 +72,45 @@ TEST_F(SceneRequestTest, TablesAreReadAndWhatWasTakenForWhatIsSaid) {
                               "x,y,z\n1,2,3\n", {{"Content-Type", "text/csv"}});
     ASSERT_EQ(bare.status, 200) << bare.body;
     EXPECT_NE(bare.body.find("1,2,3,0.25"), std::string::npos);
+}
+
+TEST_F(SceneRequestTest, ParticlesMayHaveTheirLight) {
+    const Headers json{{"Content-Type", "application/json"}};
+    const char* const scene =
+        R"({"cubes":[{"particles":20,"size":[2,1,2],"center":[0,0,0],"radius":0.5}]})";
+    const Response bare = ask(service, "/v1/particles", {{"format", "ply"}}, scene, json);
+    const Response lit = ask(service, "/v1/particles", {{"light", "1"}}, scene, json);
+    ASSERT_EQ(lit.status, 200) << lit.body;
+    EXPECT_EQ(lit.header("Awan-Particles"), "20");
+    EXPECT_NE(lit.header("Awan-Exposure"), "");
+    EXPECT_EQ(bare.header("Awan-Exposure"), "");
+    EXPECT_NE(lit.header("ETag"), bare.header("ETag"));
+    const std::size_t head = lit.body.find("end_header\n") + 11;
+    EXPECT_NE(lit.body.find("property float light_blue\nend_header\n"), std::string::npos);
+    ASSERT_EQ(lit.body.size(), head + 20 * 56);
+    for (std::size_t i = 0; i < 20; ++i) {
+        float red = 0;
+        std::memcpy(&red, lit.body.data() + head + 56 * i + 44, sizeof red);
+        EXPECT_GT(red, 0) << i;
+        EXPECT_TRUE(std::isfinite(red)) << i;
+    }
+    // It comes back in as particles do; the light is not read.
+    const Response again = post("/v1/particles", lit.body, {}, "application/x-ply");
+    EXPECT_NE(again.header("Awan-Notes").find("light_red"), std::string::npos);
+    EXPECT_EQ(ask(service, "/v1/particles", {{"format", "ply"}, {"light", "0"}}, scene, json).body,
+              bare.body);
+
+    for (const Query& query :
+         {Query{{"format", "ply"}, {"light", "yes"}}, Query{{"format", "json"}, {"light", "1"}},
+          Query{{"format", "ply"}, {"light", "1"}, {"light", "1"}}})
+        expect_problem(ask(service, "/v1/particles", query, scene, json), 400);
+    expect_problem(ask(service, "/v1/plan", {{"light", "1"}}, scene, json), 400);
+    expect_problem(ask(service, "/v1/particles", {{"light", "1"}}, scene,
+                       {{"Content-Type", "application/json"}, {"Accept", "text/csv"}}),
+                   406);
+    const char* const look =
+        R"({"clouds":[{"model":"ellipsoids","ellipsoids":{}}],"look":"gardner"})";
+    expect_problem(ask(service, "/v1/particles", {{"light", "1"}}, look, json), 422, "/look");
 }
 
 TEST_F(SceneRequestTest, AnAnswerComesBackIn) {

@@ -8,6 +8,7 @@
 #include "server/service/pages.h"
 #include "server/service/problem.h"
 #include "service_fixture.h"
+#include "tests/gzip.h"
 
 namespace awan::test {
 namespace {
@@ -33,6 +34,28 @@ TEST_F(ServiceTest, PagesAreStrictAboutScripts) {
         }
         EXPECT_NE(response.header("Content-Type"), "application/octet-stream") << file.name;
     }
+}
+
+// Packed once, as small as zlib can, and the same text for whoever does not take it.
+TEST_F(ServiceTest, PagesArePackedBefore) {
+    std::size_t packed = 0;
+    for (const Page& page : make_pages()) {
+        if (page.packed.empty()) {
+            EXPECT_LT(page.text.size(), 1024U) << page.path;
+            continue;
+        }
+        ++packed;
+        const Response response = get(page.path, {{"Accept-Encoding", "br, gzip"}});
+        EXPECT_EQ(response.header("Content-Encoding"), "gzip") << page.path;
+        EXPECT_EQ(response.body, gzip(page.text)) << page.path;
+        const std::string etag(response.header("ETag"));
+        EXPECT_TRUE(etag.ends_with("-gzip\"")) << etag;
+        EXPECT_EQ(get(page.path, {{"If-None-Match", etag}}).status, 304);
+        const Response plain = get(page.path, {{"Accept-Encoding", "gzip;q=0"}});
+        EXPECT_EQ(plain.body, page.text);
+        EXPECT_EQ(plain.header("Content-Encoding"), "");
+    }
+    EXPECT_GT(packed, 5U);
 }
 
 TEST_F(ServiceTest, EveryPresetIsListedAndCanBe) {

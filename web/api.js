@@ -67,6 +67,12 @@ export async function particles(text, accept, options = {}) {
   return (await post("/v1/particles", text, { accept, ...options })).blob();
 }
 
+// The particles with their light: { buffer, exposure }, a PLY and the stops of the picture. The light is linear radiance.
+export async function litParticles(text, options = {}) {
+  const response = await post("/v1/particles?light=1", text, { accept: "application/x-ply", ...options });
+  return { buffer: await response.arrayBuffer(), exposure: Number(response.headers.get("Awan-Exposure")) || 0 };
+}
+
 // A job's place, from the text of what it is.
 export async function beginJob(text, options = {}) {
   return (await post("/v1/jobs", text, { accept: "application/json", ...options })).headers.get("Location");

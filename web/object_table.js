@@ -33,8 +33,8 @@ function head(columns, row) {
 }
 
 // spec: { title, noun, pointer(), fresh, columns: [{ title, over, member, step, change }], why,
-// change(row, chosen): the row with a choice among words that other fields of it follow.
-// bare: the title is only for those who listen }
+// make(rows): the row that is added, in place of another like the last. change(row, chosen): the row with a choice among
+// words that other fields of it follow. bare: the title is only for those who listen }
 export function createObjectTable(store, spec) {
   const { pointer, noun, columns } = spec;
   const list = () => {
@@ -51,7 +51,7 @@ export function createObjectTable(store, spec) {
     type: "button",
     onclick: () => {
       const all = list();
-      change([...all, structuredClone(all[all.length - 1] ?? spec.fresh)]);
+      change([...all, spec.make ? spec.make(all) : structuredClone(all[all.length - 1] ?? spec.fresh)]);
       body.lastElementChild?.querySelector("input, select")?.focus();
     },
   }, `Add ${spec.one}`);

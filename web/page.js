@@ -91,7 +91,7 @@ const choice = createChoice(store);
 const models = createModels(store, choice, { bounds, note: say, changed: refreshControls });
 const layout = createLayoutTable(store, choice, { redrawn: () => problem && showProblem() });
 const figures = createFigures(store);
-const time = createTime(store, { failed: fail, copy, note: say, show: () => loop.changed({ moving: true, playing: true }) });
+const time = createTime(store, { bounds, failed: fail, copy, note: say, show: () => loop.changed({ moving: true, playing: true }) });
 const stage = createStage({
   nudge: camera.nudge,
   letGo() {

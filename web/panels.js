@@ -203,6 +203,11 @@ function imagePanel(store) {
     side("Width", "width"), side("Height", "height"),
     select(store, { label: "Background", pointer: () => "/image/background" }),
     ...automatic(store, { label: "Exposure", box: "/image/automatic-exposure", first: -3, pointer: "/image/exposure", min: -8, max: 4, step: 0.1 }),
+    select(store, {
+      label: "Layers of an EXR", pointer: () => "/image/layers",
+      choices: [["none", "none: its colours"], ["depth", "depth"], ["depth,transmittance", "depth, transmittance"], ["all", "all: light by its way, too"]],
+      set: (layers) => store.set("/image/layers", layers === "none" ? undefined : layers),
+    }),
   ];
   return { title: "Picture", pointer: "/image", fields };
 }

@@ -9,6 +9,7 @@ import { at } from "./document.js";
 import { byId, el } from "./dom.js";
 import { compactJson } from "./json_text.js";
 import { somethingMoves } from "./models.js";
+import { createObjectTable } from "./object_table.js";
 import { atOrDefault, fieldAt } from "./schema.js";
 
 const FRESH = { from: fieldAt("/sequence/from").standard, to: 10, frames: 100 };
@@ -52,8 +53,9 @@ async function steadyCamera(scene, signal) {
 
 const hasCameraKeys = (scene) => at(scene, "/sequence/camera")?.length > 0;
 
-// show(): a picture of the time that playedScene() has. failed(problem), copy(text), note(text).
-export function createTime(store, { show, failed, copy, note }) {
+// bounds() -> of all clouds, or null. show(): a picture of the time that playedScene() has. failed(problem), copy(text),
+// note(text).
+export function createTime(store, { bounds, show, failed, copy, note }) {
   let playing = null; // { time, clock, camera, preparing }
   let steady = { key: [], camera: null }; // and what it was found for
 
@@ -178,6 +180,18 @@ export function createTime(store, { show, failed, copy, note }) {
     },
   });
   const limits = [ofSequence("From, s", "from"), ofSequence("To, s", "to"), ofSequence("Frames", "frames")];
+  const triple = (over, member) => ["x", "y", "z"].map((title, axis) => ({ title, over, member: `${member}/${axis}` }));
+  const keys = createObjectTable(store, {
+    title: "Camera keys", noun: "camera key", one: "the camera as a key", pointer: () => "/sequence/camera",
+    why: "A camera that moves: where it is at some times, and smoothly so between them.",
+    // As it stands, a second after the last key.
+    make: (all) => {
+      const { eye, target, fov } = cameraOf(store.scene, orbitOf(store.scene, bounds()));
+      const last = all.at(-1)?.time;
+      return { time: isNumber(last) ? short(last + 1) : timeOf(store.scene), eye, target, fov };
+    },
+    columns: [{ title: "time", member: "time", step: 0.1 }, ...triple("eye", "eye"), ...triple("target", "target"), { title: "fov", member: "fov" }],
+  });
   const command = ([what, line]) => el("div", { class: "command" }, el("code", { tabindex: "0", role: "group", "aria-label": what }, line), el("button", {
     type: "button", "aria-label": `Copy the command: ${what}`,
     onclick: async () => {
@@ -191,7 +205,7 @@ export function createTime(store, { show, failed, copy, note }) {
   }, "Copy"));
   const details = el("div", { class: "inner" }, ...limits.map((field) => field.element),
     el("p", { class: "why" }, "An automatic camera holds the clouds of all frames. All of them, from the scene saved as JSON:"),
-    ...COMMANDS.map(command));
+    ...COMMANDS.map(command), keys.element);
   const element = group("Time", "/time-and-frames", false, now.element, on.element, details);
 
   return {
@@ -205,6 +219,7 @@ export function createTime(store, { show, failed, copy, note }) {
       on.refresh();
       details.hidden = sequence() === null;
       limits.forEach((field) => field.refresh());
+      keys.refresh();
     },
   };
 }

@@ -301,7 +301,10 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, seen, fa
   const panel = createPanel(store, { actions, select, ids, items: () => items, selection: () => selection, active, failed, note });
   stage.after(toolbar.element, flight.bar.element);
 
-  const sprites = createSpriteLoop({ view: () => (state === "on" ? view : null), scene: () => store.scene, sun: towardsSun });
+  const sprites = createSpriteLoop({
+    view: () => (state === "on" ? view : null), scene: () => store.scene, seen: () => flight.seen(store.scene), sun: towardsSun,
+    tone: () => atOrDefault(store.scene, "/image/tone"),
+  });
 
   // --- on and off ---
 
@@ -396,7 +399,7 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, seen, fa
   }
   store.subscribe(({ moving, replaced }) => {
     if (replaced) selection = [];
-    sprites.changed(moving);
+    sprites.changed(moving, replaced);
   });
 
   return {

@@ -1,10 +1,10 @@
 // Edits of a scene by its items (workspace_items.js). Each takes a scene and gives another.
 
 import { at, cloudsOf, modelOf, withAt, withCloudList } from "./document.js";
-import { inward, isTriple, outward, partsAt, placeOf, turned } from "./workspace_items.js";
+import { PARCELS, inward, isTriple, outward, partsAt, placeOf, turned } from "./workspace_items.js";
 
 const short = (x) => Number(x.toPrecision(7)) + 0; // + 0: no "-0" in documents
-const LIST = /^(.*?)\/(cubes|implicit\/primitives|ellipsoids\/ellipsoids|ellipsoids\/formations)\/(\d+)$/;
+const LIST = /^(.*?)\/(cubes|implicit\/primitives\/\d+\/keys|implicit\/primitives|ellipsoids\/ellipsoids|ellipsoids\/formations|automaton\/ellipsoids)\/(\d+)$/;
 export const FRESH_CUBE = { particles: 50, size: [2, 2, 2], center: [0, 0, 0], radius: 1 };
 
 // { base, member, index } of a part's id, or null for a cloud's.
@@ -14,7 +14,7 @@ function partOf(id) {
 }
 const cloudOf = (id) => Number(/^\/clouds\/(\d+)/.exec(id)?.[1] ?? 0);
 
-// A change of several lists: change(list, indices) -> list, for each list that holds some of the ids.
+// A change of several lists: change(list, indices, place) -> list, for each list that holds some of the ids.
 function withLists(scene, ids, change) {
   const lists = new Map();
   for (const id of ids) {
@@ -24,12 +24,14 @@ function withLists(scene, ids, change) {
     lists.set(key, [...(lists.get(key) ?? []), part.index]);
   }
   let next = scene;
-  for (const [key, indices] of lists) {
+  // Lists within others come first, while their pointers hold.
+  for (const [key, indices] of [...lists].sort(([a], [b]) => b.length - a.length)) {
     const [base, member] = key.split("|");
     const own = Array.isArray(at(scene, `${base}/${member}`));
     if (!own && member === "implicit/primitives") next = withOwnShapes(next, base);
     const list = partsAt(next, base, member);
-    next = withAt(next, `${base}/${member}`, change([...list], new Set(indices), cloudsOf(scene)[cloudOf(base)].cloud));
+    const { cloud, pointer } = cloudsOf(scene)[cloudOf(base)];
+    next = withAt(next, `${base}/${member}`, change([...list], new Set(indices), placeOf(scene, cloud, pointer, member)));
   }
   return next;
 }
@@ -49,9 +51,8 @@ export function transformed(scene, ids, { move = [0, 0, 0], scale = [1, 1, 1], t
     const inFrame = turned(point.map((x, axis) => x - pivot[axis]), -frame).map((x, axis) => x * scale[axis]);
     return turned(inFrame, frame + turn).map((x, axis) => x + pivot[axis] + move[axis]);
   };
-  let next = withLists(scene, ids, (list, indices, cloud) => {
-    const place = placeOf(scene, cloud);
-    return list.map((part, i) => {
+  let next = withLists(scene, ids, (list, indices, place) => (
+    list.map((part, i) => {
       if (!indices.has(i)) return part;
       const center = inward(place, carried(outward(place, part.center ?? [0, 0, 0]))).map(short);
       const grown = { ...part, center };
@@ -66,8 +67,7 @@ export function transformed(scene, ids, { move = [0, 0, 0], scale = [1, 1, 1], t
         if (Array.isArray(part.points)) grown.points = part.points.map((p) => p.map((x, axis) => short(x * scale[axis])));
       } else if (isTriple(part.radii)) grown.radii = part.radii.map((r, axis) => short(r * scale[axis]));
       return grown;
-    });
-  });
+    })));
   const whole = clouds(ids);
   if (whole.size) {
     next = withCloudList(next);
@@ -88,9 +88,9 @@ export function transformed(scene, ids, { move = [0, 0, 0], scale = [1, 1, 1], t
 // Twins of items, behind the last of their list. [scene, ids of the twins].
 export function duplicated(scene, ids, step) {
   const made = [];
-  const parts = [...ids].filter(partOf);
-  let next = withLists(scene, parts, (list, indices, cloud) => {
-    const place = placeOf(scene, cloud);
+  // No two keys are of one time.
+  const parts = [...ids].filter((id) => partOf(id) && !partOf(id).member.endsWith("/keys"));
+  let next = withLists(scene, parts, (list, indices, place) => {
     const shift = turned(step, -place.turn).map((x) => x / place.scale);
     return [...list, ...list.filter((_one, i) => indices.has(i)).map((part) => ({
       ...structuredClone(part), center: (part.center ?? [0, 0, 0]).map((x, axis) => short(x + shift[axis])),
@@ -138,13 +138,14 @@ export function cleared(scene) {
 export function added(scene, index, center, size) {
   const { cloud, pointer } = cloudsOf(scene)[index] ?? {};
   if (!cloud) return null;
-  const place = placeOf(scene, cloud);
+  const place = placeOf(scene, cloud, pointer, modelOf(cloud) === "automaton" ? PARCELS : "");
   const inside = inward(place, center).map(short);
   const side = short(size / place.scale);
   const [member, fresh] = {
     cubes: ["cubes", { ...FRESH_CUBE, size: [side, side, side], radius: short(side / 2) }],
     implicit: ["implicit/primitives", { shape: "sphere", radius: short(side / 2) }],
     ellipsoids: ["ellipsoids/ellipsoids", { radii: [short(side / 2), short(side / 3), short(side / 2)] }],
+    automaton: [PARCELS, { radii: [short(side / 2), short(side / 3), short(side / 2)] }],
   }[modelOf(cloud)] ?? [];
   if (!member) return null;
   const list = partsAt(scene, pointer, member);

@@ -21,14 +21,23 @@ export function turned([x, y, z], turn) {
   return [x * c + z * s, y, z * c - x * s];
 }
 
-// Where a cloud stands at the scene's time.
-export function placeOf(scene, cloud) {
+// Where a cloud stands at the scene's time; given its pointer and a list of its parts, where these stand: parcels of an
+// automaton are in cells from the corner of its grid, the middle of whose floor is the cloud's origin.
+export function placeOf(scene, cloud, pointer, member) {
   const time = atOrDefault(scene, "/time");
   const velocity = triple(cloud.velocity, [0, 0, 0]);
   const moved = triple(cloud.translate, [0, 0, 0]).map((t, axis) => t + velocity[axis] * (isNumber(time) ? time : 0));
-  return {
+  const place = {
     translate: moved, scale: isNumber(cloud.scale) && cloud.scale > 0 ? cloud.scale : 1, turn: isNumber(cloud.rotate_y) ? cloud.rotate_y : 0,
   };
+  if (member !== PARCELS) return place;
+  const { cells, cell } = gridOf(scene, pointer);
+  return { ...place, translate: outward(place, [-cells[0] * cell / 2, 0, -cells[2] * cell / 2]), scale: place.scale * cell };
+}
+export const PARCELS = "automaton/ellipsoids";
+function gridOf(scene, pointer) {
+  const cell = atOrDefault(scene, `${pointer}/automaton/cell`);
+  return { cells: triple(atOrDefault(scene, `${pointer}/automaton/cells`), [96, 32, 96]), cell: isNumber(cell) && cell > 0 ? cell : 1 };
 }
 
 export const outward = (place, point) => turned(point, place.turn).map((x, axis) => place.translate[axis] + place.scale * x);
@@ -48,7 +57,12 @@ const PARTS = {
     ["ellipsoids/formations", "formation", ({ center, radii, heading }) =>
       [center ?? [0, 0, 0], triple(radii, [3, 2, 3]), isNumber(heading) ? heading : 0, true]],
   ],
+  automaton: [[PARCELS, "parcel", ({ center, radii }) => [center, radii, 0, true]]],
 };
+// Where a primitive's key says where it is by then, the key is a part, too: its size is the key's, or the primitive's.
+const keyLists = (cloud) => (modelOf(cloud) === "implicit" && Array.isArray(cloud.implicit?.primitives) ? cloud.implicit.primitives : [])
+  .flatMap(({ keys, radius } = {}, i) => (Array.isArray(keys) ? [[`implicit/primitives/${i}/keys`, `primitive ${i + 1}, key`,
+    ({ center, radius: own }) => [center, Array(3).fill(own ?? radius ?? 30), 0, true]]] : []));
 
 // A list as it holds in the document, or as the model's preset has it.
 export function partsAt(scene, base, member) {
@@ -68,9 +82,8 @@ function boxOf(scene, cloud, pointer) {
     return [[0, 0, 0], triple(size, [10, 10, 10]).map((side) => side / 2)];
   }
   if (modelOf(cloud) === "automaton") {
-    const cells = triple(atOrDefault(scene, `${pointer}/automaton/cells`), [96, 32, 96]);
-    const cell = atOrDefault(scene, `${pointer}/automaton/cell`);
-    const half = cells.map((count) => (count * (isNumber(cell) ? cell : 1)) / 2);
+    const { cells, cell } = gridOf(scene, pointer);
+    const half = cells.map((count) => (count * cell) / 2);
     return [[0, half[1], 0], half];
   }
   const places = Array.isArray(cloud.positions) ? cloud.positions.slice(0, kMostPlaces).filter(isTriple) : [];
@@ -87,15 +100,17 @@ const MODEL_WORDS = {
 export function itemsOf(scene) {
   return cloudsOf(scene).flatMap(({ cloud, pointer }, index) => {
     const place = placeOf(scene, cloud);
-    const parts = (PARTS[modelOf(cloud)] ?? []).flatMap(([member, kind, shape]) =>
-      partsAt(scene, pointer, member).map((part, i) => {
+    const parts = [...(PARTS[modelOf(cloud)] ?? []), ...keyLists(cloud)].flatMap(([member, kind, shape]) => {
+      const own = placeOf(scene, cloud, pointer, member);
+      return partsAt(scene, pointer, member).map((part, i) => {
         const [center, half, turn, round] = shape(part ?? {});
         if (!isTriple(center) || !isTriple(half)) return null;
         return {
           id: `${pointer}/${member}/${i}`, kind, cloud: index, label: `${kind} ${i + 1}`, whole: false, round,
-          center: outward(place, center), half: half.map((h) => place.scale * h), turn: place.turn + turn,
+          center: outward(own, center), half: half.map((h) => own.scale * h), turn: place.turn + turn,
         };
-      }).filter(Boolean));
+      }).filter(Boolean);
+    });
     let [center, half] = parts.length ? around(parts) : boxOf(scene, cloud, pointer);
     if (!parts.length) [center, half] = [outward(place, center), half.map((h) => place.scale * h)];
     const whole = {

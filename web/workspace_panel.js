@@ -2,6 +2,7 @@
 
 import * as api from "./api.js";
 import { group, numberInput, stepByArrows } from "./controls.js";
+import { at, withAt } from "./document.js";
 import { el, freshId } from "./dom.js";
 import { documentOf } from "./opening.js";
 import { fieldAt } from "./schema.js";
@@ -73,6 +74,29 @@ export function createPanel(store, { actions, select, ids, items, selection, act
     scale[axis] = value / (2 * active().half[axis]);
     actions.transform({ scale, pivot: active().center }, `workspace-size-${axis}`);
   });
+  // What the selected cubes are painted with.
+  const cubes = () => selection().filter((id) => /\/cubes\/\d+$/.test(id));
+  const paint = (member, value) => store.update((scene) => cubes().reduce((next, id) => withAt(next, `${id}/${member}`, value), scene), { key: `workspace-${member}` });
+  const ofActive = (member) => at(store.scene, `${cubes().at(-1) ?? "/cubes/0"}/${member}`);
+  const textureId = freshId("texture");
+  const texture = el("select", { id: textureId, onchange: () => paint("texture", texture.value || undefined) },
+    el("option", { value: "" }, "as the cloud's"), ...fieldAt("/cubes/0/texture").examples.map((name) => el("option", { value: name }, name)));
+  const billboards = numberInput({
+    id: freshId("billboards"), class: "wide", pointer: "/cubes/0/billboards", optional: true, placeholder: "as particles",
+    get: () => ofActive("billboards"), set: (value) => paint("billboards", value),
+  });
+  const painted = el("div", { hidden: true },
+    el("div", { class: "field", title: fieldAt("/cubes/0/texture").says }, el("label", { for: textureId }, "Texture"), texture),
+    el("div", { class: "field", title: fieldAt("/cubes/0/billboards").says }, el("label", { for: billboards.input.id }, "Billboards"), billboards.input));
+  function refreshPaint() {
+    painted.hidden = cubes().length === 0;
+    if (painted.hidden) return;
+    const name = ofActive("texture") ?? "";
+    if (![...texture.options].some(({ value }) => value === name)) texture.append(el("option", { value: name }, name));
+    texture.value = name;
+    billboards.refresh();
+  }
+
   const factorId = freshId("factor");
   const factor = el("input", { type: "number", id: factorId, min: "0.01", max: "100", step: "any", value: "1.25" });
   const scaleAll = el("button", { type: "button", onclick: () => {
@@ -134,7 +158,7 @@ export function createPanel(store, { actions, select, ids, items, selection, act
 
   const element = group("Shape", "", window.matchMedia("(min-width: 60rem)").matches,
     el("label", { for: outlineId, class: "unseen" }, "Outline"), outline, more, what, centre.element, size.element,
-    field("Factor", factorId, factor, scaleAll),
+    field("Factor", factorId, factor, scaleAll), painted,
     field("Start with", starterId, starter,
       button("New", () => actions.change(started(store.scene, starter.value), [])),
       button("Add", () => actions.change(withStarter(store.scene, starter.value)))),
@@ -153,6 +177,7 @@ export function createPanel(store, { actions, select, ids, items, selection, act
     scaleAll.setAttribute("aria-disabled", String(one === null));
     centre.refresh();
     size.refresh();
+    refreshPaint();
   }
   element.addEventListener("toggle", refresh);
 

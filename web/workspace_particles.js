@@ -1,9 +1,10 @@
-// The particles of a scene, as the service's binary answer has them (PLY), and an estimate of the light that each has
-// from the sun, for as long as no picture is there: what lies between it and the sun is summed up on a coarse grid.
+// The particles of a scene, as the service's binary answer has them (PLY), with the light of each; and an estimate of it for
+// as long as the service has not said it: what lies between a particle and the sun is summed up on a coarse grid.
 
 const SIZES = { double: 8, float: 4, int: 4, uint: 4, short: 2, ushort: 2, char: 1, uchar: 1 };
 
-// { count, places, radii, densities, covers } of a little-endian PLY; RangeError when it is none.
+// { count, places, radii, densities, covers, radiance } of a little-endian PLY; RangeError when it is none. radiance: three
+// numbers a particle, or null where the file has none.
 export function readPly(buffer) {
   const head = new TextDecoder("latin1").decode(new Uint8Array(buffer, 0, Math.min(buffer.byteLength, 4096)));
   const end = head.indexOf("end_header\n");
@@ -33,7 +34,14 @@ export function readPly(buffer) {
     densities[i] = density(i);
     covers[i] = coverOf(densities[i], radii[i]);
   }
-  return { count, places, radii, densities, covers };
+  let radiance = null;
+  if (columns.light_red) {
+    radiance = new Float32Array(3 * count);
+    ["light_red", "light_green", "light_blue"].map(column).forEach((value, c) => {
+      for (let i = 0; i < count; i += 1) radiance[3 * i + c] = value(i);
+    });
+  }
+  return { count, places, radii, densities, covers, radiance };
 }
 
 const coverOf = (density, radius) => 1 - Math.exp(-density * (radius / 2) * Math.sqrt(2 * Math.PI));
@@ -55,8 +63,47 @@ export function sparser(set, most) {
   const pick = (list, width, factor) => Float32Array.from({ length: width * count }, (_none, i) =>
     factor * list[width * step * Math.floor(i / width) + (i % width)]);
   const [radii, densities] = [pick(set.radii, 1, larger), pick(set.densities, 1, 1)];
-  return { count, places: pick(set.places, 3, 1), radii, densities, covers: densities.map((density, i) => coverOf(density, radii[i])) };
+  return {
+    count, places: pick(set.places, 3, 1), radii, densities, covers: densities.map((density, i) => coverOf(density, radii[i])),
+    radiance: set.radiance && pick(set.radiance, 3, 1),
+  };
 }
+
+// Radiance as a picture shows it, 0..1 a channel: by the tone curves of the service (core/shaders/tone.glsl) and sRGB.
+const kKnee = 0.5, kWhite = 8, kDesaturation = 0.15;
+function curve(x) {
+  if (x <= kKnee) return Math.max(x, 0);
+  const t = (Math.min(x, kWhite) - kKnee) / (1 - kKnee);
+  const white = (kWhite - kKnee) / (1 - kKnee);
+  return kKnee + ((1 - kKnee) * t * (1 + t / (white * white))) / (1 + t);
+}
+const encoded = (x) => (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
+// exposure: in stops. tone: "neutral" or "reinhard".
+export function displayed(radiance, exposure, tone) {
+  const gain = 2 ** exposure;
+  const shown = new Float32Array(radiance.length);
+  for (let i = 0; i < radiance.length; i += 3) {
+    const [r, g, b] = [gain * radiance[i], gain * radiance[i + 1], gain * radiance[i + 2]];
+    const peak = Math.max(r, g, b);
+    const level = curve(peak);
+    const pale = 1 - 1 / (1 + kDesaturation * (peak - level));
+    const of = (x) => {
+      if (tone === "reinhard") return curve(x);
+      return peak <= kKnee ? x : (x * level * (1 - pale)) / peak + level * pale;
+    };
+    shown[i] = encoded(of(r));
+    shown[i + 1] = encoded(of(g));
+    shown[i + 2] = encoded(of(b));
+  }
+  return shown;
+}
+
+const kLeastLight = 0.02; // of an estimate, to be divided by
+const kMostRelit = 4;
+
+// The light that was known when it was estimated to be `then`, now that it is estimated to be `now`; all of one length.
+export const relit = (known, then, now) => known.map((light, i) =>
+  Math.min(1, light * Math.min(kMostRelit, now[i] / Math.max(kLeastLight, then[i]))));
 
 const kCells = 24; // along each side of the grid
 

@@ -1,21 +1,25 @@
 // While something moves, the particles are shown at once and the picture follows; when it is there, the one goes over into
-// the other. Particles are asked for when the matter has changed: one request under way, and the latest state waits.
+// the other. Particles are asked for when the matter has changed: one request under way, and the latest state waits. Their
+// light is asked of the service while nothing moves; until it is there, and where sun or matter have moved since, it is
+// estimated, and what is known is changed as the estimate changes.
 
 import * as api from "./api.js";
 import { compactJson } from "./json_text.js";
-import { denser, gainOf, litFrom, readPly, sparser } from "./workspace_particles.js";
+import { denser, displayed, gainOf, litFrom, readPly, relit, sparser } from "./workspace_particles.js";
 
 const kMost = 100_000; // sprites; more would not be drawn in time
 const kFadeMs = 220;
 const kRestMs = 350;
+const kMostLit = 400_000; // particles; the light of more is not waited for
 const kSlowFrameMs = 60; // where frames take longer, the pictures of the service are as quick
 const kFramesWatched = 12;
 const kTriedAgainMs = 30_000;
 const kSeenWide = 64, kSeenHigh = 40; // pixels that brightness is compared at
 const ELSEWHERE = new Set(["camera", "image", "sun", "sky", "ground", "haze", "accuracy", "effects", "sequence", "look", "display"]);
 
-// view(): of workspace_view.js, or null. scene() -> the document; sun() -> unit vector to it.
-export function createSpriteLoop({ view, scene, sun }) {
+// view(): of workspace_view.js, or null. scene() -> the document; seen() -> the same, as thick as a flight shows it; sun() ->
+// unit vector to it; tone() -> of the picture.
+export function createSpriteLoop({ view, scene, seen, sun, tone }) {
   let known = null; // { matter, set } of what is shown
   let flight = false;
   let wanted = null;
@@ -28,6 +32,9 @@ export function createSpriteLoop({ view, scene, sun }) {
   let isShown = false; // the picture on the screen is of the latest state
   let flying = false; // whoever flies has nothing else to see by: sprites are shown however slowly
   let thickness = 1; // times the matter of the document
+  let shown = null; // { light, then } of the service's last answer: as it is shown, and what was estimated of the same
+  let lightFlight = null; // an AbortController of the request for it
+  let litScene = null; // what it was last asked for
   const stage = document.getElementById("stage");
   const still = window.matchMedia("(prefers-reduced-motion: reduce)");
 
@@ -60,7 +67,38 @@ export function createSpriteLoop({ view, scene, sun }) {
   const isReady = () => known !== null && known.set !== null && (flying || performance.now() >= slowUntil) && view() !== null;
   function light() {
     const set = denser(known.set, thickness);
-    view()?.particles(set, litFrom(set, sun()));
+    const estimate = litFrom(set, sun());
+    const isKnown = shown?.light.length === estimate.length;
+    view()?.particles(set, isKnown ? relit(shown.light, shown.then, estimate) : estimate);
+    document.getElementById("stage").dataset.light = isKnown ? "service" : "estimate";
+  }
+  // The service's own, when nothing moves. Nobody misses it where it does not come.
+  async function askLight() {
+    const document = seen();
+    if (!known?.set || !view() || document === litScene || lightFlight || known.whole > kMostLit) return;
+    const controller = new AbortController();
+    lightFlight = controller;
+    litScene = document;
+    const { sequence: _sequence, accuracy: _accuracy, ...rest } = document;
+    try {
+      const { buffer, exposure } = await api.litParticles(compactJson(rest), { signal: controller.signal });
+      const set = sparser(readPly(buffer), kMost);
+      if (controller.signal.aborted || !set.radiance || set.count !== known.set?.count) return;
+      shown = { light: displayed(set.radiance, exposure, tone()), then: litFrom(set, sun()) };
+      view()?.spritesGain([1, 1, 1]);
+      light();
+      if (isShown) learn();
+    } catch {
+      // The estimate does.
+    } finally {
+      lightFlight = null;
+    }
+  }
+  // Whoever moves something wants pictures first.
+  function dropLight() {
+    if (!lightFlight) return;
+    lightFlight.abort();
+    litScene = null;
   }
 
   async function ask() {
@@ -76,9 +114,12 @@ export function createSpriteLoop({ view, scene, sun }) {
       const { image: _image, sequence: _sequence, ...rest } = document;
       const blob = await api.particles(compactJson(rest), "application/x-ply");
       const set = readPly(await blob.arrayBuffer());
-      known = { matter, set: sparser(set, kMost) };
+      known = { matter, set: sparser(set, kMost), whole: set.count };
       light();
-      if (isShown) learn();
+      if (isShown) {
+        learn();
+        askLight();
+      }
       if (moving && isReady() && opacity === 0) fade(1);
     } catch {
       // The picture says what is wrong.
@@ -110,9 +151,11 @@ export function createSpriteLoop({ view, scene, sun }) {
   }
 
   return {
-    // The document has changed; `moves`: something is being dragged.
-    changed(moves) {
+    // The document has changed; `moves`: something is being dragged; `another`: it is another one.
+    changed(moves, another) {
       isShown = false;
+      dropLight();
+      if (another) shown = null;
       if (!view()) return;
       const begins = moves && !moving;
       moving = moves;
@@ -153,6 +196,7 @@ export function createSpriteLoop({ view, scene, sun }) {
       isShown = true;
       if (opacity > 0) fade(0);
       learn();
+      askLight();
     },
   };
 }

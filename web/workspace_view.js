@@ -11,7 +11,7 @@ import { createSprites } from "./workspace_sprites.js";
 
 const kRing = 40; // pieces of a ring
 const kPlainWires = 30; // items; more are drawn fainter, but never fainter than this
-const kFaintest = 0.12;
+const kFaintest = 0.03;
 const COLOURS = {
   plain: new Color(0x2f7fd6), selected: new Color(0xf0a020), active: new Color(0xff1f1f), // the active cube is red, as in Rekawan
 };

@@ -59,7 +59,8 @@ void append_csv(const ParticleSet& particles, std::size_t first, std::size_t las
     }
 }
 
-void append_ply_header(const ParticleSet& particles, std::string& out) {
+void append_ply_header(const ParticleSet& particles, std::string& out,
+                       std::span<const glm::vec3> light) {
     out +=
         "ply\n"
         "format binary_little_endian 1.0\n"
@@ -74,12 +75,17 @@ void append_ply_header(const ParticleSet& particles, std::string& out) {
         "property float density\n"
         "property float red\n"
         "property float green\n"
-        "property float blue\n"
-        "end_header\n";
+        "property float blue\n";
+    if (!light.empty())
+        out +=
+            "property float light_red\n"
+            "property float light_green\n"
+            "property float light_blue\n";
+    out += "end_header\n";
 }
 
-void append_ply(const ParticleSet& particles, std::size_t first, std::size_t last,
-                std::string& out) {
+void append_ply(const ParticleSet& particles, std::size_t first, std::size_t last, std::string& out,
+                std::span<const glm::vec3> light) {
     for (std::size_t i = first; i < last; ++i) {
         const glm::dvec3& center = particles.center[i];
         const glm::vec3 color = color_of(particles, i);
@@ -87,6 +93,8 @@ void append_ply(const ParticleSet& particles, std::size_t first, std::size_t las
         for (const float value :
              {particles.radius[i], particles.density[i], color.x, color.y, color.z})
             append_bytes(value, out);
+        if (light.empty()) continue;
+        for (const float value : {light[i].x, light[i].y, light[i].z}) append_bytes(value, out);
     }
 }
 

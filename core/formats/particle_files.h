@@ -2,10 +2,13 @@
 //
 // CSV: header `x,y,z,radius,density,r,g,b`, one particle a line, shortest numbers that read back exactly. PLY: binary
 // little-endian 1.0, one `vertex` element with properties
-//   double x, y, z; float radius, density, red, green, blue   (44 bytes a particle).
+//   double x, y, z; float radius, density, red, green, blue   (44 bytes a particle),
+// and where the particles' light is known, float light_red, light_green, light_blue   (56 bytes).
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,9 +22,11 @@ namespace awan {
 void append_csv_header(std::string& out);
 void append_csv(const ParticleSet& particles, std::size_t first, std::size_t last,
                 std::string& out);
-void append_ply_header(const ParticleSet& particles, std::string& out);
-void append_ply(const ParticleSet& particles, std::size_t first, std::size_t last,
-                std::string& out);
+// light: of each particle, linear radiance; EMPTY: it is not written.
+void append_ply_header(const ParticleSet& particles, std::string& out,
+                       std::span<const glm::vec3> light = {});
+void append_ply(const ParticleSet& particles, std::size_t first, std::size_t last, std::string& out,
+                std::span<const glm::vec3> light = {});
 
 // Appends the shortest decimal that reads back to the same value. Finite values only.
 void append_number(double value, std::string& out);

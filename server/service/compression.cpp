@@ -13,8 +13,8 @@ namespace {
 
 // Below it the head of the answer is the larger part.
 constexpr std::size_t kWorthIt = 1024;
-// An answer is packed once and thrown away, so it is packed fast.
-constexpr int kLevel = 2;
+// An answer is packed once and thrown away, so it is packed fast; what is kept is packed well.
+constexpr int kFast = 2, kWell = 9;
 
 bool is_packable(std::string_view type) {
     // Events leave when they happen; a packer would wait for more.
@@ -27,8 +27,8 @@ bool is_packable(std::string_view type) {
 // A gzip file in the making.
 class Packer {
   public:
-    Packer() {
-        ready_ = deflateInit2(&stream_, kLevel, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) == Z_OK;
+    explicit Packer(int level) {
+        ready_ = deflateInit2(&stream_, level, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) == Z_OK;
     }
     ~Packer() {
         if (ready_) deflateEnd(&stream_);
@@ -77,7 +77,7 @@ void compress(const Request& request, Response& response) {
         (response.bytes().size() < kWorthIt || response.bytes().size() > (1u << 30)))
         return;
     if (!takes_gzip(joined_header(request, "Accept-Encoding"))) return;
-    auto packer = std::make_shared<Packer>();
+    auto packer = std::make_shared<Packer>(kFast);
     if (!packer->ready()) return;
     mark(response);
     if (!response.stream) {
@@ -94,6 +94,21 @@ void compress(const Request& request, Response& response) {
         packer->pack(text, !more, piece);
         return more;
     };
+}
+
+std::string packed_whole(std::string_view text) {
+    std::string packed;
+    Packer packer(kWell);
+    if (text.size() < kWorthIt || !packer.ready()) return packed;
+    packer.pack(text, true, packed);
+    return packed.size() < text.size() ? packed : std::string();
+}
+
+void send_packed(const Request& request, std::string_view packed, Response& response) {
+    if (packed.empty() || response.status != 200) return;
+    if (!takes_gzip(joined_header(request, "Accept-Encoding"))) return;
+    response.body = packed;
+    mark(response);
 }
 
 }  // namespace awan

@@ -4,6 +4,7 @@
 
 #include "core/base/embedded.h"
 #include "server/document/schema.h"
+#include "server/service/compression.h"
 #include "server/service/negotiation.h"
 
 namespace awan {
@@ -36,10 +37,11 @@ std::vector<Page> make_pages() {
         std::string text(file.text);
         if (file.name == "openapi.json") text = whole_contract(file.text);
         const std::string etag = make_etag({text});
+        const std::string packed = packed_whole(text);
         if (file.name == "index.html")
-            pages.push_back({"/", content_type_of(file.name), text, etag});
-        pages.push_back(
-            {"/" + std::string(file.name), content_type_of(file.name), std::move(text), etag});
+            pages.push_back({"/", content_type_of(file.name), text, etag, packed});
+        pages.push_back({"/" + std::string(file.name), content_type_of(file.name), std::move(text),
+                         etag, packed});
     }
     return pages;
 }

@@ -1,15 +1,10 @@
-// POST /v1/particles, /v1/render, /v1/plan: from a body to an answer. /v1/accuracy begins here and
-// goes on in accuracy.cpp.
+// The POST routes: from a body to an answer. /v1/plan is all here; the others go on in files of their own.
 #include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
 
-#include "core/formats/awa.h"
-#include "core/formats/awn.h"
 #include "core/formats/image_file.h"
-#include "core/formats/particle_files.h"
-#include "core/generate/generate.h"
 #include "core/scene/fingerprint.h"
 #include "server/document/json.h"
 #include "server/service/negotiation.h"
@@ -24,11 +19,7 @@ using Clock = Deadline::Clock;
 
 constexpr std::string_view kJson = "application/json";
 constexpr std::string_view kCsv = "text/csv";
-constexpr std::string_view kPly = "application/x-ply";
-constexpr std::string_view kAwn = "text/x-awn";
-constexpr std::string_view kAwa = "text/x-awa";
 
-constexpr std::array kParticleOffers = {kJson, kCsv, kPly, kAwn, kAwa};
 constexpr std::array kPlanOffers = {kJson};
 constexpr std::array kAccuracyOffers = {kJson, kCsv, std::string_view("image/png")};
 constexpr std::array<std::string_view, 2> kRenderOffers = {"image/png", "image/x-exr"};
@@ -42,78 +33,18 @@ constexpr std::array<std::string_view, 1> kLayerOffers = {"image/x-exr"};
 constexpr std::size_t kLongDocument = 1u << 20;
 constexpr std::uint64_t kManyParticles = 200'000;
 
-std::span<const std::string_view> offers_of(std::string_view path) {
-    if (path == "/v1/particles") return kParticleOffers;
+std::span<const std::string_view> offers_of(const Request& request) {
+    const std::string_view path = request.path;
+    const std::pair<std::string, std::string> light{"light", "1"};
+    const auto& query = request.query;
+    // Only PLY holds it.
+    if (path == kParticlesPath && std::find(query.begin(), query.end(), light) != query.end())
+        return std::span(kParticleOffers).subspan(2, 1);
+    if (path == kParticlesPath) return kParticleOffers;
     if (path == "/v1/render") return kRenderOffers;
     if (path == kSkyPath) return kRenderOffersExrFirst;
     if (path == kAccuracyPath) return kAccuracyOffers;
     return kPlanOffers;
-}
-
-// --- /v1/particles
-
-// A particle answer in pieces: the memory of its text is one piece, however long it is.
-struct ParticleText {
-    std::string_view type;
-    ParticleSet particles;
-    std::uint64_t seed = 1;
-    // Held until the last piece is written.
-    WorkBudget::Lease lease;
-    std::size_t next = 0;
-
-    void append_head(std::string& out) const {
-        if (type == kJson) out += particles_json_head(particles, seed);
-        if (type == kCsv) append_csv_header(out);
-        if (type == kPly) append_ply_header(particles, out);
-    }
-    // False when that was the last piece.
-    bool append_piece(std::string& out) {
-        if (next == 0) append_head(out);
-        const std::size_t last = std::min(next + limits::kParticlesPerPiece, particles.size());
-        if (type == kJson) append_particles_json(particles, next, last, out);
-        if (type == kCsv) append_csv(particles, next, last, out);
-        if (type == kPly) append_ply(particles, next, last, out);
-        next = last;
-        if (next < particles.size()) return true;
-        if (type == kJson) out += particles_json_tail();
-        return false;
-    }
-};
-
-Response answer_particles(Service::State& state, const Request& request, const Scene& scene,
-                          std::string_view type, Lanes::Pass& pass) {
-    const std::string etag = make_etag({"particles", fingerprint(scene), engine_version(), type});
-    if (none_match_names(joined_header(request, "If-None-Match"), etag))
-        return not_modified(etag, true);
-    Response response = ok_answer(type, etag);
-    if (type == kAwn || type == kAwa) {
-        auto layout = type == kAwn ? write_awn(*scene) : write_awa(*scene);
-        if (!layout) return fail(layout.error(), request);
-        response.body = std::move(layout).value();
-        return response;
-    }
-    auto text = std::make_shared<ParticleText>();
-    text->lease = state.budget.take(work_bytes(*scene, false));
-    if (!text->lease) return no_memory(state, request);
-
-    const auto start = Clock::now();
-    auto particles = generate(scene, threads_of_one(state), request.deadline);
-    if (!particles) return fail(particles.error(), request);
-    const double generate_ms = ms_since(start);
-    state.metrics.stage_done("generate", generate_ms);
-    pass.leave();
-
-    text->type = type;
-    text->particles = std::move(particles).value();
-    text->seed = scene->seed;
-    response.headers.emplace_back("Awan-Particles", std::to_string(text->particles.size()));
-    response.stages = {{"queue", pass.waited_ms()}, {"generate", generate_ms}};
-    if (text->particles.size() <= limits::kParticlesPerPiece) {
-        text->append_piece(response.body);
-    } else {
-        response.stream = [text](std::string& piece) { return text->append_piece(piece); };
-    }
-    return response;
 }
 
 // --- /v1/plan
@@ -208,7 +139,7 @@ std::size_t unpacked_bytes(const Request& request) {
 
 Response not_offered(const Request& request, int status, std::string_view what) {
     std::string detail(what);
-    const auto offers = offers_of(request.path);
+    const auto offers = offers_of(request);
     for (const std::string_view offer : offers)
         detail.append(offer == offers.front() ? " " : ", ").append(offer);
     return problem(status, detail, "", request.id);
@@ -219,11 +150,11 @@ bool has_layers(std::string_view path, const Scene& scene) {
 }
 
 // What there is of a scene, in the order that its document prefers.
-std::span<const std::string_view> offers_of(std::string_view path, const Scene& scene) {
-    if (has_layers(path, scene)) return kLayerOffers;
-    if (path == "/v1/render" && scene->image.format == ImageFormat::kExr)
+std::span<const std::string_view> offers_of(const Request& request, const Scene& scene) {
+    if (has_layers(request.path, scene)) return kLayerOffers;
+    if (request.path == "/v1/render" && scene->image.format == ImageFormat::kExr)
         return kRenderOffersExrFirst;
-    return offers_of(path);
+    return offers_of(request);
 }
 
 Response answer_as(Service::State& state, const Request& request, const Scene& scene,
@@ -246,7 +177,9 @@ std::optional<Response> check_scene_request(const Request& request) {
     if (auto refused = check_scene_head(request)) return refused;
     if (request.path == kAccuracyPath)
         if (const Status wrong = check_accuracy_query(request)) return fail(*wrong, request);
-    const auto offers = offers_of(request.path);
+    if (request.path == kParticlesPath)
+        if (const Status wrong = check_particles_query(request)) return fail(*wrong, request);
+    const auto offers = offers_of(request);
     for (const auto& [name, value] : request.query)
         if (name == "format") {
             if (chosen_offer(request, value, offers)) return std::nullopt;
@@ -281,7 +214,7 @@ Response answer_scene_request(Service::State& state, const Request& request) {
             return std::move(*refused);
 
     const std::string format = read->overrides.format.value_or("");
-    const auto type = chosen_offer(request, format, offers_of(request.path, scene));
+    const auto type = chosen_offer(request, format, offers_of(request, scene));
     if (!type && has_layers(request.path, scene))
         return problem(format.empty() ? 406 : 400,
                        "only an EXR holds layers (" + scene->image.layers +

@@ -25,6 +25,9 @@ constexpr std::string_view kUrlencoded = "application/x-www-form-urlencoded",
 constexpr std::array<std::string_view, 5> kAccuracyNames = {"theme", "size", "samples", "runs",
                                                             "rungs"};
 
+// That of /v1/particles (scene.cpp).
+constexpr std::string_view kLightName = "light";
+
 // Of a picture that is rendered; a plot has no such thing.
 constexpr std::string_view kPng16Word = kImageFormatWords[static_cast<int>(ImageFormat::kPng16)];
 
@@ -52,15 +55,17 @@ Status check_of_map(const Request& request, std::string_view what, std::string_v
 
 Status check_names(const Request& request) {
     const bool accuracy = request.path == kAccuracyPath;
+    const bool particles = request.path == kParticlesPath;
     for (const auto& [name, value] : request.query) {
         if (Status wrong = check_of_map(request, "query parameter", name)) return wrong;
         if (is_override(name)) continue;
         if (accuracy &&
             std::find(kAccuracyNames.begin(), kAccuracyNames.end(), name) != kAccuracyNames.end())
             continue;
+        if (particles && name == kLightName) continue;
         return Error{ErrorCode::kMalformed, "",
                      "there is no query parameter " + short_quote(name) + "; there are " +
-                         std::string(kOverrideNames) +
+                         std::string(kOverrideNames) + (particles ? ", and here light" : "") +
                          (accuracy ? ", and here theme, size, samples, runs, rungs" : "")};
     }
     return std::nullopt;

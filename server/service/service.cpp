@@ -147,6 +147,7 @@ Response constant_answer(const Request& request, std::string_view content_type,
 
 Response page_answer(const Request& request, const Page& page) {
     Response response = constant_answer(request, page.content_type, page.etag, page.text);
+    send_packed(request, page.packed, response);
     response.headers.emplace_back("Content-Security-Policy", kContentSecurityPolicy);
     // Not "no-referrer": with that, browsers call the origin of a form `null`, which may not post.
     response.headers.emplace_back("Referrer-Policy", "same-origin");

@@ -1,6 +1,7 @@
 // What the rooms of the service share (service.cpp, scene.cpp); nobody else includes it.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <mutex>
 #include <optional>
@@ -71,6 +72,14 @@ Response answer_scene_request(Service::State& state, const Request& request);
 inline constexpr std::string_view kSkyPath = "/v1/sky";
 Response answer_sky(Service::State& state, const Request& request, const Scene& scene,
                     std::optional<int> width, std::string_view type, const Lanes::Pass& pass);
+
+// POST /v1/particles (particles.cpp): its query, and its answer as `type`.
+inline constexpr std::string_view kParticlesPath = "/v1/particles";
+inline constexpr std::array<std::string_view, 5> kParticleOffers = {
+    "application/json", "text/csv", "application/x-ply", "text/x-awn", "text/x-awa"};
+Status check_particles_query(const Request& request);
+Response answer_particles(Service::State& state, const Request& request, const Scene& scene,
+                          std::string_view type, Lanes::Pass& pass);
 
 // POST /v1/accuracy: its query, and its answer as `type`.
 inline constexpr std::string_view kAccuracyPath = "/v1/accuracy";
