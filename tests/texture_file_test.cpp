@@ -2,10 +2,12 @@
 #include "core/formats/texture_file.h"
 
 #include <gtest/gtest.h>
+#include <png.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -82,6 +84,70 @@ TEST(TextureFile, OtherKindsAreRead) {
     ASSERT_TRUE(other.ok()) << other.error().message;
     EXPECT_EQ((*other)->depth[64 * kTextureSide], 255);
     EXPECT_EQ((*other)->depth[64 * kTextureSide + 127], 0);
+}
+
+// PNGs of every kind: bits, palette, interlaced. What counts is the alpha, or the luminance where there is none.
+struct PngKind {
+    int colour, bits, interlace;
+    // The bytes of a pixel whose alpha (or grey, or all of its colours) is `value`.
+    std::string (*pixel)(std::uint8_t value);
+};
+
+std::string png_of_kind(const PngKind& kind, const std::vector<std::uint8_t>& values) {
+    std::string bytes;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    const auto write = [](png_structp from, png_bytep data, std::size_t size) {
+        static_cast<std::string*>(png_get_io_ptr(from))
+            ->append(reinterpret_cast<const char*>(data), size);
+    };
+    png_set_write_fn(png, &bytes, write, [](png_structp) {});
+    png_set_IHDR(png, info, kTextureSide, kTextureSide, kind.bits, kind.colour, kind.interlace,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (kind.colour == PNG_COLOR_TYPE_PALETTE) {
+        std::array<png_color, 256> palette{};
+        std::array<png_byte, 256> alpha{};
+        for (std::size_t i = 0; i < 256; ++i) alpha[i] = static_cast<png_byte>(255 - i);
+        png_set_PLTE(png, info, palette.data(), 256);
+        png_set_tRNS(png, info, alpha.data(), 256, nullptr);
+    }
+    std::vector<std::string> rows(kTextureSide);
+    std::vector<png_bytep> starts;
+    for (std::size_t y = 0; y < kTextureSide; ++y) {
+        for (std::size_t x = 0; x < kTextureSide; ++x)
+            rows[y] += kind.pixel(values[y * kTextureSide + x]);
+        starts.push_back(reinterpret_cast<png_bytep>(rows[y].data()));
+    }
+    png_set_rows(png, info, starts.data());
+    png_write_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
+    png_destroy_write_struct(&png, &info);
+    return bytes;
+}
+
+TEST(TextureFile, PngsOfEveryKindAreRead) {
+    std::vector<std::uint8_t> values(kTextureSide * kTextureSide);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = static_cast<std::uint8_t>(i * 7 + i / 128);
+    using Value = std::uint8_t;
+    const PngKind kinds[] = {
+        {PNG_COLOR_TYPE_GRAY, 8, PNG_INTERLACE_NONE,
+         [](Value v) { return std::string(1, static_cast<char>(v)); }},
+        {PNG_COLOR_TYPE_GRAY, 16, PNG_INTERLACE_ADAM7,
+         [](Value v) { return std::string(2, static_cast<char>(v)); }},
+        {PNG_COLOR_TYPE_PALETTE, 8, PNG_INTERLACE_ADAM7,
+         [](Value v) { return std::string(1, static_cast<char>(255 - v)); }},
+        {PNG_COLOR_TYPE_GRAY_ALPHA, 8, PNG_INTERLACE_NONE,
+         [](Value v) { return "x" + std::string(1, static_cast<char>(v)); }},
+        {PNG_COLOR_TYPE_RGB, 8, PNG_INTERLACE_ADAM7,
+         [](Value v) { return std::string(3, static_cast<char>(v)); }},
+        {PNG_COLOR_TYPE_RGB_ALPHA, 16, PNG_INTERLACE_ADAM7,
+         [](Value v) { return "RrGgBb" + std::string(2, static_cast<char>(v)); }},
+    };
+    for (const PngKind& kind : kinds) {
+        const auto texture = read_texture("mine", png_of_kind(kind, values));
+        ASSERT_TRUE(texture.ok()) << kind.colour << ": " << texture.error().message;
+        EXPECT_EQ((*texture)->depth, values) << kind.colour << ' ' << kind.bits;
+    }
 }
 
 TEST(TextureFile, WhatIsNoPictureIsRefused) {
