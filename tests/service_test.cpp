@@ -326,6 +326,18 @@ TEST_F(ServiceTest, LayersAreForecastToo) {
     EXPECT_EQ(ask("all").reason, "hopeless");
 }
 
+TEST_F(ServiceTest, AMapThatCannotBeDoneInTimeIsRefusedAtOnce) {
+    Request request = make_request("POST", "/v1/sky", kScene);
+    request.query = {{"width", "8192"}};
+    // Ten seconds of work.
+    request.deadline.until = Deadline::Clock::now() + std::chrono::seconds(2);
+    const auto start = Deadline::Clock::now();
+    const Response response = service.answer(request);
+    EXPECT_EQ(response.status, 504);
+    EXPECT_EQ(response.reason, "hopeless");
+    EXPECT_LT(ms_since(start), 1000);
+}
+
 TEST_F(ServiceTest, KeptAnswersCostNothing) {
     ServiceOptions options = with_fake({});
     options.cache_bytes = 1 << 20;

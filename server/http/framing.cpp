@@ -133,8 +133,10 @@ std::optional<FramingError> check_length(RequestHead& head) {
     const bool bodiless = head.method == "GET" || head.method == "HEAD" ||
                           head.method == "OPTIONS" || head.method == "TRACE";
     if (lengths == 0) {
-        // No length is no body (RFC 9112, 6.3); only POST has routes that want one, the rest are told so by 405.
-        if (head.method == "POST") return fail(411, "there is no Content-Length");
+        // No length is no body (RFC 9112, 6.3); only POST and PUT have routes that want one, the rest are told so
+        // by 405.
+        if (head.method == "POST" || head.method == "PUT")
+            return fail(411, "there is no Content-Length");
         return std::nullopt;
     }
     const std::string_view digits = head.header("Content-Length");

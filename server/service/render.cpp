@@ -89,10 +89,6 @@ std::string seconds_text(double ms) {
     return number_text("%.2g s", ms / 1000);
 }
 
-// A prediction may be this many times too long (tests/calibration/RESULTS.md). What would be too slow even then is
-// refused before it costs more.
-constexpr double kHopeless = 2.2;
-
 // What was predicted may take this share of the time there is, to be asked for with good hope.
 constexpr double kFits = 0.7;
 
@@ -127,19 +123,12 @@ struct Way {
     // What the plan and what is left of it are expected to take.
     double encode_ms = 0;
 
-    double left_ms() const {
-        if (request.deadline.until == Clock::time_point::max())
-            return std::numeric_limits<double>::infinity();
-        const std::chrono::duration<double, std::milli> left =
-            request.deadline.until - Clock::now();
-        return std::max(left.count(), 0.0);
-    }
     // Why a plan cannot be carried out before the deadline, and what could be; nothing when it may.
     std::optional<Response> hopeless(const Planned& planned) const {
         const double needed = to_come_ms(planned) + encode_ms;
         const double wait =
             needs_device(planned.plan) ? state.device_lane.wait_ms(weight_of(needed)) : 0;
-        const double left = std::max(left_ms() - wait, 0.0);
+        const double left = std::max(left_ms(request.deadline) - wait, 0.0);
         if (planned.plan.predicted.rung == nullptr || !(needed > kHopeless * left))
             return std::nullopt;
         Response response =
@@ -221,6 +210,12 @@ std::string chosen_by(const Service::State& state, const Accuracy& accuracy) {
 }
 
 }  // namespace
+
+double left_ms(const Deadline& deadline) {
+    if (deadline.until == Clock::time_point::max()) return std::numeric_limits<double>::infinity();
+    const std::chrono::duration<double, std::milli> left = deadline.until - Clock::now();
+    return std::max(left.count(), 0.0);
+}
 
 std::string server_timing(std::span<const std::pair<const char*, double>> milliseconds) {
     std::string header;

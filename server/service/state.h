@@ -71,7 +71,7 @@ Response answer_scene_request(Service::State& state, const Request& request);
 // POST /v1/sky: its map as `type`, `width` pixels wide; none: limits::kSkyMapWidth.
 inline constexpr std::string_view kSkyPath = "/v1/sky";
 Response answer_sky(Service::State& state, const Request& request, const Scene& scene,
-                    std::optional<int> width, std::string_view type, const Lanes::Pass& pass);
+                    std::optional<int> width, std::string_view type, Lanes::Pass& pass);
 
 // POST /v1/particles (particles.cpp): its query, and its answer as `type`.
 inline constexpr std::string_view kParticlesPath = "/v1/particles";
@@ -112,6 +112,12 @@ Result<Scene> read_job_scene(Service::State& state, const Request& request);
 
 // A job of kind impostor (impostor_job.cpp).
 Response answer_impostor(Service::State& state, const Request& request, const JobWork& work);
+
+// A prediction may be this many times too long (tests/calibration/RESULTS.md). What would be too slow even then is
+// refused before it costs more.
+inline constexpr double kHopeless = 2.2;
+// Until it is over, ms; infinite where there is none.
+double left_ms(const Deadline& deadline);
 
 // Draws what is planned: with the device, in whose line it waits while another computes in its lane, or in its lane.
 // pass: in a lane, before and after. `refused`: what is to be said where it got no lane; then there is no picture.

@@ -94,6 +94,7 @@ FRAMING = [
     ("a length with a NUL", length(b"2\x00"), 400),
     ("leading noughts", raw(b"Content-Length: 0002\r\n", b"{}"), 422),
     ("no length", raw(b"", HIDDEN), 411),
+    ("a PUT of no length", b"PUT /v1/textures/a HTTP/1.1\r\n" + HOST + b"\r\n" + HIDDEN, 411),
     ("a body of GET", get(b"/healthz", b"Content-Length: %d\r\n" % len(HIDDEN)) + HIDDEN, 400),
     ("a chunked GET", get(b"/healthz", b"Transfer-Encoding: chunked\r\n") + END + HIDDEN, {400, 411}),
     ("a body of HEAD", b"HEAD /healthz HTTP/1.1\r\n" + HOST + b"Content-Length: 2\r\n\r\n{}" + HIDDEN, 400),
