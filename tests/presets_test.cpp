@@ -65,7 +65,8 @@ TEST(Presets, AreToldApartFromMistakes) {
     EXPECT_EQ(wrong(R"({"preset": "congestus", "sun": {"elevaton": 3}})")
                   .find("/sun/elevaton: unknown field"),
               0U);
-    EXPECT_NE(wrong("{\"preset\": \"congestus\",\n \"sun\": }").find("line 2"), std::string::npos)
+    EXPECT_NE(wrong("{\"preset\": \"congestus\",\n \"sun\": }").find("line 2, column 9"),
+              std::string::npos)
         << wrong("{\"preset\": \"congestus\",\n \"sun\": }");
     EXPECT_NE(wrong("{\"preset\": \"congestus\", \"_deep\": " + std::string(100, '[') +
                     std::string(100, ']') + "}"),

@@ -151,7 +151,8 @@ TEST(SceneText, FormatIsSeenFromTheFirstBytes) {
     EXPECT_EQ(sniff_scene_format(" \n{\"cubes\":[]}"), SceneFormat::kJson);
     EXPECT_EQ(sniff_scene_format("ply\nformat ascii 1.0\n"), SceneFormat::kPly);
     EXPECT_EQ(sniff_scene_format("x,y,z,radius\n"), SceneFormat::kCsv);
-    EXPECT_EQ(sniff_scene_format("200 1\n6.1e-007, 1"), SceneFormat::kAwn);
+    EXPECT_EQ(sniff_scene_format("200\n1\n6.1e-007, 1"), SceneFormat::kAwn);
+    EXPECT_EQ(sniff_scene_format("200 1 6\n6.1e-007 1 6\n"), SceneFormat::kCsv);
     EXPECT_EQ(scene_format_of_name("a.AWN"), SceneFormat::kAwn);
     EXPECT_EQ(scene_format_of_name("json"), std::nullopt);
 }

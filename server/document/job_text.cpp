@@ -47,7 +47,7 @@ class JobScanner {
         return {ErrorCode::kInvalidScene, pointer, what};
     }
     Error malformed(const std::string& what) const {
-        return {ErrorCode::kMalformed, "", not_json(text_, at_, what)};
+        return {ErrorCode::kMalformed, "", not_json(text_, at_ + 1, what)};
     }
 
     static Status member(std::string_view name, std::string_view value, JobText& job) {

@@ -120,7 +120,7 @@ Result<std::string> with_preset(std::string_view text) {
         const std::string_view what = e.what();
         const std::size_t reason = what.find(" - ");
         return Error{ErrorCode::kMalformed, "",
-                     not_json(text, e.byte > 0 ? e.byte - 1 : 0,
+                     not_json(text, e.byte,
                               reason == std::string_view::npos ? "" : what.substr(reason + 3))};
     } catch (const json::exception&) {  // a number that overflows
         return Error{ErrorCode::kInvalidScene, "", "numbers must be finite: one overflows"};
