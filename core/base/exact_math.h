@@ -45,7 +45,8 @@ struct SinCos {
 SinCos sincos_degrees(double degrees);
 
 // What particles of a seed are made with, older and rougher than sin and exp: whoever changed a bit of these would
-// change everybody's clouds. Absolute error < 1e-12 for |x| < 1e3; e^x for x <= 0, 0 below -700, relative error < 2e-14.
+// change everybody's clouds. Absolute error < 1e-12 for |x| < 1e3; e^x for x <= 0, 0 below -700, relative error
+// < 2e-14.
 double seeded_sin(double x);
 double seeded_exp(double x);
 
