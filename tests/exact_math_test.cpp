@@ -138,6 +138,22 @@ TEST(ExactMath, SpecialValuesAreThoseOfTheLibrary) {
         }
 }
 
+TEST(ExactMath, SeededFunctionsAreRougher) {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> wide(-1000, 1000);
+    for (int i = 0; i < 10000; ++i) {
+        const double x = wide(random);
+        ASSERT_NEAR(exact::seeded_sin(x), std::sin(x), 1e-12) << x;
+        const exact::SinCos both = exact::sincos_degrees(x);
+        ASSERT_NEAR(both.sin, std::sin(x * std::numbers::pi / 180), 1e-13) << x;
+        ASSERT_NEAR(both.cos, std::cos(x * std::numbers::pi / 180), 1e-13) << x;
+    }
+    for (double x = 0; x > -690; x -= 0.37)
+        ASSERT_NEAR(exact::seeded_exp(x) / std::exp(x), 1, 2e-14) << x;
+    EXPECT_EQ(exact::seeded_exp(0), 1);
+    EXPECT_EQ(exact::seeded_exp(-std::numeric_limits<double>::infinity()), 0);
+}
+
 TEST(ExactMath, FloatsAreRoundedDoubles) {
     std::mt19937_64 random(2);
     std::uniform_real_distribution<float> some(0.01f, 10);
@@ -171,8 +187,10 @@ TEST(ExactMath, HasTheSameBitsOnEveryMachine) {
         const exact::SinCos both = exact::sincos_degrees(37 * y);
         add(both.sin);
         add(both.cos);
+        add(exact::seeded_sin(y));
+        add(exact::seeded_exp(-x));
     }
-    EXPECT_EQ(hash, 0x5c2ca4774b363e1bu) << std::hex << hash;
+    EXPECT_EQ(hash, 0x94dc3f141a963f4cu) << std::hex << hash;
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ TEST(FlightGear, LongCubesAreCutIntoNearlySquareOnes) {
 TEST(FlightGear, ThickCloudsAreDarkBelowAndThinOnesClear) {
     Cube thin = cube({2, 2, 2}, {0, 0, 0}), thick = cube({2, 2, 2}, {9, 0, 0});
     thin.density = 1e-4;
-    thick.density = 10;
+    thick.density = 1000;
     SceneDraft draft;
     Cloud cloud;
     cloud.density = 1.0;

@@ -112,14 +112,6 @@ double tan(double x) {
     return of.sin / of.cos;
 }
 
-SinCos sincos_degrees(double degrees) {
-    double r = std::fmod(degrees, 360.0);
-    if (r < 0) r += 360.0;
-    // The nearest multiple of a right angle, 0..4.
-    const int quarter = static_cast<int>(std::floor(r / 90.0 + 0.5));
-    return sincos_of({quarter & 3, (r - 90.0 * quarter) * (std::numbers::pi / 180.0), 0});
-}
-
 double atan(double x) {
     if (std::isnan(x)) return x;
     const bool steep = std::abs(x) > 1;

@@ -77,7 +77,7 @@ std::vector<Blob> sampled(const Cloud& cloud, Fill fill, std::uint64_t key, std:
 // apart: the square of their distance across the axis.
 double met_depth(const Blob& a, const Blob& b, double apart) {
     const double width = a.s * a.s + b.s * b.s;
-    return exact::exp(-apart / (2 * width)) / (2 * std::numbers::pi * width);
+    return exact::seeded_exp(-apart / (2 * width)) / (2 * std::numbers::pi * width);
 }
 
 // The mean depth for a density of 1, weighted by mass, along each axis. `all`: particles of the cloud.

@@ -28,9 +28,9 @@ double reflect(double x, double half) {
 FilledParticle gardner_particle(const Cube& cube, const std::array<double, 4>& u) {
     const glm::dvec3 p = cube.size * glm::dvec3(u[0] - 0.5, u[1] - 0.5, u[2] - 0.5);
     const double fx = 2 * pi / cube.size.x, fy = 2 * pi / cube.size.y;
-    const double depth_phase = pi * exact::sin(fx * p.z / 2);
-    const double px = pi / 2 * exact::sin(fy * p.y) + depth_phase;
-    const double py = pi / 2 * exact::sin(fx * p.x) + depth_phase;
+    const double depth_phase = pi * exact::seeded_sin(fx * p.z / 2);
+    const double px = pi / 2 * exact::seeded_sin(fy * p.y) + depth_phase;
+    const double py = pi / 2 * exact::seeded_sin(fx * p.x) + depth_phase;
     const glm::dvec3 moved(reflect(p.x + px / fx, cube.size.x / 2),
                            reflect(p.y + py / fy, cube.size.y / 2), p.z);
     return {cube.center + moved, cube.radius * u[3]};
@@ -76,12 +76,12 @@ glm::dvec3 printed_position(const Cube& cube, glm::dvec3 random3) {
     glm::dvec3 x = random3 * cube.size;
     const glm::dvec3 half(x / 2.0);
     // (4.5): the phases from across.
-    double px = pi / 2 * exact::sin(half.y);
-    double py = pi / 2 * exact::sin(half.x);
-    const double pz = pi / 2 * exact::sin(half.z);
+    double px = pi / 2 * exact::seeded_sin(half.y);
+    double py = pi / 2 * exact::seeded_sin(half.x);
+    const double pz = pi / 2 * exact::seeded_sin(half.z);
     // (4.6), the second line with the first line's result.
-    px += pi * exact::sin(px * half.z);
-    py += pi * exact::sin(px * half.z);
+    px += pi * exact::seeded_sin(px * half.z);
+    py += pi * exact::seeded_sin(px * half.z);
     // (4.7): the phases move the point.
     x += glm::dvec3(px, py, pz);
     // (4.8): half of it, from the centre.
@@ -92,7 +92,7 @@ double printed_radius(double max_radius, double random1) {
     // (4.9)-(4.11): a large random number modulo the largest radius.
     const double r = random1 * max_radius;
     // (4.12): its phase.
-    return r + pi / 2 * exact::sin(r);
+    return r + pi / 2 * exact::seeded_sin(r);
 }
 
 void fill_cube(const Cube& cube, Fill fill, std::uint64_t key, std::uint64_t first,

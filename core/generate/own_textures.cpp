@@ -55,8 +55,8 @@ double rise(double from, double to, double x) {
 constexpr std::uint64_t kKey = 0x617761;
 
 double soft(double x, double y) {
-    const double rim = exact::exp(-4.5);
-    return (exact::exp(-4.5 * (x * x + y * y)) - rim) / (1 - rim);
+    const double rim = exact::seeded_exp(-4.5);
+    return (exact::seeded_exp(-4.5 * (x * x + y * y)) - rim) / (1 - rim);
 }
 
 // As deep as a ball, its radius by noise.

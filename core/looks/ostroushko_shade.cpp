@@ -50,7 +50,7 @@ glm::dvec3 bumped(const glm::dvec3& normal, std::uint64_t key) {
         const glm::dvec3 wave =
             kSteepest * glm::dvec3(part(bits, 0), part(bits, 16), part(bits, 32));
         const double phase = std::numbers::pi * part(bits, 48);
-        slope += kBump * exact::sin(glm::dot(wave, normal) + phase) * wave;
+        slope += kBump * exact::seeded_sin(glm::dot(wave, normal) + phase) * wave;
     }
     slope -= glm::dot(slope, normal) * normal;
     return glm::normalize(normal - slope);

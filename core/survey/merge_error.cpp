@@ -52,11 +52,11 @@ float transmittance(const ParticleSet& particles, const MergeBlocks& blocks,
             const double along = glm::dot(to, ray.direction), s = gaussian_s(particles, i);
             const double aside2 = glm::dot(to, to) - along * along;
             if (aside2 > kMergeCut * kMergeCut * s * s || along < -kMergeCut * s) continue;
-            depth += central_depth(particles, i) * exact::exp(-0.5 * aside2 / (s * s)) *
+            depth += central_depth(particles, i) * exact::seeded_exp(-0.5 * aside2 / (s * s)) *
                      normal_cdf(along / s);
         }
     }
-    return static_cast<float>(exact::exp(-depth));
+    return static_cast<float>(exact::seeded_exp(-depth));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ emulated=(qemu-aarch64 -L "$root" "$top/build/aarch64/awan")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 aarch64-linux-gnu-g++ --sysroot="$root" -std=c++20 -O2 -ffp-contract=off -fno-math-errno -I. tests/exact_math_test.cpp \
-    core/base/exact_math.cpp core/base/exact_angles.cpp -lgtest -lgtest_main -o "$work/exact_math_test" || exit 1
+    core/base/exact_*.cpp -lgtest -lgtest_main -o "$work/exact_math_test" || exit 1
 qemu-aarch64 -L "$root" "$work/exact_math_test" >"$work/exact.log" || { cat "$work/exact.log"; fail "exact_math_test"; }
 
 # --- the bytes
