@@ -274,6 +274,7 @@ export function createView(canvas, told) {
         grid = new GridHelper(cells * cell, cells, 0x66788a, 0x8fa0b0);
         Object.assign(grid.material, { transparent: true, opacity: 0.6 });
         Object.assign(grid.userData, { cell, cells });
+        grid.visible = wires.object.visible;
         scene.add(grid);
       }
       grid.position.set(Math.round(center[0] / cell) * cell, min[1], Math.round(center[2] / cell) * cell);
@@ -282,7 +283,7 @@ export function createView(canvas, told) {
     },
     // Nobody takes hold of anything in a flight.
     flies(yes) {
-      for (const one of [wires.object, axes, dome.group, gizmo.getHelper()]) one.visible = !yes;
+      for (const one of [wires.object, axes, dome.group, gizmo.getHelper(), ...(grid ? [grid] : [])]) one.visible = !yes;
       draw();
     },
     items(list) {

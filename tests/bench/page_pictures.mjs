@@ -133,7 +133,7 @@ const MAKE = {
 };
 const wanted = process.argv.slice(4);
 for (const [name, make] of Object.entries(MAKE)) if (!wanted.length || wanted.includes(name)) await make();
-for (const file of ["page-light.webp", "page-dark.webp", "page.webp"]) {
+for (const file of fs.readdirSync(pictures).filter((one) => /^page.*\.webp$/.test(one))) {
   console.log(`${file}: ${(fs.statSync(path.join(pictures, file)).size / 1000).toFixed(0)} kB`);
 }
 await context.close();
