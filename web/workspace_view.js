@@ -130,6 +130,7 @@ export function createView(canvas, told) {
   let grid = null;
   let items = [];
   let gain = [1, 1, 1]; // of the sprites' light
+  let detail = 1; // share of the screen's pixels along a side that are drawn
   let home = { center: [0, 0, 0], radius: 5 }; // what is looked at: the grid lies under it, the dome stands around it
   const handle = new Object3D();
   const gizmo = new TransformControls(camera, canvas);
@@ -243,7 +244,7 @@ export function createView(canvas, told) {
 
   return {
     resize() {
-      renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+      renderer.setPixelRatio(detail * Math.min(2, window.devicePixelRatio));
       renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
       draw();
     },
@@ -362,6 +363,11 @@ export function createView(canvas, told) {
       gain = value;
       sprites.gain(value);
       draw();
+    },
+    detail(share) {
+      if (share === detail) return;
+      detail = share;
+      this.resize();
     },
     spritesAt(opacity) {
       sprites.object.visible = opacity > 0;
