@@ -29,6 +29,7 @@ SceneDraft cloud(double density) {
     draft.density = density;
     draft.detail.reset();
     draft.sky.physical = false;
+    draft.camera.automatic = false;
     draft.camera.eye = glm::dvec3(3, 2, 12);
     draft.camera.target = glm::dvec3(0);
     return draft;
@@ -82,14 +83,16 @@ TEST(ParticleLight, IsTheSunsScatteredOnceInThinMatter) {
         for (std::size_t i = 0; i < light.size(); ++i) {
             const double cosine =
                 glm::dot(glm::normalize(particles.center[i] - eye), outside.to_sun);
-            const glm::dvec3 exact = 0.8 * outside.sun * phase_value(scene->medium, cosine);
+            const glm::dvec3 exact =
+                0.8 * outside.sun * phase_value(scene->medium, cosine) / (4 * std::numbers::pi);
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(light[i][c] / static_cast<float>(exact[c]), 1, 0.01) << i << ' ' << c;
         }
     }
 }
 
-// Particles of that light, laid over each other, are about as bright as the picture that the transport rung draws.
+// Particles of that light, laid over each other, are about as bright as the picture of the transport rung, where
+// they are thick: light that the forward peak has scattered comes through more matter than is behind a thin veil.
 TEST(ParticleLight, MakesAboutTheSamePicture) {
     SceneDraft draft;
     draft.clouds.resize(1);
@@ -97,6 +100,7 @@ TEST(ParticleLight, MakesAboutTheSamePicture) {
     cube.particles = 400;
     cube.size = {4, 2, 3};
     cube.radius = 0.9;
+    draft.density = 30;
     draft.detail.reset();
     draft.image.width = draft.image.height = 24;
     draft.image.background = Background::kTransparent;

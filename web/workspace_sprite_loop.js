@@ -13,6 +13,7 @@ const kRestMs = 350;
 const kMostLit = 400_000; // particles; the light of more is not waited for
 const kSlowFrameMs = 60; // where frames take longer, the pictures of the service are as quick
 const kFramesWatched = 12;
+const kLeastDetail = 1 / 8; // of the screen's pixels along a side, in a flight whose frames take too long
 const kTriedAgainMs = 30_000;
 const kSeenWide = 64, kSeenHigh = 40; // pixels that brightness is compared at
 const ELSEWHERE = new Set(["camera", "image", "sun", "sky", "ground", "haze", "accuracy", "effects", "sequence", "look", "display"]);
@@ -30,6 +31,8 @@ export function createSpriteLoop({ view, scene, seen, sun, tone }) {
   let slowUntil = 0; // no sprites before
   let frames = [];
   let isShown = false; // the picture on the screen is of the latest state
+  let detail = 1;
+  let slowFrames = 0; // of a flight, one after the other
   let flying = false; // whoever flies has nothing else to see by: sprites are shown however slowly
   let thickness = 1; // times the matter of the document
   let shown = null; // { light, then } of the service's last answer: as it is shown, and what was estimated of the same
@@ -65,6 +68,10 @@ export function createSpriteLoop({ view, scene, seen, sun, tone }) {
     if (gain) view().spritesGain(gain);
   }
   const isReady = () => known !== null && known.set !== null && (flying || performance.now() >= slowUntil) && view() !== null;
+  function sharpen(share) {
+    [detail, slowFrames] = [share, 0];
+    view()?.detail(share);
+  }
   function light() {
     const set = denser(known.set, thickness);
     const estimate = litFrom(set, sun());
@@ -183,8 +190,11 @@ export function createSpriteLoop({ view, scene, seen, sun, tone }) {
     // The eye of a flight moves. False when there are no particles to show.
     moves() {
       isShown = false;
+      const now = performance.now();
+      slowFrames = moving && now - lastMove > kSlowFrameMs ? slowFrames + 1 : 0;
+      if (slowFrames >= 2 && detail > kLeastDetail) sharpen(detail / 2);
       moving = true;
-      lastMove = performance.now();
+      lastMove = now;
       if (isReady() && opacity === 0) fade(1);
       return isReady();
     },
@@ -194,6 +204,7 @@ export function createSpriteLoop({ view, scene, seen, sun, tone }) {
       if (moving && performance.now() - lastMove < kRestMs) return;
       moving = false;
       isShown = true;
+      sharpen(1);
       if (opacity > 0) fade(0);
       learn();
       askLight();

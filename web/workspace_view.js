@@ -130,6 +130,7 @@ export function createView(canvas, told) {
   let grid = null;
   let items = [];
   let gain = [1, 1, 1]; // of the sprites' light
+  let detail = 1; // share of the screen's pixels along a side that are drawn
   let home = { center: [0, 0, 0], radius: 5 }; // what is looked at: the grid lies under it, the dome stands around it
   const handle = new Object3D();
   const gizmo = new TransformControls(camera, canvas);
@@ -243,7 +244,7 @@ export function createView(canvas, told) {
 
   return {
     resize() {
-      renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+      renderer.setPixelRatio(detail * Math.min(2, window.devicePixelRatio));
       renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
       draw();
     },
@@ -274,6 +275,7 @@ export function createView(canvas, told) {
         grid = new GridHelper(cells * cell, cells, 0x66788a, 0x8fa0b0);
         Object.assign(grid.material, { transparent: true, opacity: 0.6 });
         Object.assign(grid.userData, { cell, cells });
+        grid.visible = wires.object.visible;
         scene.add(grid);
       }
       grid.position.set(Math.round(center[0] / cell) * cell, min[1], Math.round(center[2] / cell) * cell);
@@ -282,7 +284,7 @@ export function createView(canvas, told) {
     },
     // Nobody takes hold of anything in a flight.
     flies(yes) {
-      for (const one of [wires.object, axes, dome.group, gizmo.getHelper()]) one.visible = !yes;
+      for (const one of [wires.object, axes, dome.group, gizmo.getHelper(), ...(grid ? [grid] : [])]) one.visible = !yes;
       draw();
     },
     items(list) {
@@ -361,6 +363,11 @@ export function createView(canvas, told) {
       gain = value;
       sprites.gain(value);
       draw();
+    },
+    detail(share) {
+      if (share === detail) return;
+      detail = share;
+      this.resize();
     },
     spritesAt(opacity) {
       sprites.object.visible = opacity > 0;

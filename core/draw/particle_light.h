@@ -12,7 +12,8 @@ namespace awan {
 
 // For each particle, the radiance that it sends towards the eye per optical depth of all extinction, linear RGB: of the
 // sun, the sky and the ground, scattered any number of times. Laid over each other with exp(-optical depth), particles
-// of this light make about the picture that march() makes of them (core/draw/march_shade.h). >= 0, finite.
+// of this light make about the picture that march() makes (core/draw/march_shade.h), where they are thick: at an
+// optical depth of 1 to 3 they are up to half too bright. >= 0, finite.
 // light: of the scene, with a grid. eye: scene units. threads >= 1; the same for every number of them.
 std::vector<glm::vec3> particle_light(const Scene& scene, const ParticleSet& particles,
                                       const TransportLight& light, const glm::dvec3& eye,

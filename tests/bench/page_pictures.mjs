@@ -78,8 +78,8 @@ async function still(preset, colorScheme, file, prepare) {
 // Where something can be taken hold of, on the screen: the gizmo's top, and the sun.
 async function handles(page, stage) {
   const found = [];
-  for (let y = stage.y + 14; y < stage.y + stage.height - 14; y += 12) {
-    for (let x = stage.x + 14; x < stage.x + stage.width - 14; x += 12) {
+  for (let y = stage.y + 14; y < stage.y + 0.75 * stage.height; y += 14) {
+    for (let x = stage.x + stage.width / 4; x < stage.x + 0.85 * stage.width; x += 14) {
       await page.mouse.move(x, y);
       if (await page.$eval("#stage", (one) => one.classList.contains("takes"))) found.push([x, y]);
     }
@@ -133,7 +133,7 @@ const MAKE = {
 };
 const wanted = process.argv.slice(4);
 for (const [name, make] of Object.entries(MAKE)) if (!wanted.length || wanted.includes(name)) await make();
-for (const file of ["page-light.webp", "page-dark.webp", "page.webp"]) {
+for (const file of fs.readdirSync(pictures).filter((one) => /^page.*\.webp$/.test(one))) {
   console.log(`${file}: ${(fs.statSync(path.join(pictures, file)).size / 1000).toFixed(0)} kB`);
 }
 await context.close();
