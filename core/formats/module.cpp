@@ -17,20 +17,20 @@ std::string program_folder() {
 }
 
 // Where what belongs to the program may be, seen from its folder.
-constexpr const char* kPlaces[] = {"", "../lib/awan/", "../"};
+constexpr const char* kModulePlaces[] = {"", "../lib/awan/", "../"};
 
 }  // namespace
 
 std::string beside_program(const char* file) {
     const std::string folder = program_folder();
-    for (const char* const place : kPlaces)
+    for (const char* const place : kModulePlaces)
         if (std::string path = folder + place + file; access(path.c_str(), X_OK) == 0) return path;
     return {};
 }
 
 void* module_function(const char* file, const char* function, std::string& reason) {
     const std::string folder = program_folder();
-    for (const char* const place : kPlaces) {
+    for (const char* const place : kModulePlaces) {
         void* const module = dlopen((folder + place + file).c_str(), RTLD_NOW | RTLD_LOCAL);
         if (module == nullptr) {
             reason = dlerror();

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <glm/common.hpp>
 
+#include "core/base/exact_math.h"
+
 namespace awan {
 namespace {
 
@@ -13,7 +15,6 @@ using glm::max;
 using glm::min;
 using glm::mix;
 using glm::vec3;
-#include "core/base/exact_math.h"
 #include "core/shaders/tone.glsl"
 }  // namespace glsl
 
