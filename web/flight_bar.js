@@ -40,7 +40,7 @@ export function createFlightBar(actions) {
     together("Path", {}, record, replay, kind, download));
   const line = el("p", { id: "flight-figures", hidden: true });
   const help = el("span", { class: "hint", id: "flight-help" },
-    "W S A D: forward, back, left, right. Arrow keys or drag: look and turn. 1 2 3: speed. Esc: leave. On the way, light is estimated.");
+    "W S A D: forward, back, left, right. Arrow keys or drag: look and turn. 1 2 3: speed. Esc: leave. On the way, particles stand for the cloud.");
   byId("stage-help").after(help);
   byId("stage").append(line);
 

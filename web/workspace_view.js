@@ -368,6 +368,7 @@ export function createView(canvas, told) {
       if (share === detail) return;
       detail = share;
       this.resize();
+      render(); // at once: a canvas of another size is empty
     },
     spritesAt(opacity) {
       sprites.object.visible = opacity > 0;

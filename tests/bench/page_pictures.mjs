@@ -98,9 +98,9 @@ async function film() {
   await whole(page);
   await page.waitForFunction(() => document.querySelector("#stage").dataset.light === "service");
   const { x, y, width, height } = await page.locator("#left").boundingBox();
-  const clip = { x, y: 0, width: Math.floor(width / 2) * 2, height: Math.min(kHigh, Math.floor((y + height) / 2) * 2), scale: 0.7 };
+  const clip = { x, y: 0, width: Math.floor(width / 2) * 2, height: Math.min(kHigh, Math.floor((y + height) / 2) * 2), scale: 0.5 };
   const frames = [];
-  const take = async (ms = kFrameMs) => { frames.push({ webp: await shot(one, 62, clip), ms }); };
+  const take = async (ms = kFrameMs) => { frames.push({ webp: await shot(one, 50, clip), ms }); };
   const stage = await page.locator("#stage").boundingBox();
   const drag = async (from, to, steps) => {
     await page.mouse.move(...from);

@@ -1,4 +1,4 @@
-// page_sprites.mjs ORIGIN SCRATCH [PARTICLES...]: frames a second of particles as sprites, in a flight that turns for four
+// page_sprites.mjs ORIGIN SCRATCH [PARTICLES...]: frames a second of particles as sprites, in a flight around them of four
 // seconds over a window of 1440 x 900; the processor time that all of the browser spends on one; and after how long their light
 // is there. Needs build/node (tests/run.sh) and a server, and WebGL: without a GPU it is Chromium's own software renderer,
 // which is said.
@@ -48,10 +48,11 @@ for (const particles of counts) {
   const seen = Date.now();
   await page.getByRole("button", { name: "Fly", exact: true }).click();
   await page.locator("#flight-bar").waitFor();
+  await page.getByRole("button", { name: "Around", exact: true }).click();
   await page.waitForFunction(() => document.querySelector("#stage").dataset.light === "service");
   const lit = Date.now() - seen;
   await page.locator("#stage").focus();
-  await page.keyboard.down("ArrowLeft");
+  await page.keyboard.down("d");
   await page.waitForSelector("#stage.sprites");
   const before = processorMs();
   const gaps = await page.evaluate((seconds) => new Promise((done) => {
@@ -64,7 +65,7 @@ for (const particles of counts) {
     requestAnimationFrame(step);
   }), kSeconds);
   const each = (processorMs() - before) / gaps.length;
-  await page.keyboard.up("ArrowLeft");
+  await page.keyboard.up("d");
   const rate = (share) => (1000 / gaps[Math.floor(share * (gaps.length - 1))]).toFixed(1);
   console.log(`${String(particles).padEnd(12)}${rate(0.5)} (${rate(0.9)})`.padEnd(50) + `${each.toFixed(1)} ms`.padEnd(25) + `${lit} ms`);
 }
