@@ -1,10 +1,10 @@
 #include "core/draw/particle_light.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 #include "core/draw/march_light.h"
 #include "core/draw/march_phase.h"
@@ -51,7 +51,7 @@ std::vector<glm::vec3> particle_light(const Scene& scene, const ParticleSet& par
                                 glm::length(ahead + outside.to_sun)));
             const glm::vec3 albedo = light.albedo.empty() ? usual : rgb(at.albedo);
             const glm::vec3 sum =
-                even * rgb(at.source) + albedo * sun * (phase * std::exp(-scaled * at.depth));
+                even * rgb(at.source) + albedo * sun * (phase * exact::exp(-scaled * at.depth));
             to[i] = glm::max(sum, glm::vec3(0));
         }
     });

@@ -144,7 +144,8 @@ Result<SceneBytes> of_form(const Request& request, std::vector<FormPart> parts, 
     for (FormPart& part : parts) {
         if (is_scene(part)) continue;
         if (part.name == "texture") {
-            if (const Status wrong = add_texture(part, request.deadline, scene.textures)) return *wrong;
+            if (const Status wrong = add_texture(part, request.deadline, scene.textures))
+                return *wrong;
             continue;
         }
         const bool placed = part.name.starts_with('/');
