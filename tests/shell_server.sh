@@ -1,6 +1,6 @@
 # What scripts use that try the built program, $awan, as a server; each sources it after shell_checks.sh. Gives them a
 # folder of their own, $work, and kills the server at the end.
-patience=20 # seconds
+patience=60 # seconds; a machine that reads its libraries from a slow disk takes a while to begin
 [ -z "${AWAN_SANITIZED:-}" ] || patience=300
 work=$(mktemp -d)
 server=
@@ -22,6 +22,7 @@ start() {
         sleep 0.05
     done
     cat "$work/log" >&2
+    curl -si --max-time 5 "$url/readyz" >&2 || echo "curl: exit code $?" >&2
     fail "the server did not become ready"
     exit 1
 }

@@ -48,21 +48,60 @@ double scaled(double x, int n) {
     return x * std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52);
 }
 
-// (e^r - 1 - r) / r^2 by Taylor's series; |r| <= .35: the first term left out is below 1e-18.
-double exp_rest(double r) {
-    double p = 1.0 / 87178291200.0;
-    p = 1.0 / 6227020800.0 + r * p;
-    p = 1.0 / 479001600.0 + r * p;
-    p = 1.0 / 39916800.0 + r * p;
-    p = 1.0 / 3628800.0 + r * p;
-    p = 1.0 / 362880.0 + r * p;
-    p = 1.0 / 40320.0 + r * p;
-    p = 1.0 / 5040.0 + r * p;
-    p = 1.0 / 720.0 + r * p;
-    p = 1.0 / 120.0 + r * p;
-    p = 1.0 / 24.0 + r * p;
-    p = 1.0 / 6.0 + r * p;
-    return 0.5 + r * p;
+// 2^(i / 32), the nearest number and what it lacks.
+constexpr Two kRootsOfTwo[] = {
+    {0x1.0000000000000p+0, 0x0.0p+0},
+    {0x1.059b0d3158574p+0, 0x1.d73e2a475b465p-55},
+    {0x1.0b5586cf9890fp+0, 0x1.8a62e4adc610bp-54},
+    {0x1.11301d0125b51p+0, -0x1.6c51039449b3ap-54},
+    {0x1.172b83c7d517bp+0, -0x1.19041b9d78a76p-55},
+    {0x1.1d4873168b9aap+0, 0x1.e016e00a2643cp-54},
+    {0x1.2387a6e756238p+0, 0x1.9b07eb6c70573p-54},
+    {0x1.29e9df51fdee1p+0, 0x1.612e8afad1255p-55},
+    {0x1.306fe0a31b715p+0, 0x1.6f46ad23182e4p-55},
+    {0x1.371a7373aa9cbp+0, -0x1.63aeabf42eae2p-54},
+    {0x1.3dea64c123422p+0, 0x1.ada0911f09ebcp-55},
+    {0x1.44e086061892dp+0, 0x1.89b7a04ef80d0p-59},
+    {0x1.4bfdad5362a27p+0, 0x1.d4397afec42e2p-56},
+    {0x1.5342b569d4f82p+0, -0x1.07abe1db13cadp-55},
+    {0x1.5ab07dd485429p+0, 0x1.6324c054647adp-54},
+    {0x1.6247eb03a5585p+0, -0x1.383c17e40b497p-54},
+    {0x1.6a09e667f3bcdp+0, -0x1.bdd3413b26456p-54},
+    {0x1.71f75e8ec5f74p+0, -0x1.16e4786887a99p-55},
+    {0x1.7a11473eb0187p+0, -0x1.41577ee04992fp-55},
+    {0x1.82589994cce13p+0, -0x1.d4c1dd41532d8p-54},
+    {0x1.8ace5422aa0dbp+0, 0x1.6e9f156864b27p-54},
+    {0x1.93737b0cdc5e5p+0, -0x1.75fc781b57ebcp-57},
+    {0x1.9c49182a3f090p+0, 0x1.c7c46b071f2bep-56},
+    {0x1.a5503b23e255dp+0, -0x1.d2f6edb8d41e1p-54},
+    {0x1.ae89f995ad3adp+0, 0x1.7a1cd345dcc81p-54},
+    {0x1.b7f76f2fb5e47p+0, -0x1.5584f7e54ac3bp-56},
+    {0x1.c199bdd85529cp+0, 0x1.11065895048ddp-55},
+    {0x1.cb720dcef9069p+0, 0x1.503cbd1e949dbp-56},
+    {0x1.d5818dcfba487p+0, 0x1.2ed02d75b3707p-55},
+    {0x1.dfc97337b9b5fp+0, -0x1.1a5cd4f184b5cp-54},
+    {0x1.ea4afa2a490dap+0, -0x1.e9c23179c2893p-54},
+    {0x1.f50765b6e4540p+0, 0x1.9d3e12dd8a18bp-54},
+};
+
+// e^(r + low) - 1 by Taylor's series, |r| <= ln 2 / 64: the first term left out is below 4e-18.
+double small_expm1(double r, double low) {
+    const double z = r * r;
+    const double bend =
+        (0.5 + r * (1.0 / 6)) + z * ((1.0 / 24 + r * (1.0 / 120)) + z * (1.0 / 720));
+    return r + (low + z * bend);
+}
+
+// 2^(k / 32) (1 + more), |k| up to 60,000.
+double times_roots(double more, int k) {
+    const Two& root = kRootsOfTwo[k & 31];
+    return scaled(root.high + (root.low + root.high * more), k >> 5);
+}
+
+// The nearest integer, |x| < 2^51: what is added leaves no room for a fraction.
+double nearest(double x) {
+    constexpr double kShift = 0x1.8p52;
+    return (x + kShift) - kShift;
 }
 
 // e^(x + low), low up to the size of x's last place.
@@ -70,14 +109,12 @@ double exp_of(double x, double low) {
     if (std::isnan(x)) return x;
     if (x > 709.79) return kInfinity;
     if (x < -745.2) return 0;
-    // x = n ln 2 + r + what r lost by rounding, |r| <= ln 2 / 2 (Cody & Waite 1980).
-    const double n = std::floor(x * std::numbers::log2e + 0.5);
-    const double rest = x - n * kLn2High, second = n * kLn2Low;
+    // x = k ln 2 / 32 + r + what r lost by rounding, |r| <= ln 2 / 64 (Cody & Waite 1980; Tang 1989).
+    const double k = nearest(x * (32 * std::numbers::log2e));
+    const double rest = x - k * (kLn2High / 32), second = k * (kLn2Low / 32);
     const double r = rest - second;
     low += (rest - r) - second;
-    const double bend = r * r * exp_rest(r);
-    const Two line = sum_of_ordered(1, r);
-    return scaled(line.high + (line.low + (bend + low * (1 + (r + bend)))), static_cast<int>(n));
+    return times_roots(small_expm1(r, low), static_cast<int>(k));
 }
 
 // x = m 2^e, m from sqrt(1/2) to sqrt(2); x positive and finite.
@@ -158,9 +195,17 @@ double exp2(double x) {
     if (std::isnan(x)) return x;
     if (x > 1024.5) return kInfinity;
     if (x < -1076) return 0;
-    const double n = std::floor(x + 0.5);
-    const double r = (x - n) * std::numbers::ln2;
-    return scaled(1.0 + (r + r * r * exp_rest(r)), static_cast<int>(n));
+    const double k = nearest(32 * x);
+    return times_roots(small_expm1((x - k / 32) * std::numbers::ln2, 0), static_cast<int>(k));
+}
+
+// (e^r - 1 - r) / r^2 by Taylor's series; |r| <= .35: the first term left out is below 1e-18.
+static double exp_rest(double r) {
+    double p = 1.0 / 87178291200.0;
+    for (const double term : {6227020800.0, 479001600.0, 39916800.0, 3628800.0, 362880.0, 40320.0,
+                              5040.0, 720.0, 120.0, 24.0, 6.0, 2.0})
+        p = 1.0 / term + r * p;
+    return p;
 }
 
 double expm1(double x) {
