@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/survey/merge.h"
 #include "core/truth/oracles.h"
 #include "tests/patience.h"
 #include "tests/physical_bounds.h"
@@ -76,7 +77,8 @@ inline Outcome render_on(SceneDraft draft, const char* rung, std::uint32_t paths
         std::abort();
     }
     planned->plan.samples = paths;
-    ParticleSet particles = planned->particles;
+    // What was generated: what merging costs is part of what a rung may be off.
+    ParticleSet particles = unmerged(planned->particles);
     auto rendered =
         render_planned(scene, *std::move(planned), {&device(), threads, nullptr, {}, {}}, {});
     if (!rendered.ok()) {
