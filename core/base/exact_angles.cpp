@@ -71,7 +71,7 @@ SinCos sincos_of(const Reduced& r) {
 bool is_no_angle(double x) {
     return !(std::abs(x) <= std::numeric_limits<double>::max());
 }
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 // atan(k / 8) in two parts.
 constexpr double kArcs[9][2] = {
@@ -89,7 +89,7 @@ constexpr double kArcs[9][2] = {
 }  // namespace
 
 double sin(double x) {
-    if (is_no_angle(x)) return kNan;
+    if (is_no_angle(x)) return kNoNumber;
     if (x == 0) return x;
     const Reduced r = reduced(x);
     const double value =
@@ -98,7 +98,7 @@ double sin(double x) {
 }
 
 double cos(double x) {
-    if (is_no_angle(x)) return kNan;
+    if (is_no_angle(x)) return kNoNumber;
     const Reduced r = reduced(x);
     const double value =
         (r.quarter & 1) != 0 ? sin_series(r.high, r.low) : cos_series(r.high, r.low);
@@ -106,7 +106,7 @@ double cos(double x) {
 }
 
 double tan(double x) {
-    if (is_no_angle(x)) return kNan;
+    if (is_no_angle(x)) return kNoNumber;
     if (x == 0) return x;
     const SinCos of = sincos_of(reduced(x));
     return of.sin / of.cos;
@@ -135,7 +135,7 @@ double atan(double x) {
 }
 
 double atan2(double y, double x) {
-    if (std::isnan(x) || std::isnan(y)) return kNan;
+    if (std::isnan(x) || std::isnan(y)) return kNoNumber;
     const bool back = std::signbit(x);
     if (y == 0) return std::copysign(back ? std::numbers::pi : 0.0, y);
     const double of = std::isinf(x) && std::isinf(y) ? 1 : std::abs(y) / std::abs(x);
