@@ -39,6 +39,8 @@ until_ready() {
 }
 # start_instance N: sets port[N] and instance[N].
 start_instance() {
+    # Not the port of the one before: the log is emptied by who reads it, before the server is there to do so.
+    : >"instance-$1.log"
     "$awan" serve --listen 127.0.0.1:0 --software --threads 1 --deadline 55 2>"instance-$1.log" &
     instance[$1]=$!
     started+=($!)

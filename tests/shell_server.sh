@@ -1,6 +1,6 @@
 # What scripts use that try the built program, $awan, as a server; each sources it after shell_checks.sh. Gives them a
 # folder of their own, $work, and kills the server at the end.
-patience=60 # seconds; a machine that reads its libraries from a slow disk takes a while to begin
+patience=20 # seconds
 [ -z "${AWAN_SANITIZED:-}" ] || patience=300
 work=$(mktemp -d)
 server=
@@ -8,6 +8,8 @@ trap '[ -n "$server" ] && kill -KILL "$server" 2>/dev/null; rm -rf "$work"' EXIT
 
 # start ARGUMENTS...: serves on a free port (of $listen); sets $server and $url.
 start() {
+    # Not the address of the server before: the log is emptied here, not when the new one gets its turn.
+    : >"$work/log"
     "$awan" serve --listen "${listen:-127.0.0.1:0}" "$@" 2>"$work/log" &
     server=$!
     url=

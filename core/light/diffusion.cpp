@@ -243,7 +243,8 @@ struct Level {
 // symmetric, as conjugate gradients need it. As one member of a team; all end together.
 void cycle(std::vector<Level>& levels, std::size_t at, Team& team, std::size_t member) {
     Level& fine = levels[at];
-    const auto [first, last] = team.share_of(member, fine.size());
+    const Team::Share own = team.share_of(member, fine.size());
+    const std::size_t first = own.begin, last = own.end;
     const float* const diagonal = fine.diffusion.diagonal.data();
     const auto apply_own = [&] {
         apply(fine.diffusion, fine.x.data(), first, last, fine.q.data());

@@ -9,7 +9,7 @@
     using Ints = std::int32_t __attribute__((vector_size(4 * count))); \
     using Bits = std::uint32_t __attribute__((vector_size(4 * count)));
 
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(__clang__)
 
 #pragma GCC push_options
 #pragma GCC target("avx512f")

@@ -17,8 +17,8 @@
 // Vectors are only ever passed between inlined functions: no ABI to worry about.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-// Runs `call` of the widest set's namespace, and returns.
-#if defined(__x86_64__)
+// Runs `call` of the widest set's namespace, and returns. Clang (the fuzzers) does not know GCC's pragmas for targets.
+#if defined(__x86_64__) && !defined(__clang__)
 #define AWAN_ON_TARGET(call)          \
     switch (instruction_set()) {      \
         case InstructionSet::kAvx512: \

@@ -119,6 +119,8 @@ bool ConnectionSink::write(std::string_view bytes) {
 }
 
 bool ConnectionSink::write_shared(const std::shared_ptr<const std::string>& bytes) {
+    // A small one goes out with its head, whole: a proxy asks another server instead of one that ended between them.
+    if (bytes->size() <= kGather) return write(*bytes);
     connection_.shared = bytes;
     connection_.shared_sent = 0;
     return true;
