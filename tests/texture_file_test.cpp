@@ -175,6 +175,34 @@ TEST(TextureFile, WhatIsTooLargeIsRefusedBeforeItIsRead) {
     expect_refused(std::string(limits::kMaxTextureBytes + 1, 'x'), ErrorCode::kTooLarge, "bytes");
 }
 
+#ifndef AWAN_SANITIZED  // whose own memory is far beyond any of these
+// Where a process may have so much memory only, it is not the picture's fault that there is not enough.
+TEST(TextureFile, WithoutMemoryItIsNotThePictureThatIsWrong) {
+    Image image = image_of(3000, 2000, 1);
+    image.opaque = true;
+    const std::string png = png_of(image);
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+    int read = 0, refused = 0;
+    for (rlim_t mebibytes = 150; mebibytes <= 950; mebibytes += 100) {
+        rlimit less = before;
+        less.rlim_cur = mebibytes << 20;
+        ASSERT_EQ(setrlimit(RLIMIT_AS, &less), 0);
+        const auto texture = read_texture("mine", png);
+        ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+        if (texture.ok()) {
+            ++read;
+            continue;
+        }
+        ++refused;
+        EXPECT_EQ(texture.error().code, ErrorCode::kOutOfMemory)
+            << mebibytes << " MiB: " << texture.error().message;
+    }
+    EXPECT_GT(read, 0);
+    EXPECT_GT(refused, 0);
+}
+#endif
+
 // Whatever is broken off or changed: an error or a texture. Each is read by a process of its own, so a few of them do.
 TEST(TextureFile, BrokenFilesAreErrors) {
     Image image = image_of(40, 30, 0.7f);

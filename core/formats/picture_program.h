@@ -15,7 +15,7 @@ inline constexpr std::uint64_t kPictureSeconds = 30;
 // Its name, beside the program or in ../lib/awan of it.
 inline constexpr const char* kPictureProgram = "awan_pictures";
 
-enum class PictureOutcome : std::int32_t { kRead, kTooLarge, kRefused };
+enum class PictureOutcome : std::int32_t { kRead, kTooLarge, kNoMemory, kRefused };
 
 // Its standard output begins with this. Its standard input is a file, the picture. What follows: of kRead width x
 // height bytes, row by row from the top left, the alpha of each pixel or where there is none its luminance; else what

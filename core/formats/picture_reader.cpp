@@ -138,8 +138,8 @@ Result<GreyPicture> read_picture(std::string_view bytes, const Deadline& deadlin
     if (is_read) return GreyPicture{head.width, head.height, {rest.begin(), rest.end()}};
     if (head.outcome == PictureOutcome::kTooLarge)
         return Error{ErrorCode::kTooLarge, "", std::string(rest)};
-    if (head.outcome == PictureOutcome::kRefused && !rest.empty())
-        return refused(std::string(rest));
+    if (head.outcome == PictureOutcome::kNoMemory && is_limited()) return out_of_memory();
+    if (head.outcome != PictureOutcome::kRead && !rest.empty()) return refused(std::string(rest));
     if (child.end() == kNotStarted || is_limited()) return out_of_memory();
     return refused("it is broken, or takes more to read than it may");
 }

@@ -120,6 +120,7 @@ int main() {
     try {
         wrong = read(head.width, head.height, values);
     } catch (const std::bad_alloc&) {
+        head.outcome = awan::PictureOutcome::kNoMemory;
         wrong = "it takes more memory to read than it may";
     } catch (const std::exception&) {
         wrong = "it cannot be read";
