@@ -53,20 +53,6 @@ Reduced reduced(double x) {
     return {static_cast<int>(n) & 3, high, ((rest - high) - second) - n * kThird};
 }
 
-SinCos sincos_of(const Reduced& r) {
-    const double s = sin_series(r.high, r.low), c = cos_series(r.high, r.low);
-    switch (r.quarter) {
-        case 0:
-            return {s, c};
-        case 1:
-            return {c, -s};
-        case 2:
-            return {-s, -c};
-        default:
-            return {-c, s};
-    }
-}
-
 // What an infinite angle, or none, gives.
 bool is_no_angle(double x) {
     return !(std::abs(x) <= std::numeric_limits<double>::max());
@@ -88,6 +74,19 @@ constexpr double kArcs[9][2] = {
 
 }  // namespace
 
+SinCos turned(const SinCos& of, int quarter) {
+    switch (quarter & 3) {
+        case 0:
+            return of;
+        case 1:
+            return {of.cos, -of.sin};
+        case 2:
+            return {-of.sin, -of.cos};
+        default:
+            return {-of.cos, of.sin};
+    }
+}
+
 double sin(double x) {
     if (is_no_angle(x)) return kNoNumber;
     if (x == 0) return x;
@@ -108,7 +107,8 @@ double cos(double x) {
 double tan(double x) {
     if (is_no_angle(x)) return kNoNumber;
     if (x == 0) return x;
-    const SinCos of = sincos_of(reduced(x));
+    const Reduced r = reduced(x);
+    const SinCos of = turned({sin_series(r.high, r.low), cos_series(r.high, r.low)}, r.quarter);
     return of.sin / of.cos;
 }
 

@@ -99,6 +99,15 @@ double times_roots(double more, int k) {
     return scaled(root.high + (root.low + root.high * more), k >> 5);
 }
 
+// (e^r - 1 - r) / r^2 by Taylor's series; |r| <= .35: the first term left out is below 1e-18.
+double exp_rest(double r) {
+    double p = 1.0 / 87178291200.0;
+    for (const double term : {6227020800.0, 479001600.0, 39916800.0, 3628800.0, 362880.0, 40320.0,
+                              5040.0, 720.0, 120.0, 24.0, 6.0, 2.0})
+        p = 1.0 / term + r * p;
+    return p;
+}
+
 // The nearest integer, |x| < 2^51: what is added leaves no room for a fraction.
 double nearest(double x) {
     constexpr double kShift = 0x1.8p52;
@@ -198,15 +207,6 @@ double exp2(double x) {
     if (x < -1076) return 0;
     const double k = nearest(32 * x);
     return times_roots(small_expm1((x - k / 32) * std::numbers::ln2, 0), static_cast<int>(k));
-}
-
-// (e^r - 1 - r) / r^2 by Taylor's series; |r| <= .35: the first term left out is below 1e-18.
-static double exp_rest(double r) {
-    double p = 1.0 / 87178291200.0;
-    for (const double term : {6227020800.0, 479001600.0, 39916800.0, 3628800.0, 362880.0, 40320.0,
-                              5040.0, 720.0, 120.0, 24.0, 6.0, 2.0})
-        p = 1.0 / term + r * p;
-    return p;
 }
 
 double expm1(double x) {

@@ -41,6 +41,8 @@ double hypot(double x, double y, double z);
 struct SinCos {
     double sin, cos;
 };
+// Of an angle that is so many right angles larger.
+SinCos turned(const SinCos& of, int quarter);
 // Of an angle in degrees; multiples of 90 give exactly 0 and +-1. As seeded_sin it stays as it is.
 SinCos sincos_degrees(double degrees);
 

@@ -56,17 +56,7 @@ SinCos sincos_degrees(double degrees) {
     // The nearest multiple of a right angle, 0..4.
     const int quarter = static_cast<int>(std::floor(r / 90.0 + 0.5));
     const double x = (r - 90.0 * quarter) * (std::numbers::pi / 180.0);
-    const double s = sin_series(x), c = cos_series(x);
-    switch (quarter & 3) {
-        case 0:
-            return {s, c};
-        case 1:
-            return {c, -s};
-        case 2:
-            return {-s, -c};
-        default:
-            return {-c, s};
-    }
+    return turned({sin_series(x), cos_series(x)}, quarter);
 }
 
 double seeded_exp(double x) {
