@@ -30,6 +30,14 @@ constexpr double kWarp = 0.2;
 
 constexpr auto kSide = static_cast<std::size_t>(kDetailSide);
 
+// std::floor, of most numbers without the call that the oldest x86 needs for it.
+template <typename Real>
+Real below(Real v) {
+    if (!(std::abs(v) < Real{1 << 30})) return std::floor(v);
+    const auto cut = static_cast<Real>(static_cast<int>(v));
+    return cut > v ? cut - 1 : cut;
+}
+
 // A displacement without divergence and with the tile's period: the curl of a sum of waves, at the voxels. Every wave
 // fits the tile a whole number of times, so a voxel's phase is the sum of three out of kSide values.
 class Warp {
@@ -116,35 +124,31 @@ class Bumps {
                     }
         }
     }
-    // 1 at a cell's point, falling with the square of the distance to the nearest point, in cells.
+    // 1 at a cell's point, falling with the square of the distance to the nearest point, in cells. p: in tiles, less
+    // than a tile outside of 0..1. Without branches: rows that are too far away cost less than to find out which.
     float operator()(const glm::vec3& p) const {
         const glm::vec3 at = p * static_cast<float>(cells_);
-        const glm::vec3 floor = glm::vec3(std::floor(at.x), std::floor(at.y), std::floor(at.z));
+        const glm::vec3 floor(below(at.x), below(at.y), below(at.z));
         const glm::vec3 in = at - floor;
-        const auto wrapped = [&](float cell) {
-            const int i = static_cast<int>(cell) % cells_;
-            return static_cast<std::size_t>(i < 0 ? i + cells_ : i);
+        const auto wrapped = [&](float f) {
+            const int i = static_cast<int>(f);
+            return static_cast<std::size_t>(i < 0 ? i + cells_ : i < cells_ ? i : i - cells_);
         };
         const std::size_t corner =
             (wrapped(floor.z) * row_ + wrapped(floor.y)) * row_ + wrapped(floor.x);
-        // Rows of three neighbours along x at a time, the own one first; the fourth lane is put too far away to count.
+        // Rows of three neighbours along x at a time; the fourth lane is put too far away to count.
         const Float4 aside = Float4{-1, 0, 1, 9} - in.x;
-        const float beside_y[] = {in.y, 0, 1 - in.y}, beside_z[] = {in.z, 0, 1 - in.z};
-        constexpr std::size_t kOwnFirst[] = {1, 0, 2};
-        float nearest = 4;
-        for (const std::size_t k : kOwnFirst)
-            for (const std::size_t j : kOwnFirst) {
-                // All points of a row are at least this far away, but for rounding: most rows need no look.
-                const float least = beside_y[j] * beside_y[j] + beside_z[k] * beside_z[k];
-                if (0.9999F * least > nearest) continue;
+        Float4 nearest = {4, 4, 4, 4};
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t j = 0; j < 3; ++j) {
                 const std::size_t i = corner + (k * row_ + j) * row_;
                 const Float4 x = four(points_[0], i) + aside;
                 const Float4 y = four(points_[1], i) + (static_cast<float>(j) - 1 - in.y);
                 const Float4 z = four(points_[2], i) + (static_cast<float>(k) - 1 - in.z);
                 const Float4 apart = x * x + y * y + z * z;
-                nearest = std::min(nearest, std::min(apart[0], std::min(apart[1], apart[2])));
+                nearest = apart < nearest ? apart : nearest;
             }
-        return 1 - nearest;
+        return 1 - std::min(nearest[0], std::min(nearest[1], nearest[2]));
     }
 
   private:
@@ -269,11 +273,11 @@ float bumps_at(const DetailField& field, const glm::dvec3& point) {
     std::size_t low[3];
     float part[3];
     for (int axis = 0; axis < 3; ++axis) {
-        double p = at[axis] - kDetailSide * std::floor(at[axis] / kDetailSide);
+        double p = at[axis] - kDetailSide * below(at[axis] / kDetailSide);
         // p is out of its range by rounding, or where the point is so far away that no digits are left.
         if (!(p >= 0 && p < kDetailSide)) p = 0;
         low[axis] = static_cast<std::size_t>(p);
-        part[axis] = static_cast<float>(p - std::floor(p));
+        part[axis] = static_cast<float>(p - static_cast<double>(low[axis]));
     }
     const std::uint32_t* const word =
         field.tile->data() + (low[2] * kSide + low[1]) * kSide + low[0];
