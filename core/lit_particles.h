@@ -13,7 +13,8 @@ namespace awan {
 Result<Scene> scene_of_light(const Scene& scene);
 
 // The light of the particles towards the scene's eye (core/draw/particle_light.h). lit: of scene_of_light(); planned:
-// of that, by plan_still(). particles: the scene's, which may be more than were planned with, where many were merged.
+// of that, by plan_generated(). particles: the scene's; they may be more than were planned with, where many were
+// merged.
 // Errors: kOverDeadline, kCancelled.
 Result<std::vector<glm::vec3>> light_particles(const Scene& lit, Planned planned,
                                                const ParticleSet& particles,

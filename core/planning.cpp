@@ -15,15 +15,19 @@ namespace {
 // The most that merging many particles may cost of a picture, and its share of the error that the scene asks for.
 constexpr double kMergingError = 0.05, kMergingShare = 0.5;
 
-// The particles that light and eye work on. Procedural clouds choose by themselves how many they are made of.
-Result<ParticleSet> particles_of(const Scene& scene, int threads, const Deadline& deadline) {
-    const bool look = scene->look != Look::kPhysical;
-    auto made = generate(scene, threads, deadline, look);
-    if (!made.ok() || look || scene->display != Display::kLit ||
+bool is_look(const Scene& scene) {
+    return scene->look != Look::kPhysical;
+}
+
+// The particles that light and eye work on, from those of the scene. Procedural clouds choose by themselves how many
+// they are made of.
+Result<ParticleSet> to_work_on(const Scene& scene, ParticleSet made, int threads,
+                               const Deadline& deadline) {
+    if (is_look(scene) || scene->display != Display::kLit ||
         std::any_of(scene->clouds.begin(), scene->clouds.end(), is_procedural))
         return made;
     const double wanted = scene->accuracy.error.value_or(kDefaultError);
-    return merged(*std::move(made), sun_direction(scene->sun),
+    return merged(std::move(made), sun_direction(scene->sun),
                   std::min(kMergingError, kMergingShare * wanted), threads, deadline);
 }
 
@@ -31,10 +35,25 @@ Result<ParticleSet> particles_of(const Scene& scene, int threads, const Deadline
 
 Result<Planned> plan_still(const Scene& scene, int threads, const Deadline& deadline,
                            const MachineSpeed& speed, const std::optional<DetailFigures>& detail) {
-    const bool look = scene->look != Look::kPhysical && scene->display == Display::kLit;
+    double generate_ms = 0;
+    auto made =
+        timed(generate_ms, [&] { return generate(scene, threads, deadline, is_look(scene)); });
+    if (!made.ok()) return made.error();
+    auto planned = plan_generated(scene, *std::move(made), threads, deadline, speed, detail);
+    if (!planned.ok()) return planned;
+    planned->times.generate_ms += generate_ms;
+    // How long procedural clouds take to make is known only by making them.
+    if (std::any_of(scene->clouds.begin(), scene->clouds.end(), is_procedural))
+        add_to_predictions(planned->plan, planned->times.generate_ms);
+    return planned;
+}
+
+Result<Planned> plan_generated(const Scene& scene, ParticleSet made, int threads,
+                               const Deadline& deadline, const MachineSpeed& speed,
+                               const std::optional<DetailFigures>& detail) {
     Planned planned;
-    auto particles =
-        timed(planned.times.generate_ms, [&] { return particles_of(scene, threads, deadline); });
+    auto particles = timed(planned.times.generate_ms,
+                           [&] { return to_work_on(scene, std::move(made), threads, deadline); });
     if (!particles.ok()) return particles.error();
     planned.particles = *std::move(particles);
     auto surveyed = timed(planned.times.survey_ms,
@@ -44,10 +63,8 @@ Result<Planned> plan_still(const Scene& scene, int threads, const Deadline& dead
     if (detail) planned.survey.detail = *detail;
     planned.plan = plan(scene, planned.survey, threads, speed);
     planned.rung_is_settled = scene->accuracy.rung.has_value();
-    if (look) add_to_predictions(planned.plan, look_time_ms(scene, planned.survey.view, threads));
-    // How long procedural clouds take to make is known only by making them.
-    if (std::any_of(scene->clouds.begin(), scene->clouds.end(), is_procedural))
-        add_to_predictions(planned.plan, planned.times.generate_ms);
+    if (is_look(scene) && scene->display == Display::kLit)
+        add_to_predictions(planned.plan, look_time_ms(scene, planned.survey.view, threads));
     if (planned.plan.predicted.rung->method == Method::kMarch)
         planned.plan.transport.islands = island_cells(planned.plan.transport, planned.survey);
     return planned;

@@ -40,6 +40,12 @@ struct Planned {
 Result<Planned> plan_still(const Scene& scene, int threads, const Deadline& deadline,
                            const MachineSpeed& speed, const std::optional<DetailFigures>& detail);
 
+// The same of particles that have been generated: `made`, by generate() from the scene's clouds. The plan's times and
+// forecasts are without that.
+Result<Planned> plan_generated(const Scene& scene, ParticleSet made, int threads,
+                               const Deadline& deadline, const MachineSpeed& speed,
+                               const std::optional<DetailFigures>& detail);
+
 // Adds to a plan what rendering needs beside it: the tiles of the particles' detail, where the plan has detail on.
 // An error in `planned` is passed on. tiles: keeps what one picture made for the next; may be null.
 Result<Planned> with_detail_made(const Scene& scene, Result<Planned> planned, int threads,

@@ -41,8 +41,8 @@ std::vector<glm::vec3> light_of(const SceneDraft& draft) {
     const ParticleSet particles = *generate(scene, 2, {});
     std::vector<std::vector<glm::vec3>> lights;
     for (const int threads : {1, 3}) {
-        auto light = light_particles(scene, *plan_still(scene, threads, {}, {}, {}), particles,
-                                     {nullptr, threads}, {});
+        auto light = light_particles(scene, *plan_generated(scene, particles, threads, {}, {}, {}),
+                                     particles, {nullptr, threads}, {});
         EXPECT_TRUE(light.ok());
         lights.push_back(*std::move(light));
     }

@@ -79,7 +79,8 @@ Result<std::vector<glm::vec3>> light_of_text(Service::State& state, const Reques
     const auto coarse = scene_of_light(scene);
     if (!coarse) return coarse.error();
     const int threads = threads_of_one(state);
-    auto planned = plan_still(*coarse, threads, request.deadline, state.options.speed, {});
+    auto planned =
+        plan_generated(*coarse, text.particles, threads, request.deadline, state.options.speed, {});
     if (!planned) return planned.error();
     const double expected_ms = planned->plan.predicted.time_ms;
     refused = not_let_in(pass.expect(expected_ms, request.deadline), state.lanes,
