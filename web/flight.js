@@ -95,7 +95,8 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
     // Where the horizon is, in the picture: the sky that particles are seen before.
     const { pitch } = pose;
     const down = 50 + (50 * Math.tan((pitch * Math.PI) / 180)) / Math.tan((lens.fov * Math.PI) / 360);
-    stage.style.setProperty("--horizon", `${Math.max(-400, Math.min(500, down)).toFixed(1)}%`);
+    stage.style.setProperty("--horizon", `${((Math.max(-400, Math.min(500, down)) / 100) * stage.clientHeight).toFixed(1)}px`);
+    stage.classList.toggle("below", down < 0);
   }
   // The camera of the document becomes the flight's. All of it is one step of undo. False when it is that already.
   function write(moving) {
@@ -291,7 +292,7 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
     on = false;
     replay = null;
     letGo();
-    stage.classList.remove("flying");
+    stage.classList.remove("flying", "below");
     view().flies(false);
     sprites().flies(false);
     show();

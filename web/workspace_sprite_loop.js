@@ -7,13 +7,15 @@ import * as api from "./api.js";
 import { compactJson } from "./json_text.js";
 import { denser, displayed, gainOf, litFrom, readPly, relit, sparser } from "./workspace_particles.js";
 
-const kMost = 100_000; // sprites; more would not be drawn in time
+const kMost = 100_000, kMostSoftware = 5000; // sprites; more would not be drawn in time, with a GPU and without
 const kFadeMs = 220;
 const kRestMs = 350;
 const kMostLit = 400_000; // particles; the light of more is not waited for
 const kSlowFrameMs = 60; // where frames take longer, the pictures of the service are as quick
 const kFramesWatched = 12;
-const kLeastDetail = 1 / 8; // of the screen's pixels along a side, in a flight whose frames take too long
+// Of the screen's pixels along a side that sprites are drawn with: the fewest, in flights whose frames take too long; without a
+// GPU from the beginning; and what frames are meant to take then.
+const kLeastDetail = 1 / 10, kSoftwareDetail = 1 / 4, kWantedMs = 25;
 const kTriedAgainMs = 30_000;
 const kSeenWide = 64, kSeenHigh = 40; // pixels that brightness is compared at
 const ELSEWHERE = new Set(["camera", "image", "sun", "sky", "ground", "haze", "accuracy", "effects", "sequence", "look", "display"]);
@@ -31,7 +33,7 @@ export function createSpriteLoop({ view, scene, seen, sun, tone }) {
   let slowUntil = 0; // no sprites before
   let frames = [];
   let isShown = false; // the picture on the screen is of the latest state
-  let detail = 1;
+  let detail = null; // share of the screen's pixels along a side, once it is known what draws
   let slowFrames = 0; // of a flight, one after the other
   let flying = false; // whoever flies has nothing else to see by: sprites are shown however slowly
   let thickness = 1; // times the matter of the document
@@ -67,6 +69,7 @@ export function createSpriteLoop({ view, scene, seen, sun, tone }) {
     const gain = gainOf(view().spritesSeen(kSeenWide, kSeenHigh), data, kSeenWide, kSeenHigh);
     if (gain) view().spritesGain(gain);
   }
+  const most = () => (view()?.isSoftware ? kMostSoftware : kMost);
   const isReady = () => known !== null && known.set !== null && (flying || performance.now() >= slowUntil) && view() !== null;
   function sharpen(share) {
     [detail, slowFrames] = [share, 0];
@@ -89,7 +92,7 @@ export function createSpriteLoop({ view, scene, seen, sun, tone }) {
     const { sequence: _sequence, accuracy: _accuracy, ...rest } = document;
     try {
       const { buffer, exposure } = await api.litParticles(compactJson(rest), { signal: controller.signal });
-      const set = sparser(readPly(buffer), kMost);
+      const set = sparser(readPly(buffer), most());
       if (controller.signal.aborted || !set.radiance || set.count !== known.set?.count) return;
       shown = { light: displayed(set.radiance, exposure, tone()), then: litFrom(set, sun()) };
       view()?.spritesGain([1, 1, 1]);
@@ -121,7 +124,7 @@ export function createSpriteLoop({ view, scene, seen, sun, tone }) {
       const { image: _image, sequence: _sequence, ...rest } = document;
       const blob = await api.particles(compactJson(rest), "application/x-ply");
       const set = readPly(await blob.arrayBuffer());
-      known = { matter, set: sparser(set, kMost), whole: set.count };
+      known = { matter, set: sparser(set, most()), whole: set.count };
       light();
       if (isShown) {
         learn();
@@ -176,7 +179,10 @@ export function createSpriteLoop({ view, scene, seen, sun, tone }) {
     },
     letGo() { moving = false; },
     // There is something to draw with.
-    begin: ask,
+    begin() {
+      sharpen(view().isSoftware ? kSoftwareDetail : 1);
+      ask();
+    },
     // A flight begins or ends; of a cloud that is so many times as thick as the document's.
     flies(yes, times = 1) {
       flying = yes;
@@ -191,8 +197,10 @@ export function createSpriteLoop({ view, scene, seen, sun, tone }) {
     moves() {
       isShown = false;
       const now = performance.now();
-      slowFrames = moving && now - lastMove > kSlowFrameMs ? slowFrames + 1 : 0;
-      if (slowFrames >= 2 && detail > kLeastDetail) sharpen(detail / 2);
+      const took = now - lastMove;
+      slowFrames = moving && took > kSlowFrameMs ? slowFrames + 1 : 0;
+      // One long frame says nothing: others had the processor.
+      if (slowFrames >= 2) sharpen(Math.max(kLeastDetail, detail * Math.max(Math.sqrt(kWantedMs / took), 1 / 4)));
       moving = true;
       lastMove = now;
       if (isReady() && opacity === 0) fade(1);
@@ -204,7 +212,7 @@ export function createSpriteLoop({ view, scene, seen, sun, tone }) {
       if (moving && performance.now() - lastMove < kRestMs) return;
       moving = false;
       isShown = true;
-      sharpen(1);
+      if (!view()?.isSoftware) sharpen(1);
       if (opacity > 0) fade(0);
       learn();
       askLight();

@@ -4,7 +4,7 @@
 
 import {
   BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, GridHelper, Group, LineBasicMaterial, LineSegments, Mesh,
-  MeshBasicMaterial, Object3D, PerspectiveCamera, Scene, SphereGeometry, Vector3, WebGLRenderer, WebGLRenderTarget,
+  MeshBasicMaterial, Object3D, PerspectiveCamera, Scene, SphereGeometry, Vector3, WebGLRenderer,
 } from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
 import { createSprites } from "./workspace_sprites.js";
@@ -114,6 +114,12 @@ function createDome() {
   return { group, sun, beam };
 }
 
+// Whether the browser draws on the processor, for want of a GPU.
+function drawsInSoftware(gl) {
+  const info = gl.getExtension("WEBGL_debug_renderer_info");
+  return info !== null && /swiftshader|llvmpipe|software/i.test(gl.getParameter(info.UNMASKED_RENDERER_WEBGL));
+}
+
 const kSunPixels = 9; // radius of the sun on the screen
 const kSunReach = 16; // how near to its middle it is taken hold of
 
@@ -129,8 +135,7 @@ export function createView(canvas, told) {
   const sprites = createSprites();
   let grid = null;
   let items = [];
-  let gain = [1, 1, 1]; // of the sprites' light
-  let detail = 1; // share of the screen's pixels along a side that are drawn
+  let detail = 1; // share of the screen's pixels along a side that sprites are drawn with
   let home = { center: [0, 0, 0], radius: 5 }; // what is looked at: the grid lies under it, the dome stands around it
   const handle = new Object3D();
   const gizmo = new TransformControls(camera, canvas);
@@ -140,6 +145,7 @@ export function createView(canvas, told) {
   let asked = 0;
   function render() {
     asked = 0;
+    sprites.draw(renderer, camera, detail);
     renderer.render(scene, camera);
   }
   const draw = () => { asked ||= requestAnimationFrame(render); };
@@ -244,7 +250,7 @@ export function createView(canvas, told) {
 
   return {
     resize() {
-      renderer.setPixelRatio(detail * Math.min(2, window.devicePixelRatio));
+      renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
       renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
       draw();
     },
@@ -339,39 +345,18 @@ export function createView(canvas, told) {
       sprites.show(set, light);
       draw();
     },
-    // The sprites alone as the camera sees them, in their own light: RGBA bytes, premultiplied, the lowest row first.
-    spritesSeen(width, height) {
-      const target = new WebGLRenderTarget(width, height);
-      const shown = scene.children.map((child) => [child, child.visible]);
-      const { opacity } = sprites;
-      for (const [child] of shown) child.visible = child === sprites.object;
-      sprites.setOpacity(1);
-      sprites.gain([1, 1, 1]);
-      renderer.setRenderTarget(target);
-      renderer.clear();
-      renderer.render(scene, camera);
-      const bytes = new Uint8Array(4 * width * height);
-      renderer.readRenderTargetPixels(target, 0, 0, width, height, bytes);
-      renderer.setRenderTarget(null);
-      target.dispose();
-      for (const [child, visible] of shown) child.visible = visible;
-      sprites.setOpacity(opacity);
-      sprites.gain(gain);
-      return bytes;
-    },
+    spritesSeen: (width, height) => sprites.seen(renderer, camera, width, height),
     spritesGain(value) {
-      gain = value;
       sprites.gain(value);
       draw();
     },
+    isSoftware: drawsInSoftware(renderer.getContext()),
     detail(share) {
       if (share === detail) return;
       detail = share;
-      this.resize();
-      render(); // at once: a canvas of another size is empty
+      draw();
     },
     spritesAt(opacity) {
-      sprites.object.visible = opacity > 0;
       sprites.setOpacity(opacity);
       draw();
     },
