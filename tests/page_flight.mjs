@@ -4,6 +4,7 @@
 import assert from "node:assert/strict";
 
 import { axe, context, download, group, look, patience, renders, runTests, settled, watchControls } from "./page_browser.mjs";
+import { colourOf, stripOf } from "../web/flight_sky.js";
 import { forwardOf, moved, poseOf, targetOf, turnedBy } from "../web/flight_motion.js";
 import { denser, gainOf, sparser } from "../web/workspace_particles.js";
 import { lengthOf, pathOf, textOf, thinned, viewAt } from "../web/flight_path.js";
@@ -107,6 +108,24 @@ function particles() {
   near(gainOf(sprites, picture, width, height), [1.5, 1.2, 0.9], 1e-9, "brighter and redder");
   assert.equal(gainOf(new Uint8Array(4 * width * height), picture, width, height), null, "without a cloud nothing is known");
 }
+function skies() {
+  // A map whose red is the row, and whose green the column: heading 0 is its middle, 90 a quarter from the left.
+  const [width, height] = [8, 180];
+  const data = new Uint8Array(4 * width * height);
+  for (let y = 0; y < height; y += 1) for (let x = 0; x < width; x += 1) data.set([y, x, 7, 255], 4 * (y * width + x));
+  const map = { width, height, data };
+  assert.deepEqual(colourOf(map, 0.5, 0), [89, 4, 7]);
+  assert.deepEqual(colourOf(map, 60.5, 90), [29, 2, 7]);
+  assert.deepEqual(colourOf(map, -90, -90), [179, 6, 7]);
+  assert.deepEqual([colourOf(map, 90, 179), colourOf(map, 90, 181), colourOf(map, 90, -541)].map(([, x]) => x), [0, 7, 0], "all around");
+  // A picture of 90 degrees ends 45 above and below the horizon; colours stand from above to below.
+  const strip = stripOf(map, 0, 90);
+  for (let i = 1; i < strip.length; i += 1) assert.ok(strip[i].at > strip[i - 1].at);
+  const level = (strip.findLast(({ at }) => at < 0.64).at + strip.find(({ at }) => at > 0.64).at) / 2;
+  near(level, 0.64, 1e-9, "the horizon");
+  const fast = stripOf(map, 0, 20);
+  near((0.64 - fast[3].at) / (0.64 - strip[3].at), 1 / Math.tan((10 * Math.PI) / 180), 1e-9, "a longer lens spreads it");
+}
 
 // --- in the browser ---
 
@@ -147,6 +166,7 @@ const tests = {
   "moves the eye as the keys say": moves,
   "keeps paths, and finds the way between their keys": paths,
   "makes particles fewer, denser and as bright as a picture": particles,
+  "finds the colours of the sky": skies,
 
   async "takes off, moves with particles, and sharpens where it rests"(page) {
     await group(page, "JSON").locator("summary").click();
@@ -156,6 +176,7 @@ const tests = {
     await takeOff(page);
     assert.equal(await page.getByRole("toolbar", { name: "Workspace" }).isVisible(), false);
     assert.equal(await page.evaluate(() => document.activeElement.id), "stage");
+    await page.waitForFunction(() => /^linear-gradient\(rgb\(/.test(document.querySelector("#stage").style.getPropertyValue("--sky")));
     await page.keyboard.down("w");
     await page.waitForSelector("#stage.sprites");
     await page.waitForFunction(() => /^\d+ × \d+ · \d+\.\d s · [\d.]+ frames\/s · 120 particles$/.test(document.querySelector("#flight-figures").textContent));

@@ -73,6 +73,11 @@ export async function litParticles(text, options = {}) {
   return { buffer: await response.arrayBuffer(), exposure: Number(response.headers.get("Awan-Exposure")) || 0 };
 }
 
+// A map of the scene's sky all around, so many pixels wide and half as high, as a PNG.
+export async function sky(text, width) {
+  return (await post(`/v1/sky?width=${width}`, withoutLayers(text), { accept: "image/png" })).blob();
+}
+
 // A job's place, from the text of what it is.
 export async function beginJob(text, options = {}) {
   return (await post("/v1/jobs", text, { accept: "application/json", ...options })).headers.get("Location");

@@ -9,6 +9,7 @@ import { byId } from "./dom.js";
 import { save } from "./saving.js";
 import { createFlightBar } from "./flight_bar.js";
 import { moved, poseOf, targetOf, turnedBy } from "./flight_motion.js";
+import { createFlightSky } from "./flight_sky.js";
 import { lengthOf, pathOf, textOf, thinned, viewAt } from "./flight_path.js";
 import { fieldAt, atOrDefault } from "./schema.js";
 import { THICKNESS, thickened } from "./workspace_shapes.js";
@@ -36,6 +37,7 @@ const isOwnOf = (target) => target.closest?.("input, select, textarea, [contente
 // the document is another thing. name() -> stem of file names.
 export function createFlight(store, { view, eye, bounds, sprites, changed, failed, note, name, refresh }) {
   const stage = byId("stage");
+  const sky = createFlightSky(stage);
   const still = window.matchMedia("(prefers-reduced-motion: reduce)");
   let on = false;
   let pose = null;
@@ -97,7 +99,9 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
     const down = 50 + (50 * Math.tan((pitch * Math.PI) / 180)) / Math.tan((lens.fov * Math.PI) / 360);
     stage.style.setProperty("--horizon", `${((Math.max(-400, Math.min(500, down)) / 100) * stage.clientHeight).toFixed(1)}px`);
     stage.classList.toggle("below", down < 0);
+    sky.show(pose.heading, lens.fov);
   }
+  const askSky = () => sky.ask(store.scene, () => { if (on) draw(); });
   // The camera of the document becomes the flight's. All of it is one step of undo. False when it is that already.
   function write(moving) {
     const { eye: place, target, fov } = lookOf();
@@ -275,6 +279,7 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
     begun = last = performance.now();
     frames = { since: begun, drawn: 0 };
     stage.classList.add("flying");
+    askSky();
     view().flies(true);
     sprites().flies(true);
     show();
@@ -373,6 +378,7 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
       leave({ kept: false });
       return;
     }
+    askSky();
     const isKept = at(store.scene, "/camera") === mine.camera;
     mine = store.scene;
     if (isKept) return;
