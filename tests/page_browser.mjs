@@ -86,10 +86,19 @@ async function quicken(page) {
   });
 }
 
-export async function open(where = "/") {
+// asWithGpu: the page does not find out that a program draws for it.
+export async function open(where = "/", { asWithGpu = false } = {}) {
   const page = await context.newPage();
   watch(page);
   await quicken(page);
+  if (asWithGpu) {
+    await page.addInitScript(() => {
+      const { getExtension } = WebGL2RenderingContext.prototype;
+      WebGL2RenderingContext.prototype.getExtension = function (name) {
+        return name === "WEBGL_debug_renderer_info" ? null : getExtension.call(this, name);
+      };
+    });
+  }
   await page.addInitScript(() => {
     addEventListener("securitypolicyviolation", (event) =>
       console.error(`policy: ${event.violatedDirective} ${event.blockedURI}`));

@@ -4,9 +4,9 @@
 import assert from "node:assert/strict";
 
 import { axe, context, download, group, look, patience, renders, runTests, settled, watchControls } from "./page_browser.mjs";
-import { colourOf, stripOf } from "../web/flight_sky.js";
 import { forwardOf, moved, poseOf, targetOf, turnedBy } from "../web/flight_motion.js";
 import { denser, gainOf, sparser } from "../web/workspace_particles.js";
+import { colourOf, stripOf } from "../web/workspace_sky.js";
 import { lengthOf, pathOf, textOf, thinned, viewAt } from "../web/flight_path.js";
 
 const near = (a, b, within, what) => {

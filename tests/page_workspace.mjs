@@ -284,9 +284,10 @@ const tests = {
 
   // On a page of its own: where a computer draws too slowly, the next drags are without.
   async "shows particles while something moves, and the picture when it rests"() {
-    const page = await open("/#cumulus");
+    const page = await open("/#cumulus", { asWithGpu: true });
     await page.waitForFunction(() => document.querySelector('[data-mode="translate"]')?.offsetParent != null);
     await page.waitForFunction(() => document.querySelector("#stage").dataset.light === "service");
+    await page.waitForFunction(() => /^linear-gradient/.test(document.querySelector("#stage").style.getPropertyValue("--sky")));
     const { x, y } = await box(page);
     await page.mouse.move(x + 30, y + 30);
     await page.mouse.down();

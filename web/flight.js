@@ -9,7 +9,6 @@ import { byId } from "./dom.js";
 import { save } from "./saving.js";
 import { createFlightBar } from "./flight_bar.js";
 import { moved, poseOf, targetOf, turnedBy } from "./flight_motion.js";
-import { createFlightSky } from "./flight_sky.js";
 import { lengthOf, pathOf, textOf, thinned, viewAt } from "./flight_path.js";
 import { fieldAt, atOrDefault } from "./schema.js";
 import { THICKNESS, thickened } from "./workspace_shapes.js";
@@ -33,11 +32,10 @@ const HOLD = {
 const SPEED = { 1: 1, 2: 2, 3: 3, Digit1: 1, Digit2: 2, Digit3: 3 };
 const isOwnOf = (target) => target.closest?.("input, select, textarea, [contenteditable]") !== null;
 
-// view(): of workspace_view.js, or null. eye() -> { eye, target, fov, ... } of the document. changed(): what is to be seen of
+// view(): of workspace_view.js, or null. sky: of workspace_sky.js. eye() -> { eye, target, fov, ... } of the document. changed(): what is to be seen of
 // the document is another thing. name() -> stem of file names.
-export function createFlight(store, { view, eye, bounds, sprites, changed, failed, note, name, refresh }) {
+export function createFlight(store, { view, sky, eye, bounds, sprites, changed, failed, note, name, refresh }) {
   const stage = byId("stage");
-  const sky = createFlightSky(stage);
   const still = window.matchMedia("(prefers-reduced-motion: reduce)");
   let on = false;
   let pose = null;
@@ -93,15 +91,10 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
   }
 
   function draw() {
-    view().camera({ ...lookOf(), up: lens.up, aspect: lens.aspect });
-    // Where the horizon is, in the picture: the sky that particles are seen before.
-    const { pitch } = pose;
-    const down = 50 + (50 * Math.tan((pitch * Math.PI) / 180)) / Math.tan((lens.fov * Math.PI) / 360);
-    stage.style.setProperty("--horizon", `${((Math.max(-400, Math.min(500, down)) / 100) * stage.clientHeight).toFixed(1)}px`);
-    stage.classList.toggle("below", down < 0);
-    sky.show(pose.heading, lens.fov);
+    const look = lookOf();
+    view().camera({ ...look, up: lens.up, aspect: lens.aspect });
+    sky.look(look);
   }
-  const askSky = () => sky.ask(store.scene, () => { if (on) draw(); });
   // The camera of the document becomes the flight's. All of it is one step of undo. False when it is that already.
   function write(moving) {
     const { eye: place, target, fov } = lookOf();
@@ -279,7 +272,6 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
     begun = last = performance.now();
     frames = { since: begun, drawn: 0 };
     stage.classList.add("flying");
-    askSky();
     view().flies(true);
     sprites().flies(true);
     show();
@@ -297,7 +289,7 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
     on = false;
     replay = null;
     letGo();
-    stage.classList.remove("flying", "below");
+    stage.classList.remove("flying");
     view().flies(false);
     sprites().flies(false);
     show();
@@ -378,7 +370,6 @@ export function createFlight(store, { view, eye, bounds, sprites, changed, faile
       leave({ kept: false });
       return;
     }
-    askSky();
     const isKept = at(store.scene, "/camera") === mine.camera;
     mine = store.scene;
     if (isKept) return;

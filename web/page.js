@@ -160,21 +160,21 @@ async function askPlan() {
 
 let rung = ""; // of the last picture
 // With a named rung or a looser wish the service would measure the error, too, which takes longer than the picture.
-const kQuick = { time_ms: 120 };
+const kQuick = { time_ms: 120 }, kQuickWithLumps = { time_ms: 250 };
 // Rungs that are quicker than what a short time would choose keep their look.
 const isQuick = ({ rung: named, time_ms: ms }) => (named !== undefined && !/^(transport-|truth$)/.test(named)) || ms < kQuick.time_ms;
 
-function quickened(scene) {
+function quickened(scene, lumps) {
   if (time.playing) return time.playedScene(/^transport-/.test(rung) ? "transport-16" : null);
   if (atOrDefault(scene, "/look") !== "physical" || isQuick(scene.accuracy ?? {})) return scene; // a look has no error
-  // Lumps hardly show at the size of a coarse picture, and take half of its time; without them it can be lit as the whole
-  // picture is, instead of with a glow alone.
-  return { ...scene, detail: "none", accuracy: kQuick };
+  // Lumps take half of the time. Without them, where it is short, the picture can be lit as the whole one is, instead of with a
+  // glow alone.
+  return lumps ? { ...scene, accuracy: kQuickWithLumps } : { ...scene, detail: "none", accuracy: kQuick };
 }
-function textFor({ reduction, quick }) {
+function textFor({ reduction, quick, lumps }) {
   const seen = workspace.seen(store.scene);
   if (reduction === 1 && !quick && seen === store.scene) return store.text;
-  const scene = quick ? coarser(quickened(seen), reduction) : seen;
+  const scene = quick ? coarser(quickened(seen, lumps), reduction) : seen;
   const side = (member) => Math.max(1, Math.round(atOrDefault(scene, `/image/${member}`) / reduction));
   return compactJson(withAt(withAt(scene, "/image/width", side("width")), "/image/height", side("height")));
 }

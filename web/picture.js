@@ -5,20 +5,25 @@
 //  * once the pointer is let go, or nothing has moved for kRestMs, the picture is refined: at half its size, if the whole
 //    takes long, and whole. A newer state cancels what refines an older one;
 //  * while time plays, coarse pictures are made one after the other.
+// Coarse pictures have the cloud's lumps, which make most of its shape; where even small ones take too long with them, those of
+// something that moves are without, and the first of something that rests has them again.
 
 import { Problem } from "./api.js";
 
 const kSettleMs = 30; // a change waits so long for its fellows
 const kRestMs = 400;
-// The sides of coarse pictures are a half, a quarter or an eighth of the whole one's: smaller after one that took long, larger
-// after one that took next to nothing.
+// How many times smaller the sides of coarse pictures are than the whole one's: more after one that took long, fewer after one
+// that took next to nothing.
+const COARSE = [2, 4, 8, 12];
 const kSlowCoarseMs = 150;
+const kVerySlowCoarseMs = 350;
 const kFastCoarseMs = 40;
-const kLargestCoarse = 2, kSmallestCoarse = 8;
+const kSlowLumpsMs = 190; // at the smallest size
 const kShortWholeMs = 250; // what is expected to take no longer needs none before it
 const kLongWholeMs = 1200; // what is expected to take longer is shown at half its size before
 
-// render({ reduction, quick }, signal) -> promise of a picture with sides `reduction` times smaller, `quick`: coarsely.
+// render({ reduction, quick, lumps }, signal) -> promise of a picture with sides `reduction` times smaller, `quick`: coarsely,
+// with lumps or without.
 // shown(picture, { whole }) -> promise, failed(problem).
 // busy(true) from the first change until the whole picture of the latest state is shown or has failed.
 // marked(how): what the picture on the screen is: "" of the latest state and whole, "coarse" of it, "earlier" of a state
@@ -34,20 +39,30 @@ export function createRenderLoop({ render, shown, failed, busy, marked }) {
   let startTimer = 0;
   let restTimer = 0;
   let retryTimer = 0;
-  let reduction = 4; // of coarse pictures
+  let size = 1; // of coarse pictures: which of COARSE
+  let isLumpy = true; // they have lumps, even while something moves
   let wholeMs = Infinity; // what the whole picture is expected to take
 
   function nextStep() {
     if (failedVersion === version) return null;
     const shownOfIt = onScreen.version === version ? onScreen.step : "";
     if (shownOfIt === "whole") return null;
-    if (shownOfIt === "" && wholeMs > kShortWholeMs) return "coarse";
+    const isPlain = shownOfIt === "" || (shownOfIt === "coarse" && !onScreen.lumps);
+    if (isPlain && wholeMs > kShortWholeMs) return "coarse";
     return shownOfIt !== "half" && wholeMs > kLongWholeMs ? "half" : "whole";
   }
 
   function mark() {
     if (onScreen.version === version) marked(onScreen.step === "whole" ? "" : failedVersion === version ? "unrefined" : "coarse");
     else if (failedVersion === version) marked("earlier");
+  }
+
+  // What a coarse picture took says how the next will be.
+  function learn(took, lumps) {
+    const last = COARSE.length - 1;
+    if (lumps && size === last && took > kSlowLumpsMs) isLumpy = false;
+    if (took > kSlowCoarseMs) size = Math.min(size + (took > kVerySlowCoarseMs ? 2 : 1), last);
+    if (took < kFastCoarseMs) size = Math.max(size - 1, 0);
   }
 
   function start() {
@@ -58,17 +73,17 @@ export function createRenderLoop({ render, shown, failed, busy, marked }) {
       if (!restTimer) busy(false);
       return;
     }
-    const mine = { step: want, version, started: performance.now(), controller: new AbortController() };
+    const lumps = want !== "coarse" || isLumpy || !(moving || playing);
+    const mine = { step: want, lumps, version, started: performance.now(), controller: new AbortController() };
     const { signal } = mine.controller;
     want = null;
     flight = mine;
-    render({ reduction: { coarse: reduction, half: 2, whole: 1 }[mine.step], quick: mine.step === "coarse" }, signal)
+    render({ reduction: { coarse: COARSE[size], half: 2, whole: 1 }[mine.step], quick: mine.step === "coarse", lumps }, signal)
       .then(async (picture) => {
         if (signal.aborted) return;
         const took = performance.now() - mine.started;
         if (mine.step === "whole") wholeMs = took;
-        if (mine.step === "coarse" && took > kSlowCoarseMs) reduction = Math.min(2 * reduction, kSmallestCoarse);
-        if (mine.step === "coarse" && took < kFastCoarseMs) reduction = Math.max(reduction / 2, kLargestCoarse);
+        if (mine.step === "coarse") learn(took, lumps);
         await shown(picture, { whole: mine.step === "whole" });
         onScreen = mine;
       })
@@ -99,7 +114,7 @@ export function createRenderLoop({ render, shown, failed, busy, marked }) {
     clearTimeout(restTimer);
     restTimer = 0;
     if (!same) version += 1;
-    if (another) wholeMs = Infinity;
+    if (another) [wholeMs, isLumpy] = [Infinity, true];
     [moving, playing] = [moves && !plays, plays];
     busy(true);
     if (flight && flight.step !== "coarse" && flight.version !== version) flight.controller.abort();

@@ -10,6 +10,7 @@ import { atOrDefault } from "./schema.js";
 import { added, cleared, duplicated, removed, transformed } from "./workspace_edit.js";
 import { around, isTriple, itemsOf } from "./workspace_items.js";
 import { createPanel } from "./workspace_panel.js";
+import { createSky } from "./workspace_sky.js";
 import { createSpriteLoop } from "./workspace_sprite_loop.js";
 import { createToolbar } from "./workspace_toolbar.js";
 
@@ -182,8 +183,9 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, seen, fa
 
   // --- flying: it has pointer and keys before the workspace ---
 
+  const sky = createSky(stage);
   const flight = createFlight(store, {
-    view: () => view, eye: eyeOf, bounds, sprites: () => sprites, changed: seen, failed, note, name, refresh: () => refresh(),
+    view: () => view, sky, eye: eyeOf, bounds, sprites: () => sprites, changed: seen, failed, note, name, refresh: () => refresh(),
   });
   async function fly() {
     if (state === "off" || state === "waiting") await toggle();
@@ -332,6 +334,7 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, seen, fa
     view.resize();
     refresh();
     sprites.begin();
+    sky.ask(store.scene);
   }
   function remember() {
     try {
@@ -387,7 +390,9 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, seen, fa
     const [center, half] = items.length ? around(items) : [[0, 0, 0], [5, 5, 5]];
     const measured = bounds() ?? { min: center.map((c, i) => c - half[i]), max: center.map((c, i) => c + half[i]) };
     if (!gesture) view.bounds(measured);
-    view.camera(flight.on ? flight.look() : eyeOf());
+    const look = flight.on ? flight.look() : eyeOf();
+    view.camera(look);
+    sky.look(look);
     view.items(drawn);
     view.sun(sunAngles());
     const item = active();
@@ -408,7 +413,9 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, seen, fa
     // What the picture on the screen is of (picture.js).
     marked(how) {
       begin();
-      if (how !== "earlier") sprites.settled();
+      if (how === "earlier") return;
+      sprites.settled();
+      if (state === "on") sky.ask(store.scene);
     },
   };
 }

@@ -70,7 +70,9 @@ export function createSpriteLoop({ view, scene, seen, sun, tone }) {
     if (gain) view().spritesGain(gain);
   }
   const most = () => (view()?.isSoftware ? kMostSoftware : kMost);
-  const isReady = () => known !== null && known.set !== null && (flying || performance.now() >= slowUntil) && view() !== null;
+  // Without a GPU, the pictures of the service are quicker.
+  const isQuick = () => flying || (performance.now() >= slowUntil && !view().isSoftware);
+  const isReady = () => known !== null && known.set !== null && view() !== null && isQuick();
   function sharpen(share) {
     [detail, slowFrames] = [share, 0];
     view()?.detail(share);
