@@ -55,6 +55,7 @@ Status march_light(const Scene& scene, const Planned& planned, const TransportLi
                    const Tools& tools, const Deadline& deadline, Rendered& rendered) {
     MarchSettings settings;
     settings.eye_effects = planned.plan.eye_effects();
+    settings.one_ray = planned.is_preview;
     const Layers layers = read_layers(scene->image.layers).value_or(Layers{});
     MarchedBeside beside;
     std::optional<LightsOnce> once;
@@ -179,7 +180,7 @@ Status measure_or_climb(const Scene& scene, Planned& planned, const Tools& tools
         return std::nullopt;
     }
     if (planned.particles.size() == 0 || !(planned.survey.total_mass > 0)) return std::nullopt;
-    const bool unwanted = planned.rung_is_settled && planned.is_unmeasured;
+    const bool unwanted = planned.is_preview || (planned.rung_is_settled && planned.is_unmeasured);
     if (unwanted || !is_time_to_measure(scene, planned, rendered.times)) {
         rendered.stated_error = std::numeric_limits<double>::quiet_NaN();
         return std::nullopt;

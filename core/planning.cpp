@@ -1,6 +1,7 @@
 #include "core/planning.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/generate/generate.h"
@@ -79,6 +80,13 @@ Result<Planned> with_detail_made(const Scene& scene, Result<Planned> planned, in
         });
         planned->times.survey_ms += effects.of(Effect::kDetail);
     }
+    return planned;
+}
+
+Planned as_preview(const Scene& scene, Planned planned) {
+    planned.is_preview = planned.is_unmeasured = true;
+    planned.rung_is_settled = planned.rung_is_settled || !scene->accuracy.time_ms;
+    planned.plan.predicted.error = std::numeric_limits<double>::quiet_NaN();
     return planned;
 }
 

@@ -32,6 +32,8 @@ struct Planned {
     // Nobody wants to know the error of a picture whose rung is settled: none is stated. Measuring it takes longer than
     // drawing a small picture by light that was kept.
     bool is_unmeasured = false;
+    // The picture is looked at in passing: one ray a pixel, even where it is uneven, and no error is stated.
+    bool is_preview = false;
 };
 
 // Plans a picture of the scene at its own time; a sequence that it may have is not looked at. detail: the figures from
@@ -50,6 +52,9 @@ Result<Planned> plan_generated(const Scene& scene, ParticleSet made, int threads
 // An error in `planned` is passed on. tiles: keeps what one picture made for the next; may be null.
 Result<Planned> with_detail_made(const Scene& scene, Result<Planned> planned, int threads,
                                  DetailTiles* tiles = nullptr);
+
+// The same, for a preview: of the rung that was planned, whatever error the scene asks for.
+Planned as_preview(const Scene& scene, Planned planned);
 
 // Adds `ms` to what the plan predicts, for the chosen rung and for every other: work that all of them share.
 void add_to_predictions(Plan& plan, double ms);

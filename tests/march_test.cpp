@@ -111,6 +111,29 @@ TEST(March, TransmittanceIsExact) {
     }
 }
 
+// Also where it is uneven: what otherwise is the mean of several is that of the pixel's middle.
+TEST(March, OneRayAPixelIsThatOfItsMiddle) {
+    SceneDraft draft = transparent(test::balls({{{0, 0, 0}, 1, 1e6}, {{1, 0.5, 1}, 0.7, 40}}));
+    draft.camera.eye = {0, 0, 9};
+    draft.camera.target = {0, 0, 0};
+    draft.image.width = 80;
+    draft.image.height = 60;
+    const test::Stage stage = test::stage(draft);
+    const auto worst_middle = [&](bool one_ray) {
+        MarchSettings settings;
+        settings.one_ray = one_ray;
+        const Image image = test::marched(stage, no_light(), 2, settings);
+        double worst = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                worst = std::max(worst, std::abs(test::pixel(image, x, y).a -
+                                                 exact_alpha(stage, x + 0.5, y + 0.5)));
+        return worst;
+    };
+    EXPECT_LT(worst_middle(true), 1e-3);
+    EXPECT_GT(worst_middle(false), 0.005);
+}
+
 // Sunlight scattered once, by fine midpoints over exact depths.
 double single(const test::Stage& stage, const test::Ray& ray, double far, int steps) {
     const glm::dvec3 sun = sun_direction(stage.scene->sun);

@@ -107,7 +107,7 @@ export async function open(where = "/", { asWithGpu = false } = {}) {
     window.flights = flights;
     const { fetch } = window;
     window.fetch = async (url, options) => {
-      if (url !== "/v1/render") return fetch(url, options);
+      if (!/^\/v1\/render\b/.test(url)) return fetch(url, options);
       flights.now += 1;
       flights.most = Math.max(flights.most, flights.now);
       try {
@@ -130,7 +130,7 @@ export const STAND_IN = Buffer.from(
 export async function openQuiet({ pictures = true, contract = true } = {}) {
   const page = await context.newPage();
   page.on("pageerror", (error) => faults.push(String(error)));
-  await page.route("**/v1/render", (route) => (pictures ? route.fulfill({ contentType: "image/png", body: STAND_IN }) : undefined));
+  await page.route("**/v1/render*", (route) => (pictures ? route.fulfill({ contentType: "image/png", body: STAND_IN }) : undefined));
   await page.route("**/v1/plan", (route) => route.fulfill({ json: {} }));
   if (!contract) await page.route("**/openapi.json", (route) => route.fulfill({ status: 503, body: "" }));
   await page.goto(`${origin}/#cumulus`);

@@ -78,7 +78,7 @@ try {
   await settled(page);
 
   // A token that changes while the page is open: the document stays.
-  await page.route("**/v1/render", (route) => route.fulfill({ status: 401, json: { title: "Unauthorized" } }), { times: 1 });
+  await page.route("**/v1/render*", (route) => route.fulfill({ status: 401, json: { title: "Unauthorized" } }), { times: 1 });
   const elevation = group(page, "Sun").getByLabel("Elevation, °");
   await elevation.fill("12");
   await field.waitFor();

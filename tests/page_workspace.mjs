@@ -56,7 +56,7 @@ const tests = {
       return {
         bytes: page.reduce((sum, { encodedBodySize }) => sum + encodedBodySize, 0),
         view: all.find(({ name }) => name.endsWith("/workspace_view.js")).startTime,
-        picture: all.find(({ name }) => name.endsWith("/v1/render")).responseEnd,
+        picture: all.find(({ name }) => /\/v1\/render\b/.test(name)).responseEnd,
       };
     });
     console.log(`  ${(bytes / 1000).toFixed(0)} kB on the wire`);
@@ -315,7 +315,7 @@ const tests = {
 
   async "starts shapes, strews twins, makes them thin and thick, and takes in files"(page) {
     await settled(page);
-    await page.route("**/v1/render", (route) => route.fulfill({ contentType: "image/png", body: STAND_IN })); // what they look like is not at issue
+    await page.route("**/v1/render*", (route) => route.fulfill({ contentType: "image/png", body: STAND_IN })); // what they look like is not at issue
     const shape = page.locator("#shape");
     const depth = async () => {
       const answer = await fetch(`${origin}/v1/plan`, { method: "POST", headers: { "Content-Type": "application/json" }, body: await page.inputValue("#json") });

@@ -113,6 +113,38 @@ TEST_F(SceneRequestTest, ParticlesMayHaveTheirLight) {
     expect_problem(ask(service, "/v1/particles", {{"light", "1"}}, look, json), 422, "/look");
 }
 
+TEST_F(SceneRequestTest, PreviewsStateNoError) {
+    const Headers json{{"Content-Type", "application/json"}};
+    const auto scene = [](const char* accuracy) {
+        return std::string(
+                   R"({"cubes":[{"particles":20,"size":[2,1,2],"center":[0,0,0],"radius":0.5}],)"
+                   R"("image":{"width":24,"height":16})") +
+               accuracy + "}";
+    };
+    // Without a wish, by name, by error and by time.
+    for (const char* const accuracy :
+         {"", R"(,"accuracy":{"rung":"transport-16"})", R"(,"accuracy":{"error":0.02})",
+          R"(,"accuracy":{"time_ms":5000})", R"(,"accuracy":{"rung":"single"})"}) {
+        const Response whole = ask(service, "/v1/render", {}, scene(accuracy), json);
+        const Response preview =
+            ask(service, "/v1/render", {{"preview", "1"}}, scene(accuracy), json);
+        ASSERT_EQ(whole.status, 200) << whole.body;
+        ASSERT_EQ(preview.status, 200) << preview.body;
+        EXPECT_NE(whole.header("Awan-Error"), "") << accuracy;
+        EXPECT_EQ(preview.header("Awan-Error"), "") << accuracy;
+        EXPECT_EQ(preview.header("Awan-Error-Forecast"), "") << accuracy;
+        EXPECT_NE(preview.header("Awan-Rung"), "") << accuracy;
+        EXPECT_NE(preview.header("ETag"), whole.header("ETag")) << accuracy;
+        EXPECT_EQ(ask(service, "/v1/render", {{"preview", "0"}}, scene(accuracy), json).body,
+                  whole.body)
+            << accuracy;
+    }
+    for (const Query& query : {Query{{"preview", "yes"}}, Query{{"preview", ""}},
+                               Query{{"preview", "1"}, {"preview", "1"}}})
+        expect_problem(ask(service, "/v1/render", query, scene(""), json), 400);
+    expect_problem(ask(service, "/v1/plan", {{"preview", "1"}}, scene(""), json), 400);
+}
+
 TEST_F(SceneRequestTest, AnAnswerComesBackIn) {
     const std::string answer = whole_body(post("/v1/particles"));
     const Response again = post("/v1/particles", answer);

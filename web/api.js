@@ -97,21 +97,24 @@ export async function accuracyPlot(text, { dark, signal }) {
 }
 
 // Layers are for EXR alone; of a document with layers a PNG shows the colours.
-export const renderPath = (text, accept) =>
-  accept === "image/png" && text.includes('"layers"') ? "/v1/render?layers=none" : "/v1/render";
+export const renderPath = (text, accept, preview = false) => {
+  const asked = [accept === "image/png" && text.includes('"layers"') ? "layers=none" : "", preview ? "preview=1" : ""].filter(Boolean);
+  return ["/v1/render", asked.join("&")].filter(Boolean).join("?");
+};
 
 // The same for what takes no such query. The text stays as it is: seeds are longer than JavaScript's numbers.
 export const withoutLayers = (text) => text.replace(/"layers"(\s*):(\s*)"[^"]*"/, '"layers"$1:$2"none"');
 
 // { blob, figures }: the picture and what the answer's headers say about it.
-export async function render(text, { accept = "image/png", signal } = {}) {
+export async function render(text, { accept = "image/png", preview = false, signal } = {}) {
   const sent = performance.now();
-  const response = await post(renderPath(text, accept), text, { accept, signal });
+  const response = await post(renderPath(text, accept, preview), text, { accept, signal });
   const blob = await response.blob();
   const header = (name) => response.headers.get(name);
   const list = header("Awan-Effects");
   return {
     blob,
+    isKept: ["hit", "disk"].includes(header("Awan-Cache")), // nothing was computed
     figures: {
       roundTripMs: performance.now() - sent,
       particles: header("Awan-Particles"),

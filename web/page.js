@@ -159,22 +159,21 @@ async function askPlan() {
 }
 
 let rung = ""; // of the last picture
-// With a named rung or a looser wish the service would measure the error, too, which takes longer than the picture.
-const kQuick = { time_ms: 120 }, kQuickWithLumps = { time_ms: 250 };
+// What coarse pictures are asked for by.
+const QUICK = { any: { time_ms: 400 }, lumps: { rung: "transport-16" }, plain: { rung: "transport-16" }, glow: { rung: "harris" } };
 // Rungs that are quicker than what a short time would choose keep their look.
-const isQuick = ({ rung: named, time_ms: ms }) => (named !== undefined && !/^(transport-|truth$)/.test(named)) || ms < kQuick.time_ms;
+const isQuick = ({ rung: named, time_ms: ms }) => (named !== undefined && !/^(transport-|truth$)/.test(named)) || ms < 120;
 
-function quickened(scene, lumps) {
+function quickened(scene, look) {
   if (time.playing) return time.playedScene(/^transport-/.test(rung) ? "transport-16" : null);
   if (atOrDefault(scene, "/look") !== "physical" || isQuick(scene.accuracy ?? {})) return scene; // a look has no error
-  // Lumps take half of the time. Without them, where it is short, the picture can be lit as the whole one is, instead of with a
-  // glow alone.
-  return lumps ? { ...scene, accuracy: kQuickWithLumps } : { ...scene, detail: "none", accuracy: kQuick };
+  const isLumpy = ["any", "lumps"].includes(look);
+  return { ...scene, ...(isLumpy ? {} : { detail: "none" }), accuracy: QUICK[look] };
 }
-function textFor({ reduction, quick, lumps }) {
+function textFor({ reduction, quick, look }) {
   const seen = workspace.seen(store.scene);
   if (reduction === 1 && !quick && seen === store.scene) return store.text;
-  const scene = quick ? coarser(quickened(seen, lumps), reduction) : seen;
+  const scene = quick ? coarser(quickened(seen, look), reduction) : seen;
   const side = (member) => Math.max(1, Math.round(atOrDefault(scene, `/image/${member}`) / reduction));
   return compactJson(withAt(withAt(scene, "/image/width", side("width")), "/image/height", side("height")));
 }
@@ -188,8 +187,8 @@ const loop = createRenderLoop({
     const height = atOrDefault(store.scene, "/image/height");
     const transparent = atOrDefault(store.scene, "/image/background") === "transparent";
     const isOwn = workspace.seen(store.scene) === store.scene; // a flight shows other thicknesses
-    const picture = await api.render(textFor(how), { signal });
-    return { ...picture, width, height, reduction, transparent, isOwn };
+    const picture = await api.render(textFor(how), { preview: how.quick, signal });
+    return { ...picture, isLit: /^transport-/.test(picture.figures.rung), width, height, reduction, transparent, isOwn };
   },
   async shown({ blob, figures: said, width, height, reduction, transparent, isOwn }, { whole }) {
     stage.shape(width, height, transparent);

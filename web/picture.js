@@ -5,8 +5,9 @@
 //  * once the pointer is let go, or nothing has moved for kRestMs, the picture is refined: at half its size, if the whole
 //    takes long, and whole. A newer state cancels what refines an older one;
 //  * while time plays, coarse pictures are made one after the other.
-// Coarse pictures have the cloud's lumps, which make most of its shape; where even small ones take too long with them, those of
-// something that moves are without, and the first of something that rests has them again.
+// Coarse pictures have the cloud's lumps, which make most of its shape. Where even small ones take too long with them, those of
+// something that moves are without, and where that takes too long, they have a glow instead of the light of the whole picture.
+// The first of a document is as the service thinks it can be in a short time.
 
 import { Problem } from "./api.js";
 
@@ -18,12 +19,14 @@ const COARSE = [2, 4, 8, 12];
 const kSlowCoarseMs = 150;
 const kVerySlowCoarseMs = 350;
 const kFastCoarseMs = 40;
-const kSlowLumpsMs = 190; // at the smallest size
+const LOOKS = ["lumps", "plain", "glow"];
+// Two after the other that take so long at the smallest size, or one that takes so very long at any, are followed by others.
+const SLOW_LOOK_MS = [220, 400, Infinity], kVerySlowLookMs = 700;
 const kShortWholeMs = 250; // what is expected to take no longer needs none before it
 const kLongWholeMs = 1200; // what is expected to take longer is shown at half its size before
 
-// render({ reduction, quick, lumps }, signal) -> promise of a picture with sides `reduction` times smaller, `quick`: coarsely,
-// with lumps or without.
+// render({ reduction, quick, look }, signal) -> promise of a picture with sides `reduction` times smaller, `quick`: coarsely, of
+// one of LOOKS, or "any". isKept of it: the service had it already, so that it says nothing of times; isLit: as a whole one is.
 // shown(picture, { whole }) -> promise, failed(problem).
 // busy(true) from the first change until the whole picture of the latest state is shown or has failed.
 // marked(how): what the picture on the screen is: "" of the latest state and whole, "coarse" of it, "earlier" of a state
@@ -39,16 +42,17 @@ export function createRenderLoop({ render, shown, failed, busy, marked }) {
   let startTimer = 0;
   let restTimer = 0;
   let retryTimer = 0;
-  let size = 1; // of coarse pictures: which of COARSE
-  let isLumpy = true; // they have lumps, even while something moves
+  let size = 2; // of coarse pictures: which of COARSE
+  let look = -1; // of those that move: which of LOOKS; -1: nothing is known yet
+  let slow = 0; // of these, one after the other
   let wholeMs = Infinity; // what the whole picture is expected to take
 
   function nextStep() {
     if (failedVersion === version) return null;
     const shownOfIt = onScreen.version === version ? onScreen.step : "";
     if (shownOfIt === "whole") return null;
-    const isPlain = shownOfIt === "" || (shownOfIt === "coarse" && !onScreen.lumps);
-    if (isPlain && wholeMs > kShortWholeMs) return "coarse";
+    const isPoor = shownOfIt === "" || (shownOfIt === "coarse" && onScreen.look !== lookAtRest());
+    if (isPoor && wholeMs > kShortWholeMs) return "coarse";
     return shownOfIt !== "half" && wholeMs > kLongWholeMs ? "half" : "whole";
   }
 
@@ -57,10 +61,19 @@ export function createRenderLoop({ render, shown, failed, busy, marked }) {
     else if (failedVersion === version) marked("earlier");
   }
 
+  // What can be had with lumps at all, has them when it rests.
+  const lookAtRest = () => (look === 1 ? 0 : look);
   // What a coarse picture took says how the next will be.
-  function learn(took, lumps) {
+  function learn(took, of, isLit) {
     const last = COARSE.length - 1;
-    if (lumps && size === last && took > kSlowLumpsMs) isLumpy = false;
+    const isVerySlow = took > kVerySlowLookMs;
+    const isSlow = isVerySlow || (size === last && took > SLOW_LOOK_MS[Math.max(of, 0)]);
+    slow = isSlow ? slow + 1 : 0;
+    const before = look;
+    if (of === -1) look = isLit ? 0 : 1;
+    else if (of === look && (slow > 1 || isVerySlow)) look = Math.min(look + 1, LOOKS.length - 1);
+    else if (of < look && !isSlow) look = of;
+    if (look !== before) slow = 0;
     if (took > kSlowCoarseMs) size = Math.min(size + (took > kVerySlowCoarseMs ? 2 : 1), last);
     if (took < kFastCoarseMs) size = Math.max(size - 1, 0);
   }
@@ -73,17 +86,18 @@ export function createRenderLoop({ render, shown, failed, busy, marked }) {
       if (!restTimer) busy(false);
       return;
     }
-    const lumps = want !== "coarse" || isLumpy || !(moving || playing);
-    const mine = { step: want, lumps, version, started: performance.now(), controller: new AbortController() };
+    const quick = want === "coarse";
+    const mine = { step: want, version, started: performance.now(), controller: new AbortController() };
+    mine.look = moving || playing ? look : lookAtRest();
     const { signal } = mine.controller;
     want = null;
     flight = mine;
-    render({ reduction: { coarse: COARSE[size], half: 2, whole: 1 }[mine.step], quick: mine.step === "coarse", lumps }, signal)
+    render({ reduction: { coarse: COARSE[size], half: 2, whole: 1 }[mine.step], quick, look: LOOKS[mine.look] ?? "any" }, signal)
       .then(async (picture) => {
         if (signal.aborted) return;
         const took = performance.now() - mine.started;
-        if (mine.step === "whole") wholeMs = took;
-        if (mine.step === "coarse") learn(took, lumps);
+        if (!picture.isKept && mine.step === "whole") wholeMs = took;
+        if (!picture.isKept && quick) learn(took, mine.look, picture.isLit);
         await shown(picture, { whole: mine.step === "whole" });
         onScreen = mine;
       })
@@ -114,7 +128,7 @@ export function createRenderLoop({ render, shown, failed, busy, marked }) {
     clearTimeout(restTimer);
     restTimer = 0;
     if (!same) version += 1;
-    if (another) [wholeMs, isLumpy] = [Infinity, true];
+    if (another) [wholeMs, look] = [Infinity, -1];
     [moving, playing] = [moves && !plays, plays];
     busy(true);
     if (flight && flight.step !== "coarse" && flight.version !== version) flight.controller.abort();

@@ -269,6 +269,7 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     const std::vector<SeenParticle> seen =
         see_particles(particles, view, image.width, image.height, threads);
     MarchScene march = scene_of(scene, view, light, particles, seen, settings.step_error, threads);
+    march.one_ray = settings.one_ray;
     const bool has_peak = march.peak.share != 0;
     march.sky = gradient_behind(scene);
     Backdrop backdrop;

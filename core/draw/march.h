@@ -13,6 +13,8 @@ struct MarchSettings {
     // About how much the steps may cost, as a share of a pixel's radiance.
     double step_error = 0.01;
     EyeEffects eye_effects{};
+    // One ray a pixel, even where the picture is uneven: edges are jagged.
+    bool one_ray = false;
 };
 
 // The sun's light and the sky's, each as the matter scatters it exactly once (core/light/once_scattered.h).

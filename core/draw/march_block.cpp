@@ -391,14 +391,15 @@ void march_block(const MarchScene& scene, int block_x, int block_y,
     };
     const bool lumps = scene.detail != nullptr;
     Finer pixels{{}, std::vector<FinePixels>(along.size())};
-    march_all(sharp_places(image, left, top, fine, lumps ? kMostSharpOfLumps : kTiles), pixels);
+    if (!scene.one_ray)
+        march_all(sharp_places(image, left, top, fine, lumps ? kMostSharpOfLumps : kTiles), pixels);
     for (std::size_t first = 0; first < fine.size();) {
         const FineBatch batch = batch_from(fine, first);
         march_part(batch.places, batch.items, pixels);
         first += batch.places.size();
     }
     draw_finer(pixels);
-    if (!lumps && !hazy) return;
+    if (scene.one_ray || (!lumps && !hazy)) return;
     Finer finest{{}, std::vector<FinePixels>(along.size())};
     march_all(pixels.of_picture.sharp_places(left, top, brightest_pixel(image, left, top),
                                              kMostSharpOfLumps),

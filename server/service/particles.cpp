@@ -24,22 +24,6 @@ constexpr std::string_view kAsJson = kParticleOffers[0], kAsCsv = kParticleOffer
                            kAsPly = kParticleOffers[2], kAsAwn = kParticleOffers[3],
                            kAsAwa = kParticleOffers[4];
 
-// Whether the query asks for light; an error where it says neither 0 nor 1.
-Result<bool> wants_light(const Request& request) {
-    bool light = false;
-    int times = 0;
-    for (const auto& [name, value] : request.query) {
-        if (name != "light") continue;
-        if (value != "0" && value != "1")
-            return Error{ErrorCode::kMalformed, "",
-                         "query parameter `light` must be 0 or 1, not " + short_quote(value)};
-        light = value == "1";
-        ++times;
-    }
-    if (times > 1) return Error{ErrorCode::kMalformed, "", "query parameter `light` stands twice"};
-    return light;
-}
-
 // A particle answer in pieces: the memory of its text is one piece, however long it is.
 struct ParticleText {
     std::string_view type;
@@ -96,14 +80,9 @@ Result<std::vector<glm::vec3>> light_of_text(Service::State& state, const Reques
 
 }  // namespace
 
-Status check_particles_query(const Request& request) {
-    if (const auto light = wants_light(request); !light) return light.error();
-    return std::nullopt;
-}
-
 Response answer_particles(Service::State& state, const Request& request, const Scene& scene,
                           std::string_view type, Lanes::Pass& pass) {
-    const auto wanted = wants_light(request);
+    const auto wanted = query_flag(request, kLightName);
     if (!wanted) return fail(wanted.error(), request);
     const bool light = *wanted;
     if (light && type != kAsPly)

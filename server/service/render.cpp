@@ -272,10 +272,12 @@ Response answer_render(Service::State& state, const Request& request, const Scen
     // The answer's tag names the renderer.
     if (const Status over = state.renderer.wait_until_started(request.deadline))
         return fail(*over, request);
+    const auto preview = query_flag(request, kPreviewName);
+    if (!preview) return fail(preview.error(), request);
     const RenderThread::Info info = state.renderer.info();
-    const std::string etag =
-        make_etag({"render", fingerprint(scene), engine_version(), info.device.renderer,
-                   info.device.version, type, chosen_by(state, scene->accuracy)});
+    const std::string etag = make_etag({*preview ? "preview" : "render", fingerprint(scene),
+                                        engine_version(), info.device.renderer, info.device.version,
+                                        type, chosen_by(state, scene->accuracy)});
     if (none_match_names(joined_header(request, "If-None-Match"), etag))
         return not_modified(etag, true);
     if (const auto kept = state.results.find(etag)) {
@@ -291,6 +293,7 @@ Response answer_render(Service::State& state, const Request& request, const Scen
     auto planned = plan_scene(scene, state.options.threads, request.deadline, state.options.speed,
                               &state.tiles, &state.settling_lights);
     if (!planned) return fail(planned.error(), request);
+    if (*preview) planned = as_preview(scene, *std::move(planned));
     if (needs_device(planned->plan) && info.state == RenderThread::Info::State::kNoRenderer)
         return problem(503,
                        "rung " + planned->plan.rung +

@@ -41,7 +41,7 @@ std::span<const std::string_view> offers_of(const Request& request) {
     if (path == kParticlesPath && std::find(query.begin(), query.end(), light) != query.end())
         return std::span(kParticleOffers).subspan(2, 1);
     if (path == kParticlesPath) return kParticleOffers;
-    if (path == "/v1/render") return kRenderOffers;
+    if (path == kRenderPath) return kRenderOffers;
     if (path == kSkyPath) return kRenderOffersExrFirst;
     if (path == kAccuracyPath) return kAccuracyOffers;
     return kPlanOffers;
@@ -146,20 +146,20 @@ Response not_offered(const Request& request, int status, std::string_view what) 
 }
 
 bool has_layers(std::string_view path, const Scene& scene) {
-    return path == "/v1/render" && wants_layers(scene);
+    return path == kRenderPath && wants_layers(scene);
 }
 
 // What there is of a scene, in the order that its document prefers.
 std::span<const std::string_view> offers_of(const Request& request, const Scene& scene) {
     if (has_layers(request.path, scene)) return kLayerOffers;
-    if (request.path == "/v1/render" && scene->image.format == ImageFormat::kExr)
+    if (request.path == kRenderPath && scene->image.format == ImageFormat::kExr)
         return kRenderOffersExrFirst;
     return offers_of(request);
 }
 
 Response answer_as(Service::State& state, const Request& request, const Scene& scene,
                    const Overrides& overrides, std::string_view type, Lanes::Pass& pass) {
-    if (request.path == "/v1/render") return answer_render(state, request, scene, type, pass);
+    if (request.path == kRenderPath) return answer_render(state, request, scene, type, pass);
     if (request.path == "/v1/plan") return answer_plan(state, request, scene, pass);
     if (request.path == kSkyPath)
         return answer_sky(state, request, scene, overrides.width, type, pass);
@@ -177,8 +177,8 @@ std::optional<Response> check_scene_request(const Request& request) {
     if (auto refused = check_scene_head(request)) return refused;
     if (request.path == kAccuracyPath)
         if (const Status wrong = check_accuracy_query(request)) return fail(*wrong, request);
-    if (request.path == kParticlesPath)
-        if (const Status wrong = check_particles_query(request)) return fail(*wrong, request);
+    for (const std::string_view name : {kLightName, kPreviewName})
+        if (const auto flag = query_flag(request, name); !flag) return fail(flag.error(), request);
     const auto offers = offers_of(request);
     for (const auto& [name, value] : request.query)
         if (name == "format") {

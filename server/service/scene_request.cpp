@@ -25,9 +25,6 @@ constexpr std::string_view kUrlencoded = "application/x-www-form-urlencoded",
 constexpr std::array<std::string_view, 5> kAccuracyNames = {"theme", "size", "samples", "runs",
                                                             "rungs"};
 
-// That of /v1/particles (scene.cpp).
-constexpr std::string_view kLightName = "light";
-
 // Of a picture that is rendered; a plot has no such thing.
 constexpr std::string_view kPng16Word = kImageFormatWords[static_cast<int>(ImageFormat::kPng16)];
 
@@ -55,7 +52,7 @@ Status check_of_map(const Request& request, std::string_view what, std::string_v
 
 Status check_names(const Request& request) {
     const bool accuracy = request.path == kAccuracyPath;
-    const bool particles = request.path == kParticlesPath;
+    const bool particles = request.path == kParticlesPath, render = request.path == kRenderPath;
     for (const auto& [name, value] : request.query) {
         if (Status wrong = check_of_map(request, "query parameter", name)) return wrong;
         if (is_override(name)) continue;
@@ -63,9 +60,11 @@ Status check_names(const Request& request) {
             std::find(kAccuracyNames.begin(), kAccuracyNames.end(), name) != kAccuracyNames.end())
             continue;
         if (particles && name == kLightName) continue;
+        if (render && name == kPreviewName) continue;
         return Error{ErrorCode::kMalformed, "",
                      "there is no query parameter " + short_quote(name) + "; there are " +
                          std::string(kOverrideNames) + (particles ? ", and here light" : "") +
+                         (render ? ", and here preview" : "") +
                          (accuracy ? ", and here theme, size, samples, runs, rungs" : "")};
     }
     return std::nullopt;
@@ -202,6 +201,23 @@ Result<std::optional<std::string>> unpacked_body(const Request& request) {
     return std::optional<std::string>(*std::move(out));
 }
 
+Result<bool> query_flag(const Request& request, std::string_view name) {
+    bool on = false;
+    int times = 0;
+    const auto wrong = [&](const std::string& what) {
+        return Error{ErrorCode::kMalformed, "",
+                     "query parameter `" + std::string(name) + "` " + what};
+    };
+    for (const auto& [given, value] : request.query) {
+        if (given != name) continue;
+        if (value != "0" && value != "1") return wrong("must be 0 or 1, not " + short_quote(value));
+        on = value == "1";
+        ++times;
+    }
+    if (times > 1) return wrong("stands twice");
+    return on;
+}
+
 std::optional<Response> check_scene_head(const Request& request) {
     const std::string type = media_type(request.header("Content-Type"));
     if (!scene_format_of_type(type) && !is_form(type)) {
@@ -259,7 +275,7 @@ Result<SceneRequest> read_scene_request(const Request& request, GivenTextures te
 std::optional<std::string_view> chosen_offer(const Request& request, std::string_view format,
                                              std::span<const std::string_view> offers) {
     if (format.empty()) return best_offer(joined_header(request, "Accept"), offers);
-    if (format == kPng16Word && request.path != "/v1/render") return {};
+    if (format == kPng16Word && request.path != kRenderPath) return {};
     for (const auto& [name, type] : kFormats)
         if (name == format && std::find(offers.begin(), offers.end(), type) != offers.end())
             return type;

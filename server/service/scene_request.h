@@ -22,6 +22,12 @@ Result<std::optional<std::string>> unpacked_body(const Request& request);
 // of its query (400).
 std::optional<Response> check_scene_head(const Request& request);
 
+// What a query may switch on: of /v1/particles (particles.cpp) and /v1/render (render.cpp).
+inline constexpr std::string_view kLightName = "light", kPreviewName = "preview";
+
+// Whether the query says `name`=1; an error where it says neither 0 nor 1, or says it twice.
+Result<bool> query_flag(const Request& request, std::string_view name);
+
 // 415 for JSON that is called a form, as `curl -d @scene.json` does.
 std::optional<Response> check_scene_body(const Request& request);
 

@@ -73,11 +73,10 @@ inline constexpr std::string_view kSkyPath = "/v1/sky";
 Response answer_sky(Service::State& state, const Request& request, const Scene& scene,
                     std::optional<int> width, std::string_view type, Lanes::Pass& pass);
 
-// POST /v1/particles (particles.cpp): its query, and its answer as `type`.
+// POST /v1/particles (particles.cpp): its answer as `type`.
 inline constexpr std::string_view kParticlesPath = "/v1/particles";
 inline constexpr std::array<std::string_view, 5> kParticleOffers = {
     "application/json", "text/csv", "application/x-ply", "text/x-awn", "text/x-awa"};
-Status check_particles_query(const Request& request);
 Response answer_particles(Service::State& state, const Request& request, const Scene& scene,
                           std::string_view type, Lanes::Pass& pass);
 
@@ -130,6 +129,7 @@ Drawn draw_in_lanes(Service::State& state, const Request& request, const Scene& 
                     Planned planned, double encode_ms, Lanes::Pass& pass);
 
 // POST /v1/render (render.cpp). pass: in a lane, after so many ms.
+inline constexpr std::string_view kRenderPath = "/v1/render";
 Response answer_render(Service::State& state, const Request& request, const Scene& scene,
                        std::string_view type, Lanes::Pass& pass);
 

@@ -92,9 +92,9 @@ async function handles(page, stage) {
 }
 
 async function film() {
-  const one = await openPage("cumulus", "light");
+  const one = await openPage("congestus", "light");
   const { page } = one;
-  await pick(page, "/cubes/3");
+  await pick(page, "/cubes/2");
   await whole(page);
   await page.waitForFunction(() => document.querySelector("#stage").dataset.light === "service");
   const { x, y, width, height } = await page.locator("#left").boundingBox();
