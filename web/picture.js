@@ -51,7 +51,7 @@ export function createRenderLoop({ render, shown, failed, busy, marked }) {
     if (failedVersion === version) return null;
     const shownOfIt = onScreen.version === version ? onScreen.step : "";
     if (shownOfIt === "whole") return null;
-    const isPoor = shownOfIt === "" || (shownOfIt === "coarse" && onScreen.look !== lookAtRest());
+    const isPoor = shownOfIt === "" || (shownOfIt === "coarse" && onScreen.look > lookAtRest());
     if (isPoor && wholeMs > kShortWholeMs) return "coarse";
     return shownOfIt !== "half" && wholeMs > kLongWholeMs ? "half" : "whole";
   }
