@@ -170,7 +170,10 @@ TEST(Lanes, WaitsAreForetoldFromWhatRunsAndWaits) {
     auto running = guest(lanes, kPicture);
     EXPECT_NEAR(lanes.wait_ms(Weight::kLong), 20'000, 1000);
     EXPECT_EQ(lanes.wait_ms(Weight::kShort), 0);
+    EXPECT_NEAR(lanes.next_end_ms(Weight::kLong), 20'000, 1000);
+    EXPECT_EQ(lanes.next_end_ms(Weight::kShort), 0);
     auto waiting = guest(lanes, {Weight::kLong, 7000, "b"});
+    EXPECT_NEAR(lanes.next_end_ms(Weight::kLong), 20'000, 1000);
     EXPECT_NEAR(lanes.wait_ms(Weight::kLong), 27'000, 1000);
     Lanes::Pass pass(lanes);
     EXPECT_EQ(pass.enter(kPicture, within(10s)), Entry::kTooLate) << "refused at once";

@@ -1,6 +1,8 @@
 #include "server/service/lanes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,13 @@ std::size_t index_of(Weight weight) {
 
 double ms_until(Clock::time_point until, Clock::time_point now) {
     return std::chrono::duration<double, std::milli>(until - now).count();
+}
+
+// How long work goes on that was expected to take so long when it began, and ends at its deadline in any case.
+double left_ms(double expected_ms, Clock::time_point since, Clock::time_point until) {
+    const double elapsed = ms_since(since);
+    const double left = std::max(expected_ms - elapsed, kOverdue * elapsed);
+    return std::clamp(left, 0.0, std::max(ms_until(until, Clock::now()), 0.0));
 }
 
 }  // namespace
@@ -91,16 +100,13 @@ double Lanes::start_of(const LaneWork& work) const {
 
 // The lanes that it may take become free one by one; who waits before it takes each as it does.
 double Lanes::wait_ms(Weight weight, double start) const {
-    const auto now = Clock::now();
     const std::size_t lanes =
         weight == Weight::kShort ? options_.lanes : options_.lanes - options_.for_short;
     if (is_room(weight) && lines_[index_of(weight)].empty()) return 0;
     std::vector<double> free_at;
     for (const Runner& runner : runners_) {
         if (weight == Weight::kLong && runner.weight == Weight::kShort) continue;
-        const double elapsed = ms_since(runner.since);
-        const double left = std::max(runner.expected_ms - elapsed, kOverdue * elapsed);
-        free_at.push_back(std::clamp(left, 0.0, std::max(ms_until(runner.until, now), 0.0)));
+        free_at.push_back(left_ms(runner.expected_ms, runner.since, runner.until));
     }
     std::sort(free_at.begin(), free_at.end());
     // Of what overstays, what ends last stands in nobody's way.
@@ -114,6 +120,15 @@ double Lanes::wait_ms(Weight weight, double start) const {
 double Lanes::wait_ms(Weight weight) const {
     const std::lock_guard lock(mutex_);
     return wait_ms(weight, std::numeric_limits<double>::infinity());
+}
+
+double Lanes::next_end_ms(Weight weight) const {
+    const std::lock_guard lock(mutex_);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Runner& runner : runners_)
+        if (runner.weight == weight)
+            least = std::min(least, left_ms(runner.expected_ms, runner.since, runner.until));
+    return std::isfinite(least) ? least : 0;
 }
 
 Lanes::Entry Lanes::enter(const LaneWork& work, const Deadline& deadline, bool may_be_full,

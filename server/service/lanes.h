@@ -123,6 +123,8 @@ class Lanes {
 
     // How long a piece of work that came now would wait, ms: from what runs and what waits.
     double wait_ms(Weight weight) const;
+    // In how many ms the first piece of work of this weight that computes is expected to end; 0: none does.
+    double next_end_ms(Weight weight) const;
 
     struct Load {
         std::size_t lanes, running, waiting_short, waiting_long;

@@ -300,6 +300,12 @@ Response answer_render(Service::State& state, const Request& request, const Scen
                            " needs a renderer, and there is none here: " + info.reason,
                        "", request.id);
     if (auto hopeless = way.hopeless(*planned)) return std::move(*hopeless);
+    // A lane first: who waits for one needs no memory to compute in, and would keep it from those that have one.
+    const double to_come = to_come_ms(*planned) + way.encode_ms;
+    if (!needs_device(planned->plan))
+        if (auto refused = not_let_in(pass.expect(to_come, request.deadline), state.lanes,
+                                      weight_of(to_come), request))
+            return std::move(*refused);
     if (!lease.grow(static_cast<std::size_t>(std::max(planned->plan.predicted.bytes, 0.0))))
         return no_memory(state, request);
 

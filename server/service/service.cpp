@@ -163,8 +163,12 @@ std::string not_ready(const Service::State& state) {
     return {};
 }
 
+// For whoever comes before anything is known of what it asks. Work that turns out to be long waits in any number: then
+// it is that which fills the server, and a place becomes free when a long one ends.
 int retry_seconds(const Service::State& state) {
-    return seconds_from_ms(state.lanes.wait_ms(Weight::kShort));
+    const bool full_of_long = state.lanes.load().waiting_long >= state.options.lanes.line;
+    return seconds_from_ms(std::max(state.lanes.wait_ms(Weight::kShort),
+                                    full_of_long ? state.lanes.next_end_ms(Weight::kLong) : 0.0));
 }
 
 Gauges gauges(const Service::State& state) {
