@@ -22,6 +22,7 @@ const kFastCoarseMs = 40;
 const LOOKS = ["lumps", "plain", "glow"];
 // Two after the other that take so long at the smallest size, or one that takes so very long at any, are followed by others.
 const SLOW_LOOK_MS = [220, 400, Infinity], kVerySlowLookMs = 700;
+const kVerySlowFirstMs = 900; // the first of a document has all its light to make
 const kShortWholeMs = 250; // what is expected to take no longer needs none before it
 const kLongWholeMs = 1200; // what is expected to take longer is shown at half its size before
 
@@ -70,7 +71,7 @@ export function createRenderLoop({ render, shown, failed, busy, marked }) {
     const isSlow = isVerySlow || (size === last && took > SLOW_LOOK_MS[Math.max(of, 0)]);
     slow = isSlow ? slow + 1 : 0;
     const before = look;
-    if (of === -1) look = isLit ? 0 : 1;
+    if (of === -1) look = took > kVerySlowFirstMs ? LOOKS.length - 1 : isLit ? 0 : 1;
     else if (of === look && (slow > 1 || isVerySlow)) look = Math.min(look + 1, LOOKS.length - 1);
     else if (of < look && !isSlow) look = of;
     if (look !== before) slow = 0;
