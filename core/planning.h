@@ -53,7 +53,7 @@ Result<Planned> plan_generated(const Scene& scene, ParticleSet made, int threads
 Result<Planned> with_detail_made(const Scene& scene, Result<Planned> planned, int threads,
                                  DetailTiles* tiles = nullptr);
 
-// The same, for a preview: of the rung that was planned, whatever error the scene asks for.
+// A plan made one of a preview (Planned::is_preview): of the rung that was planned, whatever error the scene asks for.
 Planned as_preview(const Scene& scene, Planned planned);
 
 // Adds `ms` to what the plan predicts, for the chosen rung and for every other: work that all of them share.

@@ -67,8 +67,7 @@ Result<std::vector<glm::vec3>> light_of_text(Service::State& state, const Reques
         plan_generated(*coarse, text.particles, threads, request.deadline, state.options.speed, {});
     if (!planned) return planned.error();
     const double expected_ms = planned->plan.predicted.time_ms;
-    refused = not_let_in(pass.expect(expected_ms, request.deadline), state.lanes,
-                         weight_of(expected_ms), request);
+    refused = not_kept_in(state, request, expected_ms, pass);
     if (refused) return none;
     if (!text.lease.grow(static_cast<std::size_t>(std::max(planned->plan.predicted.bytes, 0.0)))) {
         refused = no_memory(state, request);

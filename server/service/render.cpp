@@ -243,8 +243,7 @@ Drawn draw_in_lanes(Service::State& state, const Request& request, const Scene& 
         return Drawn{std::move(response), Error{ErrorCode::kCancelled, "", "it got no lane"}};
     };
     if (!needs_device(planned.plan)) {
-        if (auto refused = not_let_in(pass.expect(expected_ms, deadline), state.lanes,
-                                      weight_of(expected_ms), request))
+        if (auto refused = not_kept_in(state, request, expected_ms, pass))
             return no_lane(std::move(*refused));
         return {std::nullopt,
                 state.options.on_processor(scene, std::move(planned), threads_of_one(state),
@@ -301,10 +300,8 @@ Response answer_render(Service::State& state, const Request& request, const Scen
                        "", request.id);
     if (auto hopeless = way.hopeless(*planned)) return std::move(*hopeless);
     // A lane first: who waits for one needs no memory to compute in, and would keep it from those that have one.
-    const double to_come = to_come_ms(*planned) + way.encode_ms;
     if (!needs_device(planned->plan))
-        if (auto refused = not_let_in(pass.expect(to_come, request.deadline), state.lanes,
-                                      weight_of(to_come), request))
+        if (auto refused = not_kept_in(state, request, to_come_ms(*planned) + way.encode_ms, pass))
             return std::move(*refused);
     if (!lease.grow(static_cast<std::size_t>(std::max(planned->plan.predicted.bytes, 0.0))))
         return no_memory(state, request);

@@ -108,6 +108,12 @@ std::optional<Response> not_let_in(Lanes::Entry entry, const Lanes& lanes, Weigh
     return response;
 }
 
+std::optional<Response> not_kept_in(Service::State& state, const Request& request,
+                                    double expected_ms, Lanes::Pass& pass) {
+    return not_let_in(pass.expect(expected_ms, request.deadline), state.lanes,
+                      weight_of(expected_ms), request);
+}
+
 int threads_of_one(const Service::State& state) {
     const auto running = static_cast<int>(std::max<std::size_t>(state.lanes.load().running, 1));
     return (state.options.threads + running - 1) / running;
@@ -209,8 +215,7 @@ Response answer_scene_request(Service::State& state, const Request& request) {
     // Reading a long document may take seconds.
     if (const Status over = request.deadline.over()) return fail(*over, request);
     if (scene->sequence || particle_count(*scene) > kManyParticles)
-        if (auto refused = not_let_in(pass.expect(2 * kShort_ms, request.deadline), state.lanes,
-                                      Weight::kLong, request))
+        if (auto refused = not_kept_in(state, request, 2 * kShort_ms, pass))
             return std::move(*refused);
 
     const std::string format = read->overrides.format.value_or("");

@@ -31,8 +31,7 @@ Response answer_sky(Service::State& state, const Request& request, const Scene& 
     const auto side = static_cast<std::size_t>(width);
     const double expected_ms =
         kPixel_ns * 1e-6 * state.options.speed.slowness * static_cast<double>(side * side / 2);
-    if (auto refused = not_let_in(pass.expect(expected_ms, request.deadline), state.lanes,
-                                  weight_of(expected_ms), request))
+    if (auto refused = not_kept_in(state, request, expected_ms, pass))
         return std::move(*refused);
     if (expected_ms > kHopeless * left_ms(request.deadline)) {
         Response response = problem(

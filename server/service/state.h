@@ -144,6 +144,9 @@ Response no_memory(Service::State& state, const Request& request);
 // What is said to a request that did not get a lane; nothing to one that did.
 std::optional<Response> not_let_in(Lanes::Entry entry, const Lanes& lanes, Weight weight,
                                    const Request& request);
+// The same, to one in a lane whose work turns out to take `expected_ms`, and may need another lane for it.
+std::optional<Response> not_kept_in(Service::State& state, const Request& request,
+                                    double expected_ms, Lanes::Pass& pass);
 // Threads that a piece of work has: the machine's, shared among all that compute.
 int threads_of_one(const Service::State& state);
 
