@@ -30,8 +30,8 @@ using Which = FailingMemory::Which;
 
 // Every allocation up to `every`; beyond, so many of the rest, evenly.
 struct Amount {
-    long every = or_fewer(120L, 40L);
-    long samples = or_fewer(60L, 15L);
+    long every = or_fewer(120L, 25L);
+    long samples = or_fewer(60L, 10L);
 };
 
 // What a try at something gave: its bytes, or that memory ran out.

@@ -98,7 +98,8 @@ TEST(PictureDifference, IsRelativeToTheCloudsMean) {
 }
 
 TEST(Climb, StricterAsksNeverGiveWorsePictures) {
-    for (const double density : {0.4, 4.0, 40.0}) {
+    for (const double density : {4.0, 0.4, 40.0}) {
+        if (density != test::or_fewer(density, 4.0)) continue;
         int cells = 0;
         for (const double error : {0.5, 0.1, 0.05, 0.03, 0.02}) {
             if (error < test::or_fewer(0.0, 0.04)) continue;
@@ -165,6 +166,7 @@ TEST(Climb, WithoutTimeNothingIsMeasuredAndWithAllOfItTheFinestGridIs) {
 // Two grids may be near to each other by luck; then the ones before tell.
 TEST(Climb, StatedErrorsHardlyGrowFromGridToGrid) {
     for (const double density : {0.3, 3.0, 30.0}) {
+        if (density != test::or_fewer(density, 3.0)) continue;
         double before = 0;
         for (const char* rung : {"transport-16", "transport-24", "transport-32", "transport-48"}) {
             SceneDraft draft = cumulus(0.6, density);

@@ -14,6 +14,7 @@
 #include "core/survey/lattice_detail.h"
 #include "core/truth/matter.h"
 #include "core/truth/path_tracer.h"
+#include "tests/patience.h"
 #include "tests/scenes.h"
 
 namespace awan {
@@ -215,7 +216,7 @@ TEST(Detail, TransportIsNearTheTruth) {
     Tools tools;
     tools.threads = 2;
     const auto rendered = render_scene(cloud.scene, tools, {});
-    const auto truth = traced(cloud, 96);
+    const auto truth = traced(cloud, test::or_fewer(96u, 16u));
     ASSERT_TRUE(rendered.ok() && truth.ok());
     const PictureError error = picture_error(rendered->image, *truth);
     std::printf("transport-32 with detail: nrmse %.3f +- %.3f, bias %.3f\n", error.nrmse,
@@ -235,7 +236,7 @@ TEST(Detail, FineCellsBringTheSunIntoLumps) {
     Detailed cloud = detailed_cloud(0.9, "transport-16", 40);
     Tools tools;
     tools.threads = 2;
-    const auto truth = traced(cloud, 96);
+    const auto truth = traced(cloud, test::or_fewer(96u, 16u));
     ASSERT_TRUE(truth.ok());
     auto light = transport_light(cloud.scene, cloud.planned.particles, cloud.planned.survey,
                                  cloud.planned.plan.transport, 2, {});
@@ -286,7 +287,7 @@ TEST(Detail, FineLightIsTheSameNearAndFar) {
 // Lumps that are smaller than pixels: these show the mean over their area, which the ray through a pixel's middle does
 // not.
 TEST(Detail, PixelsShowTheMeanOfSmallLumps) {
-    constexpr int kSide = 24, kFiner = 8;
+    constexpr int kSide = test::or_fewer(24, 12), kFiner = 8;
     const auto cloud_of = [](int side) { return detailed_cloud(0.9, "transport-16", side); };
     const Detailed coarse = cloud_of(kSide), fine = cloud_of(kSide * kFiner);
     const auto light = transport_light(coarse.scene, coarse.planned.particles,
