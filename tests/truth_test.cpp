@@ -433,6 +433,34 @@ TEST(Picture, StopsWhenNobodyWaits) {
               ErrorCode::kCancelled);
 }
 
+// Its first paths tell that there will be no picture in time: nobody waits for the deadline to hear of it.
+TEST(Picture, IsGivenUpAsSoonAsItIsHopeless) {
+    SceneDraft draft = test::table_4_4();
+    draft.image.width = draft.image.height = 160;
+    const Scene scene = test::valid(draft);
+    const ParticleSet particles = particles_of(draft);
+    const View view = resolve_view(scene->camera, scene->image, bounds_of(particles));
+    TruthOptions options;
+    options.samples = 4;
+    options.threads = 2;
+    const auto start = Deadline::Clock::now();
+    ASSERT_TRUE(trace_truth(scene, particles, view, options, {}, {}).ok());
+    const auto took = Deadline::Clock::now() - start;
+    options.samples *= 48;
+    Deadline deadline;
+    deadline.until = Deadline::Clock::now() + 6 * took;
+    const auto late = trace_truth(scene, particles, view, options, {}, deadline);
+    ASSERT_FALSE(late.ok());
+    EXPECT_EQ(late.error().code, ErrorCode::kOverDeadline);
+    EXPECT_LT(Deadline::Clock::now(), deadline.until);
+    EXPECT_NE(late.error().message.find("by its first paths"), std::string::npos)
+        << late.error().message;
+    // One that has time enough is not.
+    options.samples = 4;
+    deadline.until = Deadline::Clock::now() + 6 * took;
+    EXPECT_TRUE(trace_truth(scene, particles, view, options, {}, deadline).ok());
+}
+
 TEST(Picture, TellsItsProgress) {
     SceneDraft draft = small_table();
     const Scene scene = test::valid(draft);

@@ -5,7 +5,9 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <numeric>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -133,12 +135,14 @@ class BlockProgress {
     BlockProgress(const Progress& progress, std::size_t blocks)
         : progress_(progress), blocks_(static_cast<double>(blocks)) {}
 
-    void one_done(bool tell) {
+    // How many are done now.
+    std::size_t one_done(bool tell) {
         const std::size_t count = ++done_;
-        if (!progress_ || !tell) return;
+        if (!progress_ || !tell) return count;
         // Read again under the lock: another thread may have told more meanwhile.
         const std::lock_guard lock(telling_);
         progress_(static_cast<double>(std::max(count, done_.load())) / blocks_);
+        return count;
     }
 
   private:
@@ -146,6 +150,40 @@ class BlockProgress {
     double blocks_;
     std::atomic<std::size_t> done_{0};
     std::mutex telling_;
+};
+
+// Blocks in an order that spreads them over the picture: those that are done tell what the others will take.
+std::size_t spread(std::size_t i, std::size_t blocks) {
+    std::size_t stride =
+        std::max<std::size_t>(static_cast<std::size_t>(0.618 * static_cast<double>(blocks)), 1);
+    while (std::gcd(stride, blocks) != 1) ++stride;
+    return i * stride % blocks;
+}
+
+// How long all blocks will take, by those that are done.
+class Pace {
+  public:
+    Pace(const Deadline& deadline, std::size_t blocks, int threads)
+        : deadline_(deadline), blocks_(static_cast<double>(blocks)), threads_(threads) {}
+
+    // Of a picture that cannot be ready before the deadline, s from its first block to its last; else nothing. What
+    // blocks take differs (of many only sky is seen), so the fewer are done the more there must be too much.
+    std::optional<double> hopeless(std::size_t done) const {
+        if (deadline_.until == Deadline::Clock::time_point::max()) return std::nullopt;
+        // Of those under way, half is done.
+        const double count = static_cast<double>(done) + 0.5 * threads_;
+        if (count < std::max(16, 4 * threads_)) return std::nullopt;
+        const double all_s = 1e-3 * ms_since(began_) * blocks_ / count;
+        const std::chrono::duration<double> there_is = deadline_.until - began_;
+        if (all_s < there_is.count() * (1 + 4 / std::sqrt(count))) return std::nullopt;
+        return all_s;
+    }
+
+  private:
+    const Deadline& deadline_;
+    double blocks_;
+    int threads_;
+    Deadline::Clock::time_point began_ = Deadline::Clock::now();
 };
 
 // In the order of the blocks, so that the sum does not depend on the threads.
@@ -195,14 +233,24 @@ Result<TruthImage> trace_truth(const Scene& scene, const ParticleSet& given, con
         tiles_of({0, 0, picture.width, picture.height}, block_side(picture.width, picture.height));
     std::vector<PathCount> counts(blocks.size());
     BlockProgress told(progress, blocks.size());
-    parallel_for(options.threads, blocks.size(), [&](std::size_t i) {
+    const Pace pace(deadline, blocks.size(), options.threads);
+    std::atomic<double> too_long_s{0};
+    parallel_for(options.threads, blocks.size(), [&](std::size_t next) {
         if (picture.over()) return;
+        const std::size_t i = spread(next, blocks.size());
         counts[i] = trace_block(blocks[i], particles, picture, truth);
-        told.one_done(!stop);
+        if (const auto all_s = pace.hopeless(told.one_done(!stop)); all_s && !stop) {
+            too_long_s = *all_s;
+            stop = true;
+        }
     });
     if (stop) {
         if (auto error = deadline.over()) return *error;
-        return Error{ErrorCode::kOverDeadline, "", "the reference ran out of time"};
+        return Error{ErrorCode::kOverDeadline, "",
+                     too_long_s > 0
+                         ? "by its first paths the reference would take about " +
+                               std::to_string(std::llround(too_long_s)) + " s, more than there is"
+                         : "the reference ran out of time"};
     }
     truth.scatterings = scatterings_a_path(counts);
     return truth;
