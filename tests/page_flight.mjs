@@ -139,6 +139,9 @@ const SCENE = {
   accuracy: { rung: "transport-16" },
 };
 await context.route("**/v1/presets/cumulus", (route) => route.fulfill({ json: SCENE }));
+// The sky behind the particles is refused once: the page asks again.
+let skiesAsked = 0;
+await context.route("**/v1/sky*", (route) => (skiesAsked++ === 0 ? route.fulfill({ status: 422, json: {} }) : route.continue()));
 
 const json = async (page) => JSON.parse(await page.inputValue("#json"));
 const bar = (page) => page.getByRole("toolbar", { name: "Flight" });
@@ -176,7 +179,6 @@ const tests = {
     await takeOff(page);
     assert.equal(await page.getByRole("toolbar", { name: "Workspace" }).isVisible(), false);
     assert.equal(await page.evaluate(() => document.activeElement.id), "stage");
-    await page.waitForFunction(() => /^linear-gradient\(rgb\(/.test(document.querySelector("#stage").style.getPropertyValue("--sky")));
     await page.keyboard.down("w");
     await page.waitForSelector("#stage.sprites");
     await page.waitForFunction(() => /^\d+ × \d+ · \d+\.\d s · [\d.]+ frames\/s · 120 particles$/.test(document.querySelector("#flight-figures").textContent));
@@ -189,6 +191,8 @@ const tests = {
     await page.waitForFunction(() => !document.querySelector("#stage.sprites"));
     assert.notEqual((await look(page)).hash, before.hash);
     assert.match(await page.textContent("#flight-figures"), /at rest/);
+    await page.waitForFunction(() => /^linear-gradient\(rgb\(/.test(document.querySelector("#stage").style.getPropertyValue("--sky")));
+    assert.equal(skiesAsked, 2);
   },
 
   async "turns, looks, changes speed and goes around, by keys, pointer and wheel"(page) {

@@ -73,7 +73,8 @@ export function createSky(stage) {
         map = pen.getImageData(0, 0, kMapWide, kMapHigh);
         if (last) look(last);
       } catch {
-        // There are colours already.
+        // There are colours already; with the next picture it is asked for again.
+        if (asked === members) asked = null;
       }
     },
   };
