@@ -33,7 +33,6 @@ std::string whole_contract(std::string_view routes) {
 std::vector<Page> make_pages() {
     std::vector<Page> pages;
     for (const EmbeddedFile& file : web_files()) {
-        if (file.name.starts_with("presets/")) continue;
         std::string text(file.text);
         if (file.name == "openapi.json") text = whole_contract(file.text);
         const std::string etag = make_etag({text});

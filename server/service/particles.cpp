@@ -13,6 +13,7 @@
 #include "core/scene/fingerprint.h"
 #include "server/document/json.h"
 #include "server/service/negotiation.h"
+#include "server/service/scene_request.h"
 #include "server/service/state.h"
 
 namespace awan {

@@ -13,6 +13,7 @@
 #include "server/service/negotiation.h"
 #include "server/service/problem.h"
 #include "server/service/result_cache.h"
+#include "server/service/scene_request.h"
 #include "server/service/state.h"
 
 namespace awan {
