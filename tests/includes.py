@@ -31,6 +31,7 @@ ORDER = [
     ["core/pipeline"],
     ["core/accuracy"],
     ["server/document"],
+    ["server/library"],
     ["server/header_text", "server/limits"],
     ["server/service"],
     ["server/http"],

@@ -14,7 +14,9 @@ struct EmbeddedFile {
 
 // The files of core/shaders; part of the library awan_core.
 std::span<const EmbeddedFile> shader_files();
-// The files of web; part of the library awan_server.
+// The presets of web; part of the library awan_document.
+std::span<const EmbeddedFile> preset_files();
+// The other files of web; part of the library awan_server.
 std::span<const EmbeddedFile> web_files();
 
 }  // namespace awan

@@ -9,7 +9,8 @@ namespace awan {
 std::string beside_program(const char* file);
 
 // Loads a module and leaves it loaded: `file` beside the program, in ../lib/awan of it, or one folder above (where
-// tests have it). The function of that name in it; null, and why in `reason`.
+// tests have it); for those who link the shared library (server/library), in the folder `awan` beside that, or beside
+// it. The function of that name in it; null, and why in `reason`.
 void* module_function(const char* file, const char* function, std::string& reason);
 
 }  // namespace awan

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 std::string_view embedded(std::string_view name) {
-    for (const EmbeddedFile& file : web_files())
+    for (const EmbeddedFile& file : preset_files())
         if (file.name == name) return file.text;
     return {};
 }
