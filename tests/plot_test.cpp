@@ -11,6 +11,7 @@
 #include <set>
 
 #include "core/accuracy/plot_layout.h"
+#include "core/accuracy/ratio_plot.h"
 #include "tests/accuracy_reports.h"
 
 namespace awan {
@@ -105,6 +106,37 @@ TEST(Plot, DrawsWhatIsDegenerate) {
     AccuracyReport far = fake_report({{"additive", 1e-3, 1e-6}, {"truth", 1e9, 1e4}});
     for (const AccuracyReport* report : {&nothing, &perfect, &unknown, &coarse, &far})
         EXPECT_GT(drawn({{"", report}}).colors(), 20u);
+}
+
+// Bars of their lengths: so many pixels of a row are of the colour for faster, or for slower.
+TEST(RatioPlot, DrawsABarARowAsLongAsItsLogarithm) {
+    const std::vector<RatioRow> rows = {{"one", "ten times", "10 ms / 1 ms", 10},
+                                        {"one", "a hundred times", "100 ms / 1 ms", 100},
+                                        {"two", "half", "1 ms / 2 ms", 0.1}};
+    const auto png = plot_ratios("Figures", "there / here", rows, PlotTheme::kLight);
+    ASSERT_TRUE(png) << png.error().message;
+    const Decoded image = decoded(*png);
+    EXPECT_EQ(image.width, 1120);
+    // Rows of pixels: how many are of the theme's accent, and of its orange.
+    std::vector<int> faster, slower;
+    for (int y = 0; y < image.height; ++y) {
+        int blue = 0, orange = 0;
+        for (int x = 0; x < image.width; ++x) {
+            const std::uint8_t* const p = &image.pixels[3 * (static_cast<std::size_t>(y) * 1120 +
+                                                             static_cast<std::size_t>(x))];
+            blue += p[0] == 0x1f && p[1] == 0x64 && p[2] == 0xad;
+            orange += p[0] == 0xc2 && p[1] == 0x50 && p[2] == 0x0a;
+        }
+        if (blue > 20 && (faster.empty() || faster.back() != blue)) faster.push_back(blue);
+        if (orange > 20 && (slower.empty() || slower.back() != orange)) slower.push_back(orange);
+    }
+    ASSERT_EQ(faster.size(), 2U);
+    ASSERT_EQ(slower.size(), 1U);
+    EXPECT_NEAR(faster[1], 2 * faster[0], 3);
+    EXPECT_NEAR(slower[0], faster[0], 3);
+    EXPECT_TRUE(plot_ratios("", "", {}, PlotTheme::kDark));
+    const std::vector<RatioRow> many(2000, rows[0]);
+    EXPECT_EQ(plot_ratios("", "", many, PlotTheme::kDark).error().code, ErrorCode::kTooLarge);
 }
 
 TEST(Plot, DrawsAnyTitle) {

@@ -1,5 +1,5 @@
 // What accuracy costs, as a picture: error over time with the Pareto front, and beneath it every
-// rung's picture with its difference to the truth. plot.cpp is the only user of Cairo.
+// rung's picture with its difference to the truth.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Cairo with the few things that plots need; nobody but the files of plot.h includes it.
+// Cairo with the few things that plots need; nobody but the plots includes it.
 #pragma once
 
 #include <cairo.h>

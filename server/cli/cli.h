@@ -79,6 +79,21 @@ struct FlyCommand {
 };
 int run_fly(const FlyCommand& command);
 
+// What the sources measured, and this machine (source_figures.h).
+struct BenchCommand {
+    // By their words; EMPTY: all.
+    std::vector<std::string> sources;
+    // "", "json", "png": of standard output.
+    std::string format;
+    // Beside the table on standard output, which is left out where one of them goes there.
+    std::vector<std::string> outputs;
+    // "light" or "dark".
+    std::string theme = "light";
+    int threads = 1;
+    DeviceChoice device = DeviceChoice::kAuto;
+};
+int run_bench(const BenchCommand& command);
+
 struct AccuracyCommand {
     std::vector<std::string> scenes;
     // What takes the place of values in each of them; no path.

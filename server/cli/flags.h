@@ -44,6 +44,7 @@ Run add_serve(CLI::App& app);
 Run add_render(CLI::App& app);
 Run add_fly(CLI::App& app);
 Run add_accuracy(CLI::App& app);
+Run add_bench(CLI::App& app);
 Run add_sky(CLI::App& app);
 Run add_impostor(CLI::App& app);
 

@@ -6,6 +6,7 @@
 #include "core/scene/rungs.h"
 #include "server/cli/flags.h"
 #include "server/cli/frames.h"
+#include "server/cli/source_figures.h"
 
 namespace awan {
 namespace {
@@ -194,6 +195,30 @@ Run add_accuracy(CLI::App& app) {
         "it:\n"
         "each rung's picture and its difference to the truth, blue too dark, orange too bright.");
     return [command] { return run_accuracy(*command); };
+}
+
+Run add_bench(CLI::App& app) {
+    auto command = std::make_shared<BenchCommand>();
+    command->threads = processors();
+    CLI::App* bench = app.add_subcommand(
+        "bench", "the figures of time that the source documents print, and this machine's");
+    std::vector<std::string> words(std::begin(kBenchSourceWords), std::end(kBenchSourceWords));
+    add(*bench, "--sources", command->sources, "cubes, automaton, spheres, with commas; all")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember(words));
+    add(*bench, "-o,--output", command->outputs,
+        "a .json or .png (plot) file, or - for standard output; may be repeated")
+        ->allow_extra_args(false);
+    add(*bench, "--format", command->format, "json or png, for standard output")
+        ->check(CLI::IsMember({"json", "png"}));
+    add(*bench, "--theme", command->theme, "light or dark, of the plot")
+        ->check(CLI::IsMember({"light", "dark"}));
+    add_threads(*bench, command->threads);
+    add_device(*bench, command->device);
+    bench->footer(
+        "Takes about a minute; frames a second are of drawing alone, by light that is there.");
+    return [command] { return run_bench(*command); };
 }
 
 Run add_sky(CLI::App& app) {

@@ -84,6 +84,7 @@ int main(int argc, char** argv) {
                                                     {"render", add_render(app)},
                                                     {"fly", add_fly(app)},
                                                     {"accuracy", add_accuracy(app)},
+                                                    {"bench", add_bench(app)},
                                                     {"particles", add_particles(app)},
                                                     {"sky", add_sky(app)},
                                                     {"impostor", add_impostor(app)},
