@@ -222,14 +222,44 @@ void add_nodes(const std::vector<Nodes>& all, const MergeScales& scales, Particl
 
 }  // namespace
 
-MergeScales merge_scales(const glm::dvec3& origin, double least) {
+double MergeScales::merged_s(int k) const {
+    const double cell = cell_over_least[static_cast<std::size_t>(k)];
+    return std::sqrt(1 - cell * cell / 4) * least[static_cast<std::size_t>(k)];
+}
+
+MergeScales merge_scales(const glm::dvec3& origin, double widest_s, bool fine_tails) {
+    constexpr double kHalfOctave = 1.4142135623730951, kQuarterOctave = 1.189207115002721;
+    constexpr double kCell = 1.2, kFineCell = 0.9;
+    constexpr int kFineClasses = 4;
     MergeScales scales;
     scales.origin = origin;
-    for (double& edge : scales.least) {
-        edge = least;
-        least *= 1.4142135623730951;
+    const auto put = [&](int k, double least, double cell) {
+        scales.least[static_cast<std::size_t>(k)] = least;
+        scales.cell_over_least[static_cast<std::size_t>(k)] = cell;
+    };
+    double least = widest_s;
+    for (int k = kWidestClass; k <= kMergeClasses; ++k, least *= kHalfOctave)
+        put(k, least, fine_tails && k == kWidestClass ? kFineCell : kCell);
+    least = widest_s;
+    for (int k = kWidestClass - 1; k >= 0; --k) {
+        const bool fine = fine_tails && k >= kWidestClass - kFineClasses;
+        least /= fine ? kQuarterOctave : kHalfOctave;
+        put(k, least, fine ? kFineCell : kCell);
     }
     return scales;
+}
+
+MergeScales from_class(const MergeScales& scales, int k) {
+    MergeScales from = scales;
+    for (int n = 0; n <= kMergeClasses; ++n) {
+        const auto to = static_cast<std::size_t>(n);
+        const int of = std::min(n + k, kMergeClasses);
+        from.least[to] = scales.least[static_cast<std::size_t>(of)];
+        from.cell_over_least[to] = scales.cell_over_least[static_cast<std::size_t>(of)];
+        // Beyond the last there is nothing.
+        if (n + k > kMergeClasses) from.least[to] = 2 * from.least[to - 1];
+    }
+    return from;
 }
 
 int merge_class(const MergeScales& scales, double s) {

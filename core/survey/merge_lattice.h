@@ -9,19 +9,26 @@
 
 namespace awan {
 
-// Classes of size, half an octave each, from the narrowest up.
+// Classes of size, from the narrowest up.
 inline constexpr int kMergeClasses = 48;
 
 struct MergeScales {
     // Where node (0, 0, 0) of every lattice lies, scene units.
     glm::dvec3 origin{0};
-    // Of class k, the least s; the cell of its lattice; the s of its merged particles. Scene units.
-    std::array<double, kMergeClasses + 1> least{};
-    double cell(int k) const { return 1.2 * least[static_cast<std::size_t>(k)]; }
-    double merged_s(int k) const { return 0.8 * least[static_cast<std::size_t>(k)]; }
+    // Of class k, the least s; the cell of its lattice over that. Scene units.
+    std::array<double, kMergeClasses + 1> least{}, cell_over_least{};
+    double cell(int k) const {
+        return cell_over_least[static_cast<std::size_t>(k)] * least[static_cast<std::size_t>(k)];
+    }
+    // The s of its merged particles: with the spline's own variance that of the least.
+    double merged_s(int k) const;
 };
-// least: of class 0, > 0.
-MergeScales merge_scales(const glm::dvec3& origin, double least);
+// Classes of half an octave, with cells of 1.2. fine_tails: in the octave below the widest s, whose tails are the edge
+// of what is seen, of a quarter of one, with cells of .9. Where the widest class begins: kWidestClass.
+inline constexpr int kWidestClass = 39;
+MergeScales merge_scales(const glm::dvec3& origin, double widest_s, bool fine_tails);
+// The same, from class k on: what is narrower is in class 0 as well.
+MergeScales from_class(const MergeScales& scales, int k);
 
 // The class of a particle: 0 also where it is narrower; kMergeClasses where it is wider than all.
 int merge_class(const MergeScales& scales, double s);
