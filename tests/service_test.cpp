@@ -336,6 +336,16 @@ TEST_F(ServiceTest, AMapThatCannotBeDoneInTimeIsRefusedAtOnce) {
     EXPECT_EQ(response.status, 504);
     EXPECT_EQ(response.reason, "hopeless");
     EXPECT_LT(ms_since(start), 1000);
+    // The one that is offered can be had.
+    const std::string offer = "ask for one of ";
+    const std::size_t at = response.body.find(offer);
+    ASSERT_NE(at, std::string::npos) << response.body;
+    const int width = std::stoi(response.body.substr(at + offer.size()));
+    EXPECT_GT(width, 500);
+    EXPECT_LT(width, 8192);
+    request.query = {{"width", std::to_string(width)}};
+    request.deadline.until = Deadline::Clock::now() + test::patience(2);
+    EXPECT_EQ(service.answer(request).status, 200);
 }
 
 TEST_F(ServiceTest, KeptAnswersCostNothing) {

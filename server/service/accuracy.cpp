@@ -181,6 +181,7 @@ Response answer_accuracy(Service::State& state, const Request& request, const Sc
         const AccuracyPlot plot{"", &named.report};
         auto png = plot_accuracy({&plot, 1}, query->theme);
         if (!png) return fail(png.error(), request);
+        if (const Status over = request.deadline.over()) return fail(*over, request);
         response.body = *std::move(png);
     } else {
         response.body =

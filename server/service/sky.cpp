@@ -1,6 +1,10 @@
 // POST /v1/sky: from a scene to a map of its sky.
 #include "core/draw/sky_map.h"
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+
 #include "core/formats/image_file.h"
 #include "core/scene/fingerprint.h"
 #include "server/service/negotiation.h"
@@ -14,6 +18,18 @@ namespace {
 // What a pixel of a map takes to be made and encoded, on the machine of the calibration: 205 ns of one processor were
 // measured (2048 x 1024); that, and half as much again.
 constexpr double kPixel_ns = 310;
+// What is offered takes this share of the time there is.
+constexpr double kFits = 0.7;
+
+double expected_ms(int width, const MachineSpeed& speed) {
+    return kPixel_ns * 1e-6 * speed.slowness * static_cast<double>(width) * width / 2;
+}
+
+// The widest map that is expected within so many ms, even.
+int width_within(double ms, const MachineSpeed& speed) {
+    const double widest = std::sqrt(ms / expected_ms(1, speed));
+    return std::max(2 * static_cast<int>(std::min(widest, 1.0 * limits::kMaxImageSide) / 2), 2);
+}
 
 }  // namespace
 
@@ -29,14 +45,15 @@ Response answer_sky(Service::State& state, const Request& request, const Scene& 
     if (none_match_names(joined_header(request, "If-None-Match"), etag))
         return not_modified(etag, true);
     const auto side = static_cast<std::size_t>(width);
-    const double expected_ms =
-        kPixel_ns * 1e-6 * state.options.speed.slowness * static_cast<double>(side * side / 2);
-    if (auto refused = not_kept_in(state, request, expected_ms, pass))
-        return std::move(*refused);
-    if (expected_ms > kHopeless * left_ms(request.deadline)) {
-        Response response = problem(
-            504, "a map of that width would take longer than there is; ask for a smaller one", "",
-            request.id);
+    const double expected = expected_ms(width, state.options.speed);
+    if (auto refused = not_kept_in(state, request, expected, pass)) return std::move(*refused);
+    const double left = left_ms(request.deadline);
+    if (expected > kHopeless * left) {
+        Response response =
+            problem(504,
+                    "a map of that width would take longer than there is; ask for one of " +
+                        std::to_string(width_within(kFits * left, state.options.speed)) + " pixels",
+                    "", request.id);
         response.reason = "hopeless";
         return response;
     }
