@@ -41,6 +41,12 @@ contains "a rung that cannot" "rung truth cannot" "$(cat err)"
 run 3 render scene.json -o some.exr --layers all,none
 contains "which there are" "/image/layers" "$(cat err)"
 
+# --- a preview: as the service draws it, without an error
+run 0 render scene.json --width 40 --height 30 --rung transport-16 --preview --json -o preview.png
+contains "a preview's line" '"error":null' "$(cat out)"
+run 0 render scene.json --width 40 --height 30 --rung transport-16 -o whole.png
+[ -s preview.png ] || fail "no preview"
+
 # --- the sky
 run 0 sky scene.json -o sky.exr --width 256 --set /sun/azimuth=90 --set /sun/elevation=30
 oiiotool --info -v sky.exr >info || fail "oiiotool does not open the sky"
@@ -50,6 +56,11 @@ contains "where the sun is" "awan:sun_direction: 0.866025, 0.5," "$(cat info)"
 contains "what it sends" "awan:sun_irradiance" "$(cat info)"
 run 0 sky scene.json -o - --format png
 contains "a PNG" "PNG" "$(head -c 4 out | tr -d '\0')"
+run 0 sky scene.json -o sky.exr --width 64 --json
+contains "the sky's line" "$("$awan" digest scene.json | cut -d' ' -f1)\",\"width\":64,\"height\":32,\"times_ms\":{\"draw\":" "$(cat out)"
+run 0 sky scene.json -o sky.exr --width 64 --json --skip-existing
+contains "the line of a sky that is there" '"skipped":true' "$(cat out)"
+run 2 sky scene.json -o - --json
 run 2 sky scene.json -o sky.exr --width 255
 run 2 sky scene.json -o sky.jpg
 run 3 sky scene.json -o sky.exr --set /sun/elevation=1000
@@ -99,6 +110,9 @@ for number in (0, 4, 5):
 END_PYTHON
 run 0 impostor scene.json -o atlas.png --views 2 --size 8 --full
 contains "from below too" '"mapping":"octahedral"' "$(tr -d ' ' <atlas.json)"
+run 0 impostor scene.json -o atlas.png --views 2 --size 8 --full --json
+contains "the atlas' line" '"outputs":["atlas.png","atlas.json"],"skipped":false,"digest":"' "$(cat out)"
+contains "the atlas' line" '"width":16,"height":16,"times_ms":{"draw":' "$(cat out)"
 run 2 impostor scene.json -o - --format png
 run 2 impostor scene.json -o atlas.png --views 1
 run 3 impostor scene.json -o atlas.png --views 32 --size 512

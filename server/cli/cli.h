@@ -50,6 +50,8 @@ struct RenderCommand {
     std::string depfile;
     // A line of JSON for every picture, in place of one for people.
     bool json = false;
+    // Looked at in passing: one ray a pixel, no error measured.
+    bool preview = false;
     int threads = 1;
     DeviceChoice device = DeviceChoice::kAuto;
 };
@@ -150,6 +152,7 @@ struct SkyCommand {
     // As RenderCommand has them.
     bool skip_existing = false;
     std::string depfile;
+    bool json = false;
     int threads = 1;
 };
 int run_sky(const SkyCommand& command);
@@ -164,6 +167,7 @@ struct ImpostorCommand {
     // As RenderCommand has them.
     bool skip_existing = false;
     std::string depfile;
+    bool json = false;
     int threads = 1;
     DeviceChoice device = DeviceChoice::kAuto;
 };

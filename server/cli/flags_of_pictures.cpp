@@ -17,6 +17,11 @@ std::vector<std::string> rung_names() {
     return names;
 }
 
+void add_json(CLI::App& command, bool& json) {
+    command.add_flag("--json", json, "a line of JSON that says what came of it: digest, times")
+        ->envname("AWAN_JSON");
+}
+
 // "800x600".
 std::string take_size(const std::string& text, FlyCommand& command) {
     int width = 0, height = 0, end = 0;
@@ -60,6 +65,10 @@ Run add_render(CLI::App& app) {
         ->add_flag("--json", command->json,
                    "a line of JSON for every picture: digest, rung, error, times")
         ->envname("AWAN_JSON");
+    render
+        ->add_flag("--preview", command->preview,
+                   "to look at in passing: one ray a pixel, edges are jagged, no error is measured")
+        ->envname("AWAN_PREVIEW");
     add(*render, "--fps", command->frames_per_second, "frames a second that an animation shows")
         ->check(CLI::Range(0.1, 1000.0));
     add(*render, "--width", command->width, "pixels, instead of the document's")
@@ -234,6 +243,7 @@ Run add_sky(CLI::App& app) {
     add(*sky, "--width", command->width, "pixels, an even number; the map is half as high")
         ->check(CLI::Range(2, limits::kMaxImageSide));
     add_farm_flags(*sky, command->skip_existing, command->depfile);
+    add_json(*sky, command->json);
     add_threads(*sky, command->threads);
     sky->footer(
         "Equirectangular: +y is up, +z (azimuth 0) in the middle, +x (azimuth 90) a quarter from\n"
@@ -263,6 +273,7 @@ Run add_impostor(CLI::App& app) {
                    "from below too: octahedral instead of hemi-octahedral, down to the horizon")
         ->envname("AWAN_FULL");
     add_farm_flags(*impostor, command->skip_existing, command->depfile);
+    add_json(*impostor, command->json);
     add_threads(*impostor, command->threads);
     add_device(*impostor, command->device);
     return [command, full] {

@@ -1,6 +1,8 @@
 // awan impostor: a scene from many sides, on one atlas with its layout beside it.
 #include "core/impostor.h"
 
+#include <cstdio>
+
 #include "core/formats/atlas.h"
 #include "core/formats/image_file.h"
 #include "core/scene/validate.h"
@@ -8,6 +10,7 @@
 #include "server/cli/files.h"
 #include "server/cli/frames.h"
 #include "server/cli/pictures.h"
+#include "server/cli/result_line.h"
 #include "server/cli/support.h"
 #include "server/document/impostor_text.h"
 
@@ -32,6 +35,11 @@ Result<Atlas> draw_views(const Impostor& impostor, Work& work) {
     return atlas;
 }
 
+int end(const FileResult& result, const Scene& scene, const ImpostorCommand& command) {
+    if (command.json) std::fputs(result_json(result, scene).c_str(), stdout);
+    return end_with(write_dependencies(command.depfile, result.outputs, command.scene));
+}
+
 }  // namespace
 
 int run_impostor(const ImpostorCommand& command) {
@@ -42,7 +50,9 @@ int run_impostor(const ImpostorCommand& command) {
         return bad_usage("an atlas and its layout are two files; give -o a name");
     if (const Status wrong = check_not_numbered(command.output)) return bad_usage(wrong->message);
     const std::string layout = layout_path(command.output);
-    if (command.skip_existing && is_finished(command.output) && is_finished(layout))
+    const bool skipped =
+        command.skip_existing && is_finished(command.output) && is_finished(layout);
+    if (skipped && !command.json)
         return end_with(
             write_dependencies(command.depfile, {command.output, layout}, command.scene));
     for (const std::string& file : {command.output, layout})
@@ -51,6 +61,9 @@ int run_impostor(const ImpostorCommand& command) {
     if (!draft) return report_error(name, draft.error());
     const auto scene = validate(*std::move(draft));
     if (!scene) return report_error(name, scene.error());
+    const int side = command.wish.views * command.wish.size;
+    FileResult result{name, {command.output, layout}, skipped, side, side, {}};
+    if (skipped) return end(result, *scene, command);
     const bool exr = *format == "exr";
     const auto impostor = impostor_of(*scene, command.wish, exr, command.threads, Deadline{});
     if (!impostor) return report_error(name, impostor.error());
@@ -61,9 +74,12 @@ int run_impostor(const ImpostorCommand& command) {
     render.device = command.device;
     Work work(render, {});
     work.lights.emplace(kLightCacheBytes);
+    const auto start = Deadline::Clock::now();
     const auto atlas = draw_views(*impostor, work);
     work.progress.clear();
     if (!atlas) return report_error(name, atlas.error());
+    result.times.emplace_back("draw", ms_since(start));
+    const auto encoding = Deadline::Clock::now();
     const auto bytes = encode_atlas(*atlas, *scene, exr, Deadline{});
     if (!bytes) return report_error(name, bytes.error());
     if (const Status failed = write_output(command.output, *bytes))
@@ -72,7 +88,8 @@ int run_impostor(const ImpostorCommand& command) {
     if (const Status failed =
             write_output(layout, impostor_to_json(*impostor, file, exr && !atlas->depth.empty())))
         return report_error("", *failed);
-    return end_with(write_dependencies(command.depfile, {command.output, layout}, command.scene));
+    result.times.emplace_back("encode", ms_since(encoding));
+    return end(result, *scene, command);
 }
 
 }  // namespace awan

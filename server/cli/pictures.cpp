@@ -36,6 +36,7 @@ Result<Rendered> render_of(const Settled& settled, double time, Work& work, Scen
         frame.scene, plan_frame(frame, work.command.threads, work.deadline, work.speed),
         work.command.threads, &work.tiles);
     scene = std::move(frame.scene);
+    if (planned && work.command.preview) planned = as_preview(scene, *std::move(planned));
     if (planned && work.flown)
         in_view = particles_in_view(planned->particles, planned->survey.view);
     return render_picture(scene, std::move(planned), work);

@@ -22,8 +22,9 @@ Status render_still(const Scene& scene, Work& work) {
         return std::nullopt;
     }
     work.progress.say("planning");
-    auto rendered = render_picture(
-        scene, plan_scene(scene, work.command.threads, Deadline{}, work.speed, &work.tiles), work);
+    auto planned = plan_scene(scene, work.command.threads, Deadline{}, work.speed, &work.tiles);
+    if (planned && work.command.preview) planned = as_preview(scene, *std::move(planned));
+    auto rendered = render_picture(scene, std::move(planned), work);
     if (!rendered) return rendered.error();
     work.progress.say("encoding");
     if (Status failed = write_picture(*rendered, scene, nullptr, work, result.encode_ms))

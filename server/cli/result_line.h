@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/pipeline.h"
@@ -23,6 +24,17 @@ struct PictureResult {
 // {"scene","outputs","frame","skipped","digest","width","height","particles","rung","error","error_forecast",
 // "times_ms":{...}} and a line feed; null for an error that is not known. rendered: null when it was skipped.
 std::string result_json(const PictureResult& result, const Scene& scene, const Rendered* rendered);
+
+// The same of what is no picture of the scene's own size, a sky or an atlas: without what says how it was lit. Times in
+// ms, by their names; EMPTY when it was skipped.
+struct FileResult {
+    std::string scene;
+    std::vector<std::string> outputs;
+    bool skipped = false;
+    int width = 0, height = 0;
+    std::vector<std::pair<const char*, double>> times;
+};
+std::string result_json(const FileResult& result, const Scene& scene);
 
 // "a.png: transport-32, error 4.2% (expected 5%)"; EMPTY for a look, which has no error.
 std::string result_text(const std::string& output, const Rendered& rendered);
