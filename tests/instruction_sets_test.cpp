@@ -58,7 +58,8 @@ std::string bytes_of(const Case& one) {
     one.change(*draft);
     draft->image.width = test::or_fewer(96, 16);
     draft->image.height = test::or_fewer(72, 12);
-    draft->accuracy = {{}, {}, "transport-24"};  // goes on from coarser grids, as all do
+    // Goes on from coarser grids, as all do.
+    draft->accuracy = {{}, {}, test::kSanitized ? "transport-16" : "transport-24"};
     const Scene scene = test::valid(*std::move(draft));
     Result<Planned> planned = plan_scene(scene, 2, {});
     if (!planned.ok()) return planned.error().message;

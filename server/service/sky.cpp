@@ -19,7 +19,7 @@ namespace {
 // measured (2048 x 1024); that, and half as much again.
 constexpr double kPixel_ns = 310;
 // What is offered takes this share of the time there is.
-constexpr double kFits = 0.7;
+constexpr double kOffered = 0.7;
 
 double expected_ms(int width, const MachineSpeed& speed) {
     return kPixel_ns * 1e-6 * speed.slowness * static_cast<double>(width) * width / 2;
@@ -52,7 +52,7 @@ Response answer_sky(Service::State& state, const Request& request, const Scene& 
         Response response =
             problem(504,
                     "a map of that width would take longer than there is; ask for one of " +
-                        std::to_string(width_within(kFits * left, state.options.speed)) + " pixels",
+                        std::to_string(width_within(kOffered * left, state.options.speed)) + " pixels",
                     "", request.id);
         response.reason = "hopeless";
         return response;
