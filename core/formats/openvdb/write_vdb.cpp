@@ -50,9 +50,8 @@ openvdb::GridBase::Ptr made_of(const awan::VdbGrid& grid) {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const char* awan_write_vdb(
-    const awan::VdbGrid* grids, std::size_t count, void (*take)(void*, const char*, std::size_t),
-    void* to) {
+extern "C" const char* awan_write_vdb(const awan::VdbGrid* grids, std::size_t count,
+                                      void (*take)(void*, const char*, std::size_t), void* to) {
     static std::string message;
     try {
         openvdb::initialize();
