@@ -15,7 +15,7 @@ namespace {
 // Pixels.
 constexpr double kRatioWidth = 1120, kRatioMargin = 28;
 constexpr double kRatioHeader = 62, kRatioGroup = 34, kRatioRow = 24, kRatioFoot = 44;
-constexpr double kRatioNames = 330, kRatioFigures = 230;
+constexpr double kRatioNames = 400, kRatioFigures = 230;
 // More would be a picture that nobody looks at.
 constexpr std::size_t kMostRows = 400;
 
@@ -79,7 +79,7 @@ Result<std::string> plot_ratios(const std::string& title, const std::string& abo
     canvas.text("times as fast (logarithmic)", area.x + area.width / 2, area.bottom() + 36,
                 {12, false, Align::kMiddle});
     canvas.color(colors.ink);
-    canvas.line({x_of(1), area.y}, {x_of(1), area.bottom()}, 1.5);
+    canvas.line({x_of(1), area.y + kRatioGroup}, {x_of(1), area.bottom()}, 1.5);
 
     double y = kRatioHeader;
     for (std::size_t i = 0; i < rows.size(); ++i) {

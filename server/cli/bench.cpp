@@ -50,11 +50,13 @@ void print_figure(const BenchFigure& figure) {
     std::fflush(stdout);
 }
 
-std::string figures_json(const std::vector<BenchFigure>& figures, const BenchCommand& command) {
+std::string figures_json(const std::vector<BenchFigure>& figures, const std::string& renderer,
+                         const BenchCommand& command) {
     using json_text::member;
     std::string out = "{";
     member("version", std::string_view(engine_version()), out);
     member("threads", command.threads, out);
+    if (!renderer.empty()) member("renderer", std::string_view(renderer), out);
     json_text::name("figures", out);
     out += '[';
     for (const BenchFigure& figure : figures) {
@@ -74,7 +76,7 @@ std::string figures_json(const std::vector<BenchFigure>& figures, const BenchCom
 }
 
 Result<std::string> figures_plot(const std::vector<BenchFigure>& figures,
-                                 const BenchCommand& command) {
+                                 const std::string& renderer, const BenchCommand& command) {
     std::vector<RatioRow> rows;
     for (const BenchFigure& figure : figures) {
         const auto times = figure.times_as_fast();
@@ -86,8 +88,9 @@ Result<std::string> figures_plot(const std::vector<BenchFigure>& figures,
     }
     return plot_ratios("The sources' figures, and this machine's",
                        "There / here, by " + std::to_string(command.threads) +
-                           (command.threads == 1 ? " thread. " : " threads. ") +
-                           "Orange: slower than there.",
+                           (command.threads == 1 ? " thread" : " threads") +
+                           (renderer.empty() ? "" : ", splats by " + renderer) +
+                           ". Orange: slower than there.",
                        rows, command.theme == "dark" ? PlotTheme::kDark : PlotTheme::kLight);
 }
 
@@ -115,6 +118,7 @@ int run_bench(const BenchCommand& command) {
             wish.sources.push_back(static_cast<BenchSource>(i));
 
     std::vector<BenchFigure> figures;
+    std::string renderer;
     ProgressLine line;
     const Status failed = measure_figures(
         wish, [&](const std::string& what) { line.say(what); },
@@ -127,13 +131,15 @@ int run_bench(const BenchCommand& command) {
             }
             figures.push_back(std::move(figure));
         },
-        Deadline{});
+        renderer, Deadline{});
     line.clear();
     if (failed) return report_error("", *failed);
+    if (to_terminal && !renderer.empty())
+        std::printf("\nSplats were drawn by %s.\n", renderer.c_str());
     for (std::size_t i = 0; i < formats.size(); ++i) {
         const auto bytes = formats[i] == "json"
-                               ? Result<std::string>(figures_json(figures, command))
-                               : figures_plot(figures, command);
+                               ? Result<std::string>(figures_json(figures, renderer, command))
+                               : figures_plot(figures, renderer, command);
         if (!bytes) return report_error("", bytes.error());
         if (const Status wrong = write_output(command.outputs[i], *bytes))
             return report_error("", *wrong);

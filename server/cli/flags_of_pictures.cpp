@@ -226,7 +226,8 @@ Run add_bench(CLI::App& app) {
     add_threads(*bench, command->threads);
     add_device(*bench, command->device);
     bench->footer(
-        "Takes about a minute; frames a second are of drawing alone, by light that is there.");
+        "Takes about a minute, without a GPU three; frames a second are of drawing alone, by light "
+        "that is there.");
     return [command] { return run_bench(*command); };
 }
 

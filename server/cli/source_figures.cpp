@@ -313,7 +313,8 @@ const BenchDocument& document_of(BenchSource source) {
 }
 
 Status measure_figures(const BenchWish& wish, const std::function<void(const std::string&)>& begin,
-                       const std::function<void(BenchFigure)>& take, const Deadline& deadline) {
+                       const std::function<void(BenchFigure)>& take, std::string& renderer,
+                       const Deadline& deadline) {
     Bench bench{wish, begin, take, deadline, std::nullopt};
     for (const BenchSource source : wish.sources) {
         Status failed;
@@ -331,6 +332,7 @@ Status measure_figures(const BenchWish& wish, const std::function<void(const std
         }
         if (failed) return failed;
     }
+    if (bench.device) renderer = bench.device->info().renderer;
     return std::nullopt;
 }
 

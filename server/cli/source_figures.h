@@ -48,9 +48,11 @@ struct BenchWish {
 };
 
 // Calls `begin` with what is measured next, and `take` with each figure as it is there. A figure is the median of
-// several runs, the first of them not counted. Takes about a minute. Errors: kNoRenderer (frames are drawn by splats),
+// several runs, the first of them not counted. renderer: set to what drew the splats, where any were drawn. Takes
+// about a minute; with splats and no GPU three. Errors: kNoRenderer (frames are drawn by splats),
 // kOverDeadline, kCancelled, kOutOfMemory.
 Status measure_figures(const BenchWish& wish, const std::function<void(const std::string&)>& begin,
-                       const std::function<void(BenchFigure)>& take, const Deadline& deadline);
+                       const std::function<void(BenchFigure)>& take, std::string& renderer,
+                       const Deadline& deadline);
 
 }  // namespace awan
