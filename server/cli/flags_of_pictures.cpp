@@ -17,9 +17,9 @@ std::vector<std::string> rung_names() {
     return names;
 }
 
-void add_json(CLI::App& command, bool& json) {
-    command.add_flag("--json", json, "a line of JSON that says what came of it: digest, times")
-        ->envname("AWAN_JSON");
+constexpr const char* kSaysWhatCame = "a line of JSON that says what came of it: digest, times";
+void add_json(CLI::App& command, bool& json, const char* says) {
+    command.add_flag("--json", json, says)->envname("AWAN_JSON");
 }
 
 // "800x600".
@@ -61,10 +61,8 @@ Run add_render(CLI::App& app) {
     add(*render, "--bits", command->bits, "of a channel of PNG, 8 or 16, instead of the document's")
         ->check(CLI::IsMember({8, 16}));
     add_farm_flags(*render, command->skip_existing, command->depfile);
-    render
-        ->add_flag("--json", command->json,
-                   "a line of JSON for every picture: digest, rung, error, times")
-        ->envname("AWAN_JSON");
+    add_json(*render, command->json,
+             "a line of JSON for every picture: digest, rung, error, times");
     render
         ->add_flag("--preview", command->preview,
                    "to look at in passing: one ray a pixel, edges are jagged, no error is measured")
@@ -244,7 +242,7 @@ Run add_sky(CLI::App& app) {
     add(*sky, "--width", command->width, "pixels, an even number; the map is half as high")
         ->check(CLI::Range(2, limits::kMaxImageSide));
     add_farm_flags(*sky, command->skip_existing, command->depfile);
-    add_json(*sky, command->json);
+    add_json(*sky, command->json, kSaysWhatCame);
     add_threads(*sky, command->threads);
     sky->footer(
         "Equirectangular: +y is up, +z (azimuth 0) in the middle, +x (azimuth 90) a quarter from\n"
@@ -274,7 +272,7 @@ Run add_impostor(CLI::App& app) {
                    "from below too: octahedral instead of hemi-octahedral, down to the horizon")
         ->envname("AWAN_FULL");
     add_farm_flags(*impostor, command->skip_existing, command->depfile);
-    add_json(*impostor, command->json);
+    add_json(*impostor, command->json, kSaysWhatCame);
     add_threads(*impostor, command->threads);
     add_device(*impostor, command->device);
     return [command, full] {

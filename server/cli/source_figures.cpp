@@ -15,6 +15,7 @@
 #include "core/scene/spheres.h"
 #include "core/scene/validate.h"
 #include "core/sequence.h"
+#include "server/cli/support.h"
 
 namespace awan {
 namespace {
@@ -128,11 +129,8 @@ Result<double> frames_a_second(Bench& bench, const SceneDraft& draft, const char
             frame.scene, plan_frame(frame, bench.wish.threads, bench.deadline, bench.speed),
             bench.wish.threads);
         if (!planned.ok()) return planned.error();
-        if (!bench.device && needs_renderer(planned->plan.predicted.rung->method)) {
-            auto opened = Device::open(bench.wish.device);
-            if (!opened.ok()) return opened.error();
-            bench.device.emplace(*std::move(opened));
-        }
+        if (const Status failed = open_for(planned->plan, bench.wish.device, bench.device))
+            return *failed;
         const auto rendered = render_planned(
             frame.scene, *std::move(planned),
             {bench.device ? &*bench.device : nullptr, bench.wish.threads, &lights, {}, bench.speed},
