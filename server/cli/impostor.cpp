@@ -1,8 +1,6 @@
 // awan impostor: a scene from many sides, on one atlas with its layout beside it.
 #include "core/impostor.h"
 
-#include <cstdio>
-
 #include "core/formats/atlas.h"
 #include "core/formats/image_file.h"
 #include "core/scene/validate.h"
@@ -35,11 +33,6 @@ Result<Atlas> draw_views(const Impostor& impostor, Work& work) {
     return atlas;
 }
 
-int end(const FileResult& result, const Scene& scene, const ImpostorCommand& command) {
-    if (command.json) std::fputs(result_json(result, scene).c_str(), stdout);
-    return end_with(write_dependencies(command.depfile, result.outputs, command.scene));
-}
-
 }  // namespace
 
 int run_impostor(const ImpostorCommand& command) {
@@ -63,7 +56,7 @@ int run_impostor(const ImpostorCommand& command) {
     if (!scene) return report_error(name, scene.error());
     const int side = command.wish.views * command.wish.size;
     FileResult result{name, {command.output, layout}, skipped, side, side, {}};
-    if (skipped) return end(result, *scene, command);
+    if (skipped) return end_with_line(result, *scene, command);
     const bool exr = *format == "exr";
     const auto impostor = impostor_of(*scene, command.wish, exr, command.threads, Deadline{});
     if (!impostor) return report_error(name, impostor.error());
@@ -89,7 +82,7 @@ int run_impostor(const ImpostorCommand& command) {
             write_output(layout, impostor_to_json(*impostor, file, exr && !atlas->depth.empty())))
         return report_error("", *failed);
     result.times.emplace_back("encode", ms_since(encoding));
-    return end(result, *scene, command);
+    return end_with_line(result, *scene, command);
 }
 
 }  // namespace awan

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/pipeline.h"
+#include "server/cli/scene_input.h"
+#include "server/cli/support.h"
 
 namespace awan {
 
@@ -35,6 +38,13 @@ struct FileResult {
     std::vector<std::pair<const char*, double>> times;
 };
 std::string result_json(const FileResult& result, const Scene& scene);
+// The end of a command that made such files: prints the line where it is asked for, and writes what they depend on. The
+// code to exit with.
+template <typename Command>
+int end_with_line(const FileResult& result, const Scene& scene, const Command& command) {
+    if (command.json) std::fputs(result_json(result, scene).c_str(), stdout);
+    return end_with(write_dependencies(command.depfile, result.outputs, command.scene));
+}
 
 // "a.png: transport-32, error 4.2% (expected 5%)"; EMPTY for a look, which has no error.
 std::string result_text(const std::string& output, const Rendered& rendered);

@@ -1,8 +1,6 @@
 // awan sky: the scene's sky all around, a map for image based lighting.
 #include "core/draw/sky_map.h"
 
-#include <cstdio>
-
 #include "core/formats/image_file.h"
 #include "core/scene/validate.h"
 #include "server/cli/cli.h"
@@ -12,15 +10,6 @@
 #include "server/cli/support.h"
 
 namespace awan {
-namespace {
-
-int end(const FileResult& result, const Scene& scene, const SkyCommand& command) {
-    if (command.json) std::fputs(result_json(result, scene).c_str(), stdout);
-    return end_with(write_dependencies(command.depfile, result.outputs, command.scene));
-}
-
-}  // namespace
-
 int run_sky(const SkyCommand& command) {
     if (command.width % 2 != 0)
         return bad_usage("--width " + std::to_string(command.width) +
@@ -41,7 +30,7 @@ int run_sky(const SkyCommand& command) {
     if (!scene) return report_error(command.scene.path, scene.error());
     FileResult result{command.scene.path, {command.output},  skipped,
                       command.width,      command.width / 2, {}};
-    if (skipped) return end(result, *scene, command);
+    if (skipped) return end_with_line(result, *scene, command);
     if (const Status failed = check_writable(command.output)) return report_error("", *failed);
     const auto start = Deadline::Clock::now();
     const auto map = sky_map(*scene, command.width, command.threads, {});
@@ -56,7 +45,7 @@ int run_sky(const SkyCommand& command) {
     if (const Status failed = write_output(command.output, *bytes))
         return report_error("", *failed);
     result.times.emplace_back("encode", ms_since(encoding));
-    return end(result, *scene, command);
+    return end_with_line(result, *scene, command);
 }
 
 }  // namespace awan
