@@ -206,6 +206,19 @@ glm::dmat3 turned() {
     return glm::transpose(glm::dmat3(x, y, glm::cross(x, y)));
 }
 
+// The largest sigma' / (keep edge) of any smooth extinction up to u (0..1) edges: where n is 1. It rises until the ramp
+// is cut off at its upper end, falls as lumps spread, and rises again to 1 at u = 1.
+double densest_lump(float u) {
+    const auto at = [](float of) {
+        const float v = spread(of), share = gathered_share(v);
+        const float lump = of < kMostGathered * share ? of / share : kMostGathered;
+        return static_cast<double>(lump * std::min(v * (1 + kSoftness) / kSoftness, 1.0F));
+    };
+    // Where spread(u) = w / (1 + w).
+    constexpr float kCutOff = kSoftness / (2 + kSoftness);
+    return std::max(at(std::min(u, kCutOff)), at(u));
+}
+
 }  // namespace
 
 float gathered_share(float v) {
@@ -269,7 +282,10 @@ DetailField make_detail(const DetailFigures& figures, double amount, double size
 }
 
 float bumps_at(const DetailField& field, const glm::dvec3& point) {
-    const glm::dvec3 at = field.to_tile * (point - field.origin);
+    return bumps_in_tile(field, field.to_tile * (point - field.origin));
+}
+
+float bumps_in_tile(const DetailField& field, const glm::dvec3& at) {
     std::size_t low[3];
     float part[3];
     for (int axis = 0; axis < 3; ++axis) {
@@ -300,13 +316,9 @@ double kept_by_detail(const DetailField& field, double extinction) {
 }
 
 double most_detailed(const DetailField& field, double extinction) {
-    const double u = extinction / static_cast<double>(field.edge);
-    // Below u = 1 a lump is at most kMostGathered * edge, and the ramp at most v (1 + w) / w, v at most 2 u.
-    const double most = static_cast<double>(kMostGathered);
-    const double lumps =
-        static_cast<double>(field.edge) *
-        std::min(most, 2 * u * most * static_cast<double>((1 + kSoftness) / kSoftness));
-    return static_cast<double>(field.keep) * std::max(extinction, lumps) * 1.0001;
+    const double u = std::min(extinction / static_cast<double>(field.edge), 1.0);
+    const double lumps = static_cast<double>(field.edge) * densest_lump(static_cast<float>(u));
+    return static_cast<double>(field.keep) * std::max(extinction, lumps) * 1.001;
 }
 
 }  // namespace awan

@@ -82,8 +82,9 @@ class DetailTiles {
 // `keep` is left at 1.
 DetailField make_detail(const DetailFigures& figures, double amount, double size, DetailTile tile);
 
-// n at a point, trilinear between voxels.
+// n at a point, trilinear between voxels; of a place in the tile, voxels, which repeats.
 float bumps_at(const DetailField& field, const glm::dvec3& point);
+float bumps_in_tile(const DetailField& field, const glm::dvec3& voxel);
 
 // v, and E(v), see above: the share of space that lumps take.
 inline float spread(float u) {

@@ -1,5 +1,7 @@
 // Flights side by side. Included once for each instruction set, after lanes.h, as that is.
 
+#include "core/truth/lanes_detail.h"
+
 // Idle lanes from which on new flights are fetched.
 constexpr int kFetch = kLanes / 2;
 
@@ -12,6 +14,8 @@ struct Lanes {
     alignas(64) float place[3][kLanes]{}, direction[3][kLanes]{}, to[kLanes]{};
     alignas(64) std::int32_t brick[3][kLanes]{}, fresh[kLanes]{};
     alignas(64) std::uint32_t random[4][kLanes]{};
+    // In the tile of detail, voxels: where flights begin, and how far they go a cell.
+    alignas(64) float voxel[3][kLanes]{}, voxels_a_cell[3][kLanes]{};
     // Of listed particles, each lane's race with them: the optical depth ahead, and t of a meeting in the brick where
     // it is, infinite: there is none.
     double listed_ahead[kLanes]{};
@@ -19,7 +23,8 @@ struct Lanes {
 
     Lanes() { std::fill(std::begin(meets), std::end(meets), INFINITY); }
 
-    void fetch(const Flights& f, std::span<const std::uint32_t> which, std::size_t& taken) {
+    void fetch(const DetailLanes& detail, const Flights& f, std::span<const std::uint32_t> which,
+               std::size_t& taken) {
         std::fill(std::begin(fresh), std::end(fresh), 0);
         for (std::uint32_t left = idle_lanes; left != 0 && taken < which.size(); left &= left - 1) {
             const auto lane = static_cast<std::size_t>(__builtin_ctz(left));
@@ -34,6 +39,17 @@ struct Lanes {
             }
             to[lane] = f.to != nullptr ? f.to[i] : INFINITY;
             for (std::size_t word = 0; word < 4; ++word) random[word][lane] = f.random[word][i];
+            if (detail.words != nullptr) stand_in_tile(detail, lane);
+        }
+    }
+
+    void stand_in_tile(const DetailLanes& detail, std::size_t lane) {
+        const glm::dvec3 from = detail.to_tile * origin(lane) + detail.start,
+                         per_cell = detail.to_tile * along(lane);
+        for (int a = 0; a < 3; ++a) {
+            const auto axis = static_cast<std::size_t>(a);
+            voxel[axis][lane] = DetailLanes::within(from[a]);
+            voxels_a_cell[axis][lane] = static_cast<float>(per_cell[a]);
         }
     }
 
@@ -79,9 +95,10 @@ struct Batch {
     static constexpr auto kSide = static_cast<float>(kBrick);
 
     Batch(const Matter& matter, const Flights& flights, std::span<const std::uint32_t> those)
-        : m(matter), f(flights), which(those) {}
+        : m(matter), detail(matter), f(flights), which(those) {}
 
     const Matter& m;
+    const DetailLanes detail;
     const Flights& f;
     std::span<const std::uint32_t> which;
     std::size_t taken = 0;
@@ -145,7 +162,7 @@ struct Batch {
 
     // New flights for idle lanes.
     AWAN_INLINE void fetch() {
-        lanes.fetch(f, which, taken);
+        lanes.fetch(detail, f, which, taken);
         const auto fresh = load<Ints>(lanes.fresh);
         RandomLanes drawn;
         for (int word = 0; word < 4; ++word) drawn.state[word] = load<Bits>(lanes.random[word]);
@@ -189,7 +206,7 @@ struct Batch {
     // Those lanes look whether there is matter at `further`. Gives those that are done.
     AWAN_INLINE Ints look(const Ints& looks, const Floats& further, Found& found) {
         t = looks ? further : t;
-        alignas(64) float part[3][kLanes], extinction[kLanes];
+        alignas(64) float part[3][kLanes], extinction[kLanes]{};
         Ints at[3], in[3];
         for (int a = 0; a < 3; ++a) {
             const Floats place = o[a] + t * d[a];
@@ -217,23 +234,19 @@ struct Batch {
             extinction[lane] = here.extinction;
             found.depth[lane] = here.depth;
         });
-        if (m.detail) add_detail(looks, extinction);
         RandomLanes drawn = random;
-        found.met = looks & (unit(drawn) * most < loaded(extinction));
+        const Floats least = unit(drawn) * most;
+        Floats here = loaded(extinction);
+        if (detail.words != nullptr)
+            here = with_detail(detail, looks, here, least, [&](Floats(&voxel)[3]) {
+                for (std::size_t a = 0; a < 3; ++a)
+                    voxel[a] = loaded(lanes.voxel[a]) + t * loaded(lanes.voxels_a_cell[a]);
+            });
+        found.met = looks & (least < here);
         ahead = looks ? minus_log(unit(drawn)) : ahead;
         random = chosen(looks, drawn, random);
         looked -= looks;
         return looks & (found.met | (looked > kMaxTentative));
-    }
-
-    AWAN_INLINE void add_detail(const Ints& looks, float (&extinction)[kLanes]) const {
-        alignas(64) float distance[kLanes];
-        store(distance, t);
-        each_lane(looks, [&](std::size_t lane) {
-            extinction[lane] = static_cast<float>(with_detail(
-                m, extinction[lane],
-                lanes.origin(lane) + static_cast<double>(distance[lane]) * lanes.along(lane)));
-        });
     }
 
     // Those lanes go on to the next block. Gives those that ended instead.

@@ -16,7 +16,6 @@ namespace {
 // The least s, in sides of a square, for which its middle will do, and the 2 x 2 points of Gauss and Legendre's rule.
 // Their errors are at most s^-2 / 12 and s^-4 / 720 of a Gaussian's height: 0.9% and 0.6%.
 constexpr double kMiddle = 3, kFour = 0.7;
-constexpr std::size_t kMostParts = 256;
 constexpr int kMostDivisions = 24;
 
 // A particle before a pixel: where its centre is seen (pixels), how far from there it has matter, and its s.
@@ -38,12 +37,14 @@ bool touches(const Spot& spot, const Square& at) {
 
 class Area {
   public:
-    Area(const View& view, int width, int height, const ParticleSet& particles, double smallest,
+    Area(const View& view, int width, int height, const ParticleSet& particles,
+         std::size_t most_parts, double smallest,
          const std::function<double(const glm::dvec3&)>& end, std::uint64_t seed)
         : view_(view),
           width_(width),
           height_(height),
           particles_(particles),
+          most_parts_(most_parts),
           smallest_(smallest),
           end_(end),
           random_(seed) {}
@@ -58,7 +59,7 @@ class Area {
         std::vector<Part> parts;
         if (!spots.empty()) parts.push_back({pixel, std::move(spots)});
         for (int level = 0; !parts.empty(); ++level) {
-            const bool more = level < kMostDivisions && parts.size() <= kMostParts;
+            const bool more = level < kMostDivisions && parts.size() <= most_parts_;
             std::vector<Part> next;
             for (Part& part : parts) {
                 if (narrowest(part) >= kFour)
@@ -137,7 +138,7 @@ class Area {
             (1 - (part.square.y + y * part.square.side) / height_ * 2) * view_.tan_half_fov;
         const glm::dvec3 d = glm::normalize(view_.forward + u * view_.right + v * view_.up);
         found_.rays.push_back({d, share * part.square.side * part.square.side,
-                               line_optical_depth(matter, view_.eye, d, 0, end_(d))});
+                               end_ ? line_optical_depth(matter, view_.eye, d, 0, end_(d)) : 0});
     }
 
     ParticleSet matter_of(const Part& part) const {
@@ -173,6 +174,7 @@ class Area {
     const View& view_;
     double width_, height_;
     const ParticleSet& particles_;
+    std::size_t most_parts_;
     double smallest_;
     const std::function<double(const glm::dvec3&)>& end_;
     PathRandom random_;
@@ -182,9 +184,9 @@ class Area {
 }  // namespace
 
 AreaRays area_rays(const View& view, int width, int height, int x, int y, const ParticleSet& near,
-                   double smallest, const std::function<double(const glm::dvec3&)>& end,
-                   std::uint64_t seed) {
-    return Area(view, width, height, near, smallest, end, seed)
+                   std::size_t most_parts, double smallest,
+                   const std::function<double(const glm::dvec3&)>& end, std::uint64_t seed) {
+    return Area(view, width, height, near, most_parts, smallest, end, seed)
         .rays({static_cast<double>(x), static_cast<double>(y), 1});
 }
 

@@ -14,6 +14,10 @@ namespace {
 
 // Paths that are walked together: the last of them leave lanes idle, so that there should be many.
 constexpr std::size_t kTogether = 4096;
+// Parts of a pixel that is seen by rays at random (pixel_area.h). With detail every ray's depth has to be tabulated, so
+// that there are about as many rays as paths, each part having four to sixteen: more would take away little of the
+// noise.
+constexpr std::uint32_t kMostParts = 256, kFewestParts = 1, kPathsAPart = 16;
 // Of a path's key: what its walk is keyed by.
 constexpr std::uint64_t kWalk = 0x3a1c;
 // Of the light behind the clouds: below, it is not traced.
@@ -221,7 +225,7 @@ int sides_behind(const Picture& picture, bool ground) {
 PixelRays rays_of(const Picture& picture, const ParticleSet& near, int x, int y,
                   const PixelRay& middle, const glm::dvec3& eye, std::uint64_t key) {
     const Matter& matter = picture.matter;
-    const auto end = [&](const glm::dvec3& d) {
+    const std::function<double(const glm::dvec3&)> end = [&](const glm::dvec3& d) {
         return ground_ahead(picture.setting, eye, d) * matter.cell;
     };
     PixelRays found;
@@ -231,8 +235,11 @@ PixelRays rays_of(const Picture& picture, const ParticleSet& near, int x, int y,
     if (picture.whole_pixels) {
         // Bumps rise and fall as a Gaussian of about a quarter of their width does.
         const double smallest = matter.detail ? 0.25 * matter.detail->bump : INFINITY;
-        area =
-            area_rays(picture.view, picture.width, picture.height, x, y, near, smallest, end, key);
+        const std::uint32_t parts =
+            matter.detail ? std::clamp(picture.samples / kPathsAPart, kFewestParts, kMostParts)
+                          : kMostParts;
+        area = area_rays(picture.view, picture.width, picture.height, x, y, near, parts, smallest,
+                         matter.detail ? nullptr : end, key);
     } else {
         const glm::dvec3 d = middle.direction;
         area.rays = {{d, 1, line_optical_depth(near, middle.origin, d, 0, end(d))}};

@@ -11,12 +11,13 @@
 namespace awan::truth {
 namespace {
 
-constexpr double kStepDepth = 0.1;  // optical depth a step
-constexpr double kShortest = 1e-9;  // cells
+constexpr double kStepDepth = 0.1;    // optical depth a step
+constexpr double kAimedDepth = 0.09;  // of a step that is tried first, if extinction stays as it is
+constexpr double kShortest = 1e-9;    // cells
 // Of the largest bumps; the smallest are four times that.
 constexpr double kDetailStep = 0.05;
-// Optical depth: e^-30 of the light comes from behind it.
-constexpr double kDark = 30;
+// Optical depth: e^-24 of the light, 4e-11, comes from behind it.
+constexpr double kDark = 24;
 
 // A listed particle that the ray meets, and where.
 struct Met {
@@ -47,6 +48,30 @@ std::vector<Met> listed_along(const Matter& m, const glm::dvec3& o, const glm::d
     }
     return met;
 }
+
+// A ray's way through the tile that detail repeats.
+class InTile {
+  public:
+    // o, d: q, of the lattice.
+    InTile(const Matter& m, const glm::dvec3& o, const glm::dvec3& d) : m_(m) {
+        if (!m.detail) return;
+        const DetailField& field = *m.detail;
+        from_ = field.to_tile * (m.origin + m.cell * ((o - m.shift) * m.axes) - field.origin);
+        along_ = field.to_tile * (m.cell * (d * m.axes));
+    }
+    // As with_detail() of matter.h, at o + t d.
+    double extinction(float smooth, double t) const {
+        if (!m_.detail || !(smooth > 0)) return static_cast<double>(smooth);
+        const DetailField& field = *m_.detail;
+        const auto per_unit = static_cast<float>(static_cast<double>(smooth) / m_.cell);
+        const float bumps = per_unit < field.edge ? bumps_in_tile(field, from_ + t * along_) : 1;
+        return m_.cell * static_cast<double>(detailed(field, per_unit, bumps));
+    }
+
+  private:
+    const Matter& m_;
+    glm::dvec3 from_{0}, along_{0};
+};
 
 // Where a ray leaves the cells of the lattice, one after the other.
 class CellBorders {
@@ -84,6 +109,7 @@ PrimaryRay::PrimaryRay(const Matter& m, const glm::dvec3& from, const glm::dvec3
     if (!walk.inside()) return;
     const std::vector<Met> met = listed_along(m, o, d, walk.enter(), walk.end());
     CellBorders borders(o, d);
+    const InTile in_tile(m, o, d);
     const double longest = m.detail ? kDetailStep * m.detail->bump / m.cell : INFINITY;
     double depth = 0;
     const auto add = [&](double t, double extinction) {
@@ -97,17 +123,18 @@ PrimaryRay::PrimaryRay(const Matter& m, const glm::dvec3& from, const glm::dvec3
         const glm::dvec3 corner(walk.at() * kBrick);
         const auto extinction_at = [&](double at) {
             if (brick.nodes == kNoNodes) return 0.0;
-            const glm::dvec3 q = o + at * d, local = q - corner;
+            const glm::dvec3 local = o + at * d - corner;
             const InCell in = in_cell(brick.nodes, static_cast<float>(local.x),
                                       static_cast<float>(local.y), static_cast<float>(local.z));
-            return with_detail(m, sampled(m, in).extinction, q);
+            return in_tile.extinction(sampled(m, in).extinction, at);
         };
         double t = walk.enter(), here = extinction_at(t);
         borders.start(t);
         const double leave = walk.leave();
         if (t_.empty() || t_.back() < t) add(t, here);
         while (t < leave && depth < kDark) {
-            double next = std::min({borders.after(t), leave, t + longest});
+            const double aimed = here > 0 ? kAimedDepth / here : INFINITY;
+            double next = std::min({borders.after(t), leave, t + std::min(longest, aimed)});
             if (!(next > t + kShortest)) next = std::min(leave, t + kShortest);
             double there, more;
             for (;;) {

@@ -11,13 +11,13 @@
 namespace awan::truth {
 
 // Optical depth along o + t d (p in matter.h), t from 0 to `end` (may be infinite), tabulated at every cell's border
-// and at steps of .1 of depth as far as a depth of 30: exact for what stands on the lattice, in closed form for the
+// and at steps of .1 of depth as far as a depth of 24: exact for what stands on the lattice, in closed form for the
 // listed. With detail in steps of a twentieth of the largest bumps.
 class PrimaryRay {
   public:
     PrimaryRay(const Matter& matter, const glm::dvec3& o, const glm::dvec3& d, double end);
 
-    // Of the whole ray, or at least a depth of 30.
+    // Of the whole ray, or at least a depth of 24.
     double depth() const { return depth_.empty() ? 0 : depth_.back(); }
     bool meets() const { return !depth_.empty() && depth_.back() > 0; }
     // t of the first scattering of light that has one; share in (0, 1): of such light, met before t.
