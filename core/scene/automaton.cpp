@@ -23,16 +23,30 @@ double automaton_steps_at(const AutomatonCloud& cloud, double time) {
                       static_cast<double>(cloud.steps));
 }
 
+AutomatonWind spelled_out(const AutomatonWind& wind) {
+    AutomatonWind all = wind;
+    const auto spell = [&](AutomatonSpeed& speed) {
+        if (!speed.direction) speed.direction = wind.direction;
+    };
+    spell(all.layers);
+    for (AutomatonWindBand& band : all.layer_bands) spell(band.speed);
+    for (AutomatonWindBand& band : all.ellipsoids) spell(band.speed);
+    all.direction = AutomatonWind{}.direction;
+    return all;
+}
+
 std::string automaton_rules_of(const AutomatonCloud& cloud) {
     const AutomatonCloud standard;
     AutomatonCloud bits = cloud;
     bits.random = random_ellipsoids_of(cloud);
+    bits.wind = spelled_out(cloud.wind);
     // How long an automaton runs and how its bits are looked at.
     bits.cell = standard.cell;
     bits.warm_up = standard.warm_up;
     bits.steps_per_second = standard.steps_per_second;
     bits.steps = standard.steps;
     bits.smooth = standard.smooth;
+    bits.smooth_weight = standard.smooth_weight;
     bits.metaball_radius = standard.metaball_radius;
     bits.threshold = standard.threshold;
     bits.most_particles = standard.most_particles;

@@ -198,6 +198,7 @@ void settle_model(Instead& instead, const Cloud& cloud) {
     if (cloud.automaton) {
         auto all = std::make_shared<AutomatonCloud>(*cloud.automaton);
         all->random = random_ellipsoids_of(*cloud.automaton);
+        all->wind = spelled_out(cloud.automaton->wind);
         instead.put(cloud.automaton, std::shared_ptr<const AutomatonCloud>(std::move(all)));
     }
     if (cloud.spheres) {
