@@ -23,6 +23,19 @@ double automaton_steps_at(const AutomatonCloud& cloud, double time) {
                       static_cast<double>(cloud.steps));
 }
 
+std::vector<std::string_view> names_in(std::string_view list) {
+    std::vector<std::string_view> names;
+    for (std::string_view rest = list;;) {
+        const std::size_t comma = rest.find(',');
+        std::string_view name = rest.substr(0, comma);
+        while (name.starts_with(' ')) name.remove_prefix(1);
+        while (name.ends_with(' ')) name.remove_suffix(1);
+        names.push_back(name);
+        if (comma == std::string_view::npos) return names;
+        rest.remove_prefix(comma + 1);
+    }
+}
+
 AutomatonWind spelled_out(const AutomatonWind& wind) {
     AutomatonWind all = wind;
     const auto spell = [&](AutomatonSpeed& speed) {
@@ -47,9 +60,12 @@ std::string automaton_rules_of(const AutomatonCloud& cloud) {
     bits.steps = standard.steps;
     bits.smooth = standard.smooth;
     bits.smooth_weight = standard.smooth_weight;
+    bits.smooth_weight_table = standard.smooth_weight_table;
     bits.metaball_radius = standard.metaball_radius;
     bits.threshold = standard.threshold;
     bits.most_particles = standard.most_particles;
+    bits.drawing = standard.drawing;
+    bits.chosen = standard.chosen;
     // smooth_steps stays: so many skies are remembered.
     return fingerprint_of(table_of<AutomatonCloud>(), &bits);
 }

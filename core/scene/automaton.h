@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/scene/automaton_drawing.h"
 #include "core/scene/automaton_shape.h"
 #include "core/scene/automaton_wind.h"
 #include "core/scene/cloud.h"
@@ -157,6 +158,12 @@ struct AutomatonCloud {
     double threshold = 0;
     std::uint64_t most_particles = 1u << 20;
 
+    // Of the look "upchurch".
+    AutomatonDrawing drawing;
+    // The ellipsoid that the display "ellipsoids" shows in red, by its number: those listed first, then the random
+    // ones.
+    std::optional<std::uint64_t> chosen;
+
     // Where to begin instead of at step 0: the latest of those that are not too late. Set by the command line, never by
     // a document; it changes nothing but the time taken.
     std::vector<std::shared_ptr<const AutomatonState>> starts{};
@@ -288,6 +295,16 @@ inline constexpr Field kAutomatonFields[] = {
          .wanted = "an integer >= 1",
          .counts = count_from_to(1, limits::kMaxParticles),
          .says = "More cells with matter are merged, 2x2x2, 4x4x4, ... to one particle."}),
+    field<&AutomatonCloud::drawing>({.name = "drawing",
+                                     .wanted = "an object",
+                                     .says = "How the look upchurch draws the cells."}),
+    field<&AutomatonCloud::chosen>(
+        {.name = "chosen",
+         .wanted = "an integer >= 0",
+         .counts = at_most(limits::kMaxAutomatonEllipsoids - 1),
+         .says = "Number of the ellipsoid that the display `ellipsoids` shows in red: those listed "
+                 "first, then the random ones.",
+         .otherwise = "none"}),
     outside_document<&AutomatonCloud::starts>("only where to begin; the cloud is the same"),
     outside_document<&AutomatonCloud::kept>("only where to begin; the cloud is the same"),
 };
@@ -301,7 +318,7 @@ inline constexpr Table kAutomatonTable{
     .fields = kAutomatonFields,
     .standard = standard_of<AutomatonCloud>};
 
-// The ellipsoids to be drawn, if any.
+// The ellipsoids to be drawn by chance, if any.
 RandomEllipsoids random_ellipsoids_of(const AutomatonCloud& cloud);
 // Steps made at time t: from 0 to cloud.steps.
 double automaton_steps_at(const AutomatonCloud& cloud, double time);

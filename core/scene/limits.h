@@ -198,6 +198,11 @@ inline constexpr std::uint64_t kMaxAutomatonHistory = 8;
 inline constexpr double kMinMetaballRadius = 1.5;
 inline constexpr double kMaxMetaballRadius = 16;
 
+// Sides of a look's billboards and points, cells: from far below a pixel to as large as many a cloud.
+inline constexpr double kMinBillboardScale = 0.01, kMaxBillboardScale = 100;
+// Times a density of 0..1. Beyond, the faintest cell is white.
+inline constexpr double kMaxColorMultiplier = 1000;
+
 // --- Spheres (core/scene/spheres.h)
 
 // Levels of the hierarchy: 5^10 = 9,765,625 spheres, the most that Ostroushko et al. 2010 draw. Below, they are finer

@@ -205,6 +205,11 @@ Status check_rules(const AutomatonCloud& cloud, const std::string& at) {
         return invalid(at + "/cells", "must be at most " + to_text(limits::kMaxAutomatonCells) +
                                           " cells in all, not " + to_text(cells));
     if (Status wrong = check_random(cloud, at)) return wrong;
+    const std::uint64_t ellipsoids = cloud.ellipsoids.size() + random_ellipsoids_of(cloud).count;
+    if (cloud.chosen && *cloud.chosen >= ellipsoids)
+        return invalid(at + "/chosen", "must be below " + std::to_string(ellipsoids) +
+                                           ", how many ellipsoids there are, not " +
+                                           std::to_string(*cloud.chosen));
     if (Status wrong = check_bands(cloud.wind.layer_bands, at + "/wind/layer_bands")) return wrong;
     if (Status wrong = check_bands(cloud.wind.ellipsoids, at + "/wind/ellipsoids")) return wrong;
     if (Status wrong = check_shapes(cloud, at)) return wrong;

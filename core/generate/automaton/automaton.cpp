@@ -9,6 +9,7 @@
 #include "core/generate/automaton/kept_states.h"
 #include "core/generate/automaton/parcels.h"
 #include "core/generate/automaton/run.h"
+#include "core/generate/automaton/skies.h"
 #include "core/generate/models.h"
 
 namespace awan::automaton {
@@ -74,35 +75,9 @@ Result<ModelParticles> make_particles(const AutomatonCloud& cloud, const ModelRe
     constexpr double kQuick = 0x1p26;
     if (request.coarse && cloud.cells.x * cloud.cells.y * cloud.cells.z * (whole + 2) > kQuick)
         return coarse_automaton(cloud, request.key, static_cast<std::uint64_t>(whole), deadline);
-    AutomatonScratch scratch;
-    auto state = run_automaton(cloud, request.key, static_cast<std::uint64_t>(whole),
-                               request.threads, deadline, scratch);
-    if (!state.ok()) return state.error();
-
-    CellDensity density;
-    density.share_of_next = steps - whole;
-    std::vector<std::vector<std::uint64_t>> skies, next;
-    const auto take = [](const AutomatonState& from, std::vector<std::vector<std::uint64_t>>& to) {
-        to.push_back(from.cld);
-        to.insert(to.end(), from.earlier.begin(), from.earlier.end());
-    };
-    // Before step 0 the sky was clear: empty fields are put in for the steps that were not made, as many as are
-    // smoothed over.
-    const AutomatonGrid grid(cloud.cells);
-    const auto complete = [&](std::vector<std::vector<std::uint64_t>>& fields,
-                              std::vector<CloudBits>& to) {
-        while (fields.size() < cloud.smooth_steps) fields.emplace_back(grid.all_words(), 0);
-        for (const auto& field : fields) to.push_back(&field);
-    };
-    take(*state, skies);
-    if (density.share_of_next > 0) {
-        if (Status late = step_automaton(cloud, request.threads, deadline, scratch, *state))
-            return *late;
-        take(*state, next);
-        complete(next, density.next);
-    }
-    complete(skies, density.now);
-    scratch = {};
+    const auto skies = skies_at(cloud, request.key, steps, request.threads, deadline);
+    if (!skies.ok()) return skies.error();
+    const CellDensity density = skies->density();
     const std::uint64_t most = request.coarse ? 400 : cloud.most_particles;
     auto made = cells_to_particles(cloud, density, most, request.threads, deadline);
     if (!made.ok()) return made.error();
