@@ -114,6 +114,15 @@ inline Cloud random_automaton(Dice& dice, const Whereabouts& where) {
     a.most_particles = dice.chance(0.1) ? 1 + static_cast<std::uint64_t>(dice.below(10))
                                         : static_cast<std::uint64_t>(dice.log_between(20, 2000));
 
+    a.drawing.mode = static_cast<AutomatonMode>(dice.below(4));
+    a.drawing.textures = dice.chance(0.5) ? "soft" : "wisp,puff";
+    a.drawing.billboard_scale = dice.log_between(0.1, 30);
+    a.drawing.color_multiplier = dice.log_between(0.1, 10);
+    a.drawing.opacity = dice.log_between(0.1, 10);
+    a.drawing.point_size = dice.log_between(0.1, 10);
+    a.drawing.hold = dice.chance(0.5);
+    if (!a.ellipsoids.empty() && dice.chance(0.3)) a.chosen = a.ellipsoids.size() - 1;
+
     Cloud cloud;
     cloud.model = CloudModel::kAutomaton;
     cloud.automaton = std::make_shared<const AutomatonCloud>(std::move(a));

@@ -27,10 +27,7 @@ std::vector<std::string_view> names_in(std::string_view list) {
     std::vector<std::string_view> names;
     for (std::string_view rest = list;;) {
         const std::size_t comma = rest.find(',');
-        std::string_view name = rest.substr(0, comma);
-        while (name.starts_with(' ')) name.remove_prefix(1);
-        while (name.ends_with(' ')) name.remove_suffix(1);
-        names.push_back(name);
+        names.push_back(rest.substr(0, comma));
         if (comma == std::string_view::npos) return names;
         rest.remove_prefix(comma + 1);
     }

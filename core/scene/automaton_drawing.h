@@ -80,7 +80,7 @@ inline const Table& table_of<AutomatonDrawing>() {
     return kAutomatonDrawingTable;
 }
 
-// The names in a list with commas between, without blanks around them; those that are empty too.
+// The names in a list with commas between; those that are empty too.
 std::vector<std::string_view> names_in(std::string_view list);
 
 }  // namespace awan
