@@ -74,5 +74,16 @@ export const automaton = {
       { member: "metaball_radius", label: "Metaballs", min: 1.5, max: 8, step: 0.1, hint: "Radius of each cell’s, in cells" },
       { member: "threshold", label: "Threshold", ...share },
     ] },
+    { kind: "section", title: "Drawing of the upchurch look", fields: [
+      { kind: "select", member: "drawing/mode", label: "Cells are",
+        titles: { textures: "billboards of textures", generated: "billboards made by rule", density: "points by density", presence: "points by presence" } },
+      { kind: "text", member: "drawing/textures", label: "Textures" },
+      { member: "drawing/billboard_scale", label: "Billboards", min: 1, max: 40, step: 0.5 },
+      { member: "drawing/point_size", label: "Points", min: 0.1, max: 4, step: 0.1 },
+      { member: "drawing/color_multiplier", label: "Whiteness", min: 0, max: 5, step: 0.1 },
+      { member: "drawing/opacity", label: "Opacity", min: 0, max: 2, step: 0.05 },
+      { kind: "select", member: "drawing/between_steps", label: "Between steps", titles: { blend: "densities blend", hold: "the step before stays" } },
+      { kind: "number", member: "chosen", label: "Red parcel, displayed", empty: "none" },
+    ] },
   ],
 };
