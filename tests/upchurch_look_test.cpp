@@ -45,7 +45,8 @@ TEST(UpchurchLook, DensityMakesCellsWhiteOpaqueAndLarge) {
     }
 }
 
-// look = camera - billboard, right = up_camera x look, up = look x right, in a right-handed frame: z towards the viewer.
+// look = camera - billboard, right = up_camera x look, up = look x right, in a right-handed frame: z towards the
+// viewer.
 TEST(UpchurchLook, BillboardsHaveThePrintedAxes) {
     for (const glm::dvec3& q :
          {glm::dvec3(0, 0, 5), {1, 2, 3}, {-4, 0.3, 2}, {0.1, -9, 1}, {30, 20, 0.5}}) {

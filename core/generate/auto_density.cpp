@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/base/exact_math.h"
-#include "core/generate/automaton/auto_density.h"
 #include "core/generate/cubes.h"
 #include "core/generate/keyed_random.h"
+#include "core/generate/models.h"
 #include "core/scene/limits.h"
 
 namespace awan {

@@ -1,6 +1,6 @@
-// The picture of an automaton as Upchurch 2009 draws it ("Rendering"): each cell is a square that faces the eye, painted
-// with a texture, or a point. Its density makes it white, opaque and large; no light goes through anything. The squares
-// are blended from the front.
+// The picture of an automaton as Upchurch 2009 draws it ("Rendering"): each cell is a square that faces the eye,
+// painted with a texture, or a point. Its density makes it white, opaque and large; no light goes through anything. The
+// squares are blended from the front.
 #pragma once
 
 #include <array>
@@ -38,8 +38,8 @@ struct Painted {
     int side = 1;
 };
 Painted painted(std::vector<float> texels);
-// Between texels, of the level whose texels are about `texels` of the largest apart. u, v: 0..1 from the top left; clear
-// beyond.
+// Between texels, of the level whose texels are about `texels` of the largest apart. u, v: 0..1 from the top left;
+// clear beyond.
 float sample(const Painted& texture, int level, float u, float v);
 
 // Of which of `count` textures a cell is, by its place (the source: "so that we do not have to store" it).

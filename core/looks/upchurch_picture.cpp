@@ -181,8 +181,8 @@ void draw_point(const Square& s, Tile& tile) {
     }
 }
 
-// Where a pixel's ray meets the billboard's plane, at t d with t = q.q / q.d, it is t (d.right), t (d.up) from its middle,
-// as both axes are at right angles to q.
+// Where a pixel's ray meets the billboard's plane, at t d with t = q.q / q.d, it is t (d.right), t (d.up) from its
+// middle, as both axes are at right angles to q.
 void draw_billboard(const Square& s, const Lens& lens, const Painted& texture, Tile& tile) {
     const int left = std::max(tile.x0, static_cast<int>(s.x0));
     const int right = std::min(tile.x1, static_cast<int>(s.x1));

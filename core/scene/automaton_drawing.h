@@ -10,8 +10,8 @@
 
 namespace awan {
 
-// The render modes of Upchurch 2009: billboards painted with textures of the user's choice, or with textures made by rule;
-// points of cells by their density, or by whether there is cloud in them.
+// The render modes of Upchurch 2009: billboards painted with textures of the user's choice, or with textures made by
+// rule; points of cells by their density, or by whether there is cloud in them.
 enum class AutomatonMode { kTextures, kGenerated, kDensity, kPresence };
 inline constexpr const char* kAutomatonModeWords[] = {"textures", "generated", "density",
                                                       "presence"};

@@ -1,4 +1,5 @@
-// How what is most in the middle falls off to its edge: probabilities in an automaton's ellipsoids, weights of smoothing.
+// How what is most in the middle falls off to its edge: probabilities in an automaton's ellipsoids, weights of
+// smoothing.
 #pragma once
 
 #include "core/scene/limits.h"

@@ -1,9 +1,9 @@
-#include "core/generate/automaton/auto_density.h"
-
+// What a cloud grows to in the long run, from its description (core/generate/models.h).
 #include <algorithm>
 
 #include "core/generate/automaton/parcels.h"
 #include "core/generate/automaton/shape.h"
+#include "core/generate/models.h"
 
 namespace awan::automaton {
 namespace {

@@ -20,8 +20,8 @@ struct Cell {
 };
 
 // Of all planes in their order, rows in theirs: cells of more than `threshold`, and those with cloud. hold: of the last
-// whole step, else between that and the next. Errors: kInvalidScene when a state to begin with belongs to another cloud;
-// kOverDeadline, kCancelled.
+// whole step, else between that and the next. Errors: kInvalidScene when a state to begin with belongs to another
+// cloud; kOverDeadline, kCancelled.
 Result<std::vector<Cell>> cells_of(const AutomatonCloud& cloud, const ModelRequest& request,
                                    bool hold, const Deadline& deadline);
 

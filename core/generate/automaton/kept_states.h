@@ -1,5 +1,5 @@
-// States of automata that are kept while they run, so that a frame of a long sequence is made from the one before it, or
-// from a state some steps earlier, and not from the beginning.
+// States of automata that are kept while they run, so that a frame of a long sequence is made from the one before it,
+// or from a state some steps earlier, and not from the beginning.
 #pragma once
 
 #include <cstddef>
@@ -45,7 +45,8 @@ class KeptStates {
         std::uint64_t asked = 0;
         std::uint64_t used = 0;
     };
-    using Name = std::pair<std::uint64_t, std::uint64_t>;  // rules and key
+    // Rules and key.
+    using Name = std::pair<std::uint64_t, std::uint64_t>;
 
     Run& run_of(const AutomatonState& state);
     void keep(const AutomatonState& state, Run& run);

@@ -24,8 +24,8 @@ double place(double side, double radius, double share) {
     return side > 2 * radius ? between(radius, side - radius, share) : side / 2;
 }
 
-// Along which axis the wind has taken an ellipsoid out of the grid; -1: none. Where it takes it along, and no other way:
-// one that was put beside the grid stays there.
+// Along which axis the wind has taken an ellipsoid out of the grid; -1: none. Where it takes it along, and no other
+// way: one that was put beside the grid stays there.
 int axis_of_leaving(const AutomatonCloud& cloud, const AutomatonEllipsoid& ellipsoid,
                     const glm::dvec2& speed) {
     for (const int axis : {0, 2}) {

@@ -1,5 +1,5 @@
-// Smoothing with weights: q of Upchurch 2009 ("Continuous Density Distribution"), whose w(i', j', k') is here a product of
-// one weight along each axis (shape.h).
+// Smoothing with weights: q of Upchurch 2009 ("Continuous Density Distribution"), whose w(i', j', k') is here a product
+// of one weight along each axis (shape.h).
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// Where the wind over an automaton blows to at a height, and how it moves the layers of cells (core/scene/automaton_wind.h).
+// Where the wind over an automaton blows to at a height, and how it moves the layers of cells
+// (core/scene/automaton_wind.h).
 #pragma once
 
 #include <array>
