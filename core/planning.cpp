@@ -7,6 +7,8 @@
 #include "core/generate/generate.h"
 #include "core/looks/looks.h"
 #include "core/plan/island_settings.h"
+#include "core/scene/automaton.h"
+#include "core/scene/validate.h"
 #include "core/survey/detail_of.h"
 #include "core/survey/merge.h"
 
@@ -81,6 +83,22 @@ Result<Planned> with_detail_made(const Scene& scene, Result<Planned> planned, in
         planned->times.survey_ms += effects.of(Effect::kDetail);
     }
     return planned;
+}
+
+Scene for_preview(const Scene& scene) {
+    // So that a picture of 640 x 400 takes less than 200 ms of two cores (tests/bench/automaton_bench.cpp).
+    constexpr std::uint64_t kPreviewParticles = 1u << 16;
+    SceneDraft draft = *scene;
+    bool changed = false;
+    for (Cloud& cloud : draft.clouds) {
+        if (!cloud.automaton || cloud.automaton->most_particles <= kPreviewParticles) continue;
+        auto fewer = std::make_shared<AutomatonCloud>(*cloud.automaton);
+        fewer->most_particles = kPreviewParticles;
+        cloud.automaton = std::move(fewer);
+        changed = true;
+    }
+    // It has become smaller.
+    return changed ? validate(std::move(draft)).value() : scene;
 }
 
 Planned as_preview(const Scene& scene, Planned planned) {

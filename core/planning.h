@@ -53,6 +53,9 @@ Result<Planned> plan_generated(const Scene& scene, ParticleSet made, int threads
 Result<Planned> with_detail_made(const Scene& scene, Result<Planned> planned, int threads,
                                  DetailTiles* tiles = nullptr);
 
+// What is looked at in passing: automata of many cells are merged into fewer particles.
+Scene for_preview(const Scene& scene);
+
 // A plan made one of a preview (Planned::is_preview): of the rung that was planned, whatever error the scene asks for.
 Planned as_preview(const Scene& scene, Planned planned);
 

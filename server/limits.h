@@ -95,6 +95,8 @@ inline constexpr std::size_t kDiskCacheBytes = 1024u << 20;
 inline constexpr std::size_t kDiskWaitingBytes = 64u << 20;
 // Bytes of lights that are kept to settle the rungs of sequences: a few dozen coarse grids, or one of the finest.
 inline constexpr std::size_t kSettlingLightBytes = 64u << 20;
+// Bytes of states of automata that are kept for their other frames: 130 of the source's size, two of the largest grid.
+inline constexpr std::size_t kKeptStatesBytes = 64u << 20;
 
 // --- Maps
 

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "core/base/exact_math.h"
+#include "core/generate/automaton/cells.h"
 #include "core/generate/generate.h"
 #include "core/generate/keyed_random.h"
 #include "core/pipeline.h"
@@ -104,6 +106,49 @@ TEST(AutoDensity, StaysWithinWhatAParticleMayHave) {
     EXPECT_EQ(density(cloud), kDefaultDensity);
     cloud.cubes.clear();
     EXPECT_EQ(density(cloud), kDefaultDensity);
+}
+
+// By its description alone; its cells, once they have grown, are that deep within a factor of two.
+TEST(AutoDensity, OfAnAutomatonMakesWhatGrowsAsDeepAsOthers) {
+    const auto automaton = [](double cell, double height, double humidity, double extinction) {
+        AutomatonCloud one;
+        one.cells = {160, 40, 160};
+        one.cell = cell;
+        one.random = RandomEllipsoids{24, {5, height / 2, 5}, {18, height, 18}, 5.0};
+        one.humidity = humidity;
+        one.extinction = extinction;
+        return one;
+    };
+    for (const AutomatonCloud& one :
+         {automaton(5, 13, 0.1, 0.12), automaton(1, 13, 0.1, 0.12), automaton(5, 6, 0.1, 0.12),
+          automaton(3, 30, 0.12, 0.06), automaton(2, 10, 0.05, 0.2)}) {
+        Cloud cloud;
+        cloud.model = CloudModel::kAutomaton;
+        cloud.automaton = std::make_shared<const AutomatonCloud>(one);
+        const std::uint64_t key = keyed(1, 0);
+        const double density = auto_density(cloud, Fill::kUniform, key);
+        ModelRequest request;
+        request.key = key;
+        const auto cells = automaton::cells_of(one, request, true, {});
+        ASSERT_TRUE(cells.ok());
+        std::map<std::pair<int, int>, double> columns;
+        for (const automaton::Cell& at : *cells)
+            columns[{at.i, at.k}] += static_cast<double>(at.density) * one.cell * density;
+        double mass = 0, squares = 0;
+        for (const auto& [place, depth] : columns) mass += depth, squares += depth * depth;
+        EXPECT_GT(squares / mass, kAutoDepth / 2) << one.cell << " " << one.humidity;
+        EXPECT_LT(squares / mass, kAutoDepth * 2) << one.cell << " " << one.humidity;
+        // A cloud made twice as large is twice as deep.
+        cloud.scale = 2;
+        EXPECT_NEAR(auto_density(cloud, Fill::kUniform, key), density / 2, 0.01 * density);
+    }
+    // Nothing grows.
+    Cloud cloud;
+    cloud.model = CloudModel::kAutomaton;
+    AutomatonCloud none;
+    none.activation = 0;
+    cloud.automaton = std::make_shared<const AutomatonCloud>(none);
+    EXPECT_EQ(auto_density(cloud, Fill::kUniform, 1), kDefaultDensity);
 }
 
 TEST(AutoDensity, GivesWayToWhatIsGiven) {

@@ -28,7 +28,7 @@ std::string all_fields_of(const AutomatonCloud& cloud) {
 }
 
 using automaton::AutomatonScratch;
-using automaton::check_start;
+using automaton::check_starts;
 using automaton::read_state;
 using automaton::run_automaton;
 using automaton::write_state;
@@ -61,10 +61,12 @@ TEST(AutomatonDocument, EveryFieldArrivesWhereItBelongs) {
             {"center": [1, 2, 3], "radii": [4, 5, 6]}, {"center": [7, 8, 9], "radii": [1, 1, 1]}],
         "random": {"count": 3, "smallest": [1, 2, 3], "largest": [4, 5, 6], "level": "any"},
         "overlap": "first", "base": 2.5, "humidity": 0.11, "activation": 0.12, "extinction": 0.13,
-        "outside_extinction": 0.14,
-        "wind": {"layers": {"constant": 1, "linear": 2, "quadratic": 3}, "ellipsoids": [
-            {"from": 1, "to": 2, "constant": 3, "linear": 4, "quadratic": 5}, {"constant": 6}],
-            "mutation": 0.5},
+        "outside_extinction": 0.14, "fall_off": "table", "fall_off_table": [1, 0.5, 0.25],
+        "wind": {"direction": 45, "layers": {"constant": 1, "linear": 2, "quadratic": 3,
+            "direction": -10, "turn": 4}, "layer_bands": [{"to": 5, "constant": 2, "turn": 1}],
+            "ellipsoids": [{"from": 1, "to": 2, "constant": 3, "linear": 4, "quadratic": 5,
+            "direction": 200, "turn": -3}, {"constant": 6}],
+            "mutation": 0.5}, "smooth_weight": "table", "smooth_weight_table": [1, 0],
         "warm_up": 7, "steps_per_second": 8.5, "steps": 90, "smooth": [0, 1, 2], "smooth_steps": 3,
         "metaball_radius": 2.5, "threshold": 0.25, "most_particles": 1000)");
     EXPECT_EQ(cloud.cells, glm::dvec3(10, 11, 12));
@@ -84,11 +86,19 @@ TEST(AutomatonDocument, EveryFieldArrivesWhereItBelongs) {
     EXPECT_EQ(cloud.activation, 0.12);
     EXPECT_EQ(cloud.extinction, 0.13);
     EXPECT_EQ(cloud.outside_extinction, 0.14);
-    EXPECT_EQ(cloud.wind.layers, (AutomatonSpeed{1, 2, 3}));
+    EXPECT_EQ(cloud.fall_off, AutomatonShape::kTable);
+    EXPECT_EQ(cloud.fall_off_table, (std::vector<float>{1, 0.5F, 0.25F}));
+    EXPECT_EQ(cloud.smooth_weight, AutomatonWeight::kTable);
+    EXPECT_EQ(cloud.smooth_weight_table, (std::vector<float>{1, 0}));
+    EXPECT_EQ(cloud.wind.direction, 45);
+    EXPECT_EQ(cloud.wind.layers, (AutomatonSpeed{1, 2, 3, -10, 4}));
+    ASSERT_EQ(cloud.wind.layer_bands.size(), 1u);
+    EXPECT_EQ(cloud.wind.layer_bands[0].to, 5);
+    EXPECT_EQ(cloud.wind.layer_bands[0].speed, (AutomatonSpeed{2, 0, 0, std::nullopt, 1}));
     ASSERT_EQ(cloud.wind.ellipsoids.size(), 2u);
     EXPECT_EQ(cloud.wind.ellipsoids[0].from, 1);
     EXPECT_EQ(cloud.wind.ellipsoids[0].to, 2);
-    EXPECT_EQ(cloud.wind.ellipsoids[0].speed, (AutomatonSpeed{3, 4, 5}));
+    EXPECT_EQ(cloud.wind.ellipsoids[0].speed, (AutomatonSpeed{3, 4, 5, 200, -3}));
     EXPECT_EQ(cloud.wind.ellipsoids[1].speed.constant, 6);
     EXPECT_EQ(cloud.wind.mutation, 0.5);
     EXPECT_EQ(cloud.warm_up, 7u);
@@ -136,6 +146,14 @@ TEST(AutomatonDocument, EveryFigureChangesTheFingerprint) {
                                R"("activation":0.1)",
                                R"("extinction":0.2)",
                                R"("outside_extinction":0.2)",
+                               R"("fall_off":"smooth")",
+                               R"("fall_off":"table","fall_off_table":[1,0])",
+                               R"("smooth_weight":"smooth")",
+                               R"("smooth_weight":"table","smooth_weight_table":[1,0])",
+                               R"("wind":{"layers":{"direction":1}})",
+                               R"("wind":{"direction":1})",
+                               R"("wind":{"layers":{"turn":1}})",
+                               R"("wind":{"layer_bands":[{}]})",
                                R"("wind":{"layers":{"constant":1}})",
                                R"("wind":{"layers":{"linear":1}})",
                                R"("wind":{"layers":{"quadratic":1}})",
@@ -153,6 +171,8 @@ TEST(AutomatonDocument, EveryFigureChangesTheFingerprint) {
         EXPECT_NE(fingerprint(test::valid(draft_of(document(fields)))), plain) << fields;
     // That the default was given says nothing.
     EXPECT_EQ(fingerprint(test::valid(draft_of(document(R"("random":{})")))), plain);
+    EXPECT_EQ(fingerprint(test::valid(draft_of(document(R"("wind":{"layers":{"direction":90}})")))),
+              plain);
 }
 
 struct Wrong {
@@ -193,6 +213,17 @@ TEST(AutomatonDocument, WhatCannotBeIsRefusedByItsPointer) {
         {R"("wind":{"ellipsoids":[{},{"from":3,"to":2}]})", "/wind/ellipsoids/1/to"},
         {R"("wind":{"ellipsoids":[{"quadratic":-2000}]})", "/wind/ellipsoids/0/quadratic"},
         {R"("wind":{"mutation":1.5})", "/wind/mutation"},
+        {R"("wind":{"direction":1e7})", "/wind/direction"},
+        {R"("wind":{"layers":{"turn":361}})", "/wind/layers/turn"},
+        {R"("wind":{"layer_bands":[{"from":3,"to":2}]})", "/wind/layer_bands/0/to"},
+        {R"("fall_off":"cubic")", "/fall_off"},
+        {R"("fall_off":"table")", "/fall_off_table"},
+        {R"("fall_off":"table","fall_off_table":[1])", "/fall_off_table"},
+        {R"("fall_off":"table","fall_off_table":[1,1.5])", "/fall_off_table/1"},
+        {R"("fall_off_table":[1,0])", "/fall_off_table"},
+        {R"("smooth_weight":"table")", "/smooth_weight_table"},
+        {R"("smooth_weight":"table","smooth_weight_table":[0,1])", "/smooth_weight_table/0"},
+        {R"("smooth_weight_table":[1,0])", "/smooth_weight_table"},
         {R"("warm_up":1001)", "/warm_up"},
         {R"("steps_per_second":-1)", "/steps_per_second"},
         {R"("steps":100001)", "/steps"},
@@ -274,7 +305,7 @@ TEST(AutomatonStates, ARunThatIsResumedIsTheSame) {
         AutomatonCloud resumed = cloud;
         auto start = read_state(write_state(state_at(cloud, from)));
         ASSERT_TRUE(start.ok()) << start.error().message;
-        resumed.start = std::make_shared<const AutomatonState>(*std::move(start));
+        resumed.starts = {std::make_shared<const AutomatonState>(*std::move(start))};
         for (const std::uint64_t to : {0u, 7u, 20u, 33u}) {
             EXPECT_EQ(write_state(state_at(resumed, to)), write_state(state_at(cloud, to)))
                 << from << " to " << to;
@@ -294,7 +325,7 @@ TEST(AutomatonStates, OfAnotherCloudAreRefused) {
     AutomatonCloud cloud = windy();
     const auto refusal = [&](const AutomatonCloud& other, std::uint64_t key) {
         AutomatonCloud resumed = other;
-        resumed.start = std::make_shared<const AutomatonState>(state_at(cloud, 4));
+        resumed.starts = {std::make_shared<const AutomatonState>(state_at(cloud, 4))};
         AutomatonScratch scratch;
         const auto state = run_automaton(resumed, key, 9, 1, {}, scratch);
         return state.ok() ? std::string() : state.error().message;
@@ -312,12 +343,12 @@ TEST(AutomatonStates, OfAnotherCloudAreRefused) {
     AutomatonState forged = state_at(cloud, 4);
     forged.ellipsoids.pop_back();
     other = cloud;
-    other.start = std::make_shared<const AutomatonState>(forged);
-    EXPECT_TRUE(check_start(other, 5));
+    other.starts = {std::make_shared<const AutomatonState>(forged)};
+    EXPECT_TRUE(check_starts(other, 5));
     forged = state_at(cloud, 4);
     forged.earlier.clear();
-    other.start = std::make_shared<const AutomatonState>(forged);
-    EXPECT_TRUE(check_start(other, 5));
+    other.starts = {std::make_shared<const AutomatonState>(forged)};
+    EXPECT_TRUE(check_starts(other, 5));
 }
 
 TEST(AutomatonStates, DamagedFilesAreRefused) {

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <vector>
 
+#include "core/base/exact_math.h"
 #include "core/generate/automaton/parcels.h"
 #include "core/generate/keyed_random.h"
 #include "core/scene/automaton.h"
@@ -70,22 +72,52 @@ struct PlainAutomaton {
         return false;
     }
 
+    // Whole cells in step `step` of what moves so many a step.
+    int cells_of(double v) const {
+        return static_cast<int>(std::floor(v * static_cast<double>(step + 1)) -
+                                std::floor(v * static_cast<double>(step)));
+    }
+    // Cells a step along x and z at height h, by the sine and the cosine of where it blows to.
+    glm::dvec2 speed_at(const AutomatonSpeed& wind, double h) const {
+        const double v = wind.constant + wind.linear * h + wind.quadratic * h * h;
+        const auto to =
+            exact::sincos_degrees(wind.direction.value_or(cloud.wind.direction) + wind.turn * h);
+        return {v * to.sin, v * to.cos};
+    }
     std::vector<std::uint8_t> shifted(
         const std::vector<std::uint8_t>& bits) const {  // (3.8)-(3.10)
         std::vector<std::uint8_t> to(bits.size(), 0);
         each([&](int x, int y, int z) {
             const double h = y + 0.5;
-            const AutomatonSpeed& wind = cloud.wind.layers;
-            const double v = wind.constant + wind.linear * h + wind.quadratic * h * h;
-            const auto by = static_cast<int>(std::floor(v * static_cast<double>(step + 1)) -
-                                             std::floor(v * static_cast<double>(step)));
-            to[at(x, y, z)] = static_cast<std::uint8_t>(get(bits, x - by, y, z));
+            glm::dvec2 v = speed_at(cloud.wind.layers, h);
+            for (const AutomatonWindBand& band : cloud.wind.layer_bands)
+                if (h >= band.from && h <= band.to) v += speed_at(band.speed, h);
+            to[at(x, y, z)] =
+                static_cast<std::uint8_t>(get(bits, x - cells_of(v.x), y, z - cells_of(v.y)));
         });
         return to;
     }
 
-    // floor(d 2^16) of the ellipsoid that says, in float as the tables have it; -1 outside.
+    // floor((1 - F(d)) 2^16) of the ellipsoid that says; -1 outside.
     int digits(int x, int y, int z) const {
+        const int d = distance(x, y, z);
+        if (d < 0 || cloud.fall_off == AutomatonShape::kLinear) return d;
+        const double u = d / 65536.0;
+        double f = 0;
+        if (cloud.fall_off == AutomatonShape::kQuadratic) f = 1 - u * u;
+        if (cloud.fall_off == AutomatonShape::kSmooth) f = 1 - 3 * u * u + 2 * u * u * u;
+        if (cloud.fall_off == AutomatonShape::kTable) {
+            const auto last = cloud.fall_off_table.size() - 1;
+            const auto n = static_cast<std::size_t>(u * static_cast<double>(last));
+            const double share = u * static_cast<double>(last) - static_cast<double>(n);
+            f = (1 - share) * static_cast<double>(cloud.fall_off_table[n]) +
+                share * static_cast<double>(cloud.fall_off_table[n + 1]);
+        }
+        return std::clamp(static_cast<int>(std::floor((1 - f) * 65536)), 0, 65535);
+    }
+
+    // floor(d 2^16) of the ellipsoid that says, in float as the tables have it; -1 outside.
+    int distance(int x, int y, int z) const {
         if (y + 0.5 < cloud.base) return -1;
         int best = -1;
         for (const AutomatonEllipsoid& e : ellipsoids) {

@@ -288,6 +288,17 @@ run 0 plan afterwards.json --state at3.state
 run 0 render afterwards.json -o state.png --width 16 --height 12 --rung harris --state at3.state
 sed 's/"time":3/"time":3,"seed":7/' automaton.json >other.json
 run 3 particles other.json --state at3.state
+# At intervals: any frame goes on from the one before it.
+run 2 state afterwards.json -o one.state --every 2
+mkdir kept
+run 0 state automaton.json -o kept/%06d.state --every 2
+[ -s kept/000000.state ] && [ -s kept/000002.state ] || fail "states at intervals are missing: $(ls kept)"
+run 0 particles afterwards.json -o kept3.csv --state kept
+cmp -s from3.csv kept3.csv || fail "from states at intervals other particles are made"
+run 0 particles afterwards.json -o both3.csv --state at3.state --state kept/000002.state
+cmp -s from3.csv both3.csv || fail "from two states other particles are made"
+mkdir empty
+run 3 particles afterwards.json --state empty
 contains "another seed" "seed" "$(cat err)"
 sed 's/40,12,40/40,13,40/' automaton.json >other.json
 run 3 plan other.json --state at3.state

@@ -56,6 +56,11 @@ inline const Companion kCompanions[] = {
          document.erase("cubes");
          document["clouds"] = json::parse(R"([{"model": "ellipsoids", "ellipsoids": {}}])");
      }},
+    {"Scene", "look", "upchurch belongs to automata",
+     [](json& document, json&) {
+         document.erase("cubes");
+         document["clouds"] = json::parse(R"([{"model": "automaton", "automaton": {}}])");
+     }},
     {"Scene", "texture", "there is something to paint",
      [](json& document, json&) { document["cubes"] = one_cube(); }},
     {"Scene", "billboards", "cubes without a texture have none",
@@ -131,6 +136,30 @@ inline const Companion kCompanions[] = {
     {"AutomatonRandom", "largest", "smallest <= largest",
      [](json&, json& random) {
          random["smallest"] = {0.5, 0.5, 0.5};
+     }},
+    {"Automaton", "chosen", "below the number of ellipsoids",
+     [](json&, json& automaton) {
+         automaton["random"] = {{"count", 1000}};
+     }},
+    {"Automaton", "fall_off", "a table has values",
+     [](json&, json& automaton) {
+         if (automaton["fall_off"] == "table") automaton["fall_off_table"] = {1, 0};
+     }},
+    {"Automaton", "smooth_weight", "a table has values",
+     [](json&, json& automaton) {
+         if (automaton["smooth_weight"] == "table") automaton["smooth_weight_table"] = {1, 0};
+     }},
+    {"Automaton", "fall_off_table", "of fall_off table, two values at least",
+     [](json&, json& automaton) {
+         automaton["fall_off"] = "table";
+         while (automaton["fall_off_table"].size() < 2) automaton["fall_off_table"].push_back(0.5);
+     }},
+    {"Automaton", "smooth_weight_table", "of smooth_weight table, the first of its values above 0",
+     [](json&, json& automaton) {
+         automaton["smooth_weight"] = "table";
+         json& table = automaton["smooth_weight_table"];
+         while (table.size() < 2) table.push_back(0.5);
+         if (table[0] == 0) table[0] = 0.25;
      }},
     {"AutomatonWindBand", "from", "from <= to", [](json&, json& band) { band["to"] = 1e5; }},
     {"AutomatonWindBand", "to", "from <= to", [](json&, json& band) { band["from"] = -1e5; }},

@@ -9,6 +9,7 @@
 #include "core/draw/display_shapes.h"
 #include "core/formats/image_file.h"
 #include "core/generate/generate.h"
+#include "core/scene/automaton.h"
 #include "core/scene/fingerprint.h"
 #include "tests/scenes.h"
 
@@ -191,6 +192,71 @@ TEST(Display, AnEyeWithinTheCubeIsNoTrouble) {
         draft.camera.eye = {0.2, 0.1, 0.3};
         for (const float one : render(draft).image.pixels) ASSERT_TRUE(std::isfinite(one));
     }
+}
+
+// A grid of 10 cells a side, 2 units in all, with ellipsoids of 1 unit across at -.5 and .5 of x.
+SceneDraft two_ellipsoids(std::optional<std::uint64_t> chosen) {
+    SceneDraft draft = cube(Display::kEllipsoids);
+    AutomatonCloud automaton;
+    automaton.cells = {10, 10, 10};
+    automaton.cell = 0.2;
+    automaton.ellipsoids = {{{2.5, 5, 5}, {2.5, 2.5, 2.5}}, {{7.5, 5, 5}, {2.5, 2.5, 2.5}}};
+    automaton.wind.ellipsoids = {{-100, 100, {1, 0, 0, 180.0, 0}}};
+    automaton.warm_up = 0;
+    automaton.chosen = chosen;
+    draft.clouds[0] = {};
+    draft.clouds[0].model = CloudModel::kAutomaton;
+    draft.clouds[0].translate = {0, -1, 0};
+    draft.clouds[0].automaton = std::make_shared<const AutomatonCloud>(automaton);
+    draft.top_level_cubes = false;
+    draft.image.width = draft.image.height = 288;
+    return draft;
+}
+
+TEST(Display, EllipsoidsStandWhereTheyAreWithinTheirGrid) {
+    const Image image = render(two_ellipsoids({})).image;
+    // At the middle's distance, 10, the picture is 10/3 units wide. An edge of one pixel may lie in two, half in each.
+    const auto any = [&](double x, double y, double red) {
+        const double scale = 144 / (10.0 / 6);
+        bool found = false;
+        for (int a = -2; a <= 2; ++a)
+            for (int b = -2; b <= 2; ++b) {
+                const auto p = pixel(image, static_cast<int>(144 + scale * x) + a,
+                                     static_cast<int>(144 - scale * y) + b);
+                found = found || (p.a > 0.4 && (red < 0 || p.r > red));
+            }
+        return found;
+    };
+    // The outer ends of both along x, their tops; the near and the far edges of the grid; between, nothing.
+    for (const double side : {-1.0, 1.0}) {
+        EXPECT_TRUE(any(side, 0, 0.3)) << side;
+        EXPECT_TRUE(any(side * 0.5, 0.5, 0.3)) << side;
+        EXPECT_TRUE(any(side * 10.0 / 9, 0.7, -1)) << side;
+        EXPECT_TRUE(any(side * 10.0 / 11, 0.8, -1)) << side;
+        EXPECT_FALSE(any(side * 0.5, 0.75, -1)) << side;
+    }
+}
+
+TEST(Display, TheChosenEllipsoidAloneIsRed) {
+    const auto reds = [](const Image& image, int first, int last) {
+        int count = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = first; x < last; ++x) {
+                const auto p = pixel(image, x, y);
+                count += p.a > 0.5 && p.r > 3 * p.g && p.r > 0.2;
+            }
+        return count;
+    };
+    EXPECT_EQ(reds(render(two_ellipsoids({})).image, 0, 288), 0);
+    const Image right = render(two_ellipsoids(1)).image;
+    EXPECT_GT(reds(right, 146, 288), 300);
+    EXPECT_EQ(reds(right, 0, 142), 0);
+    const Image left = render(two_ellipsoids(0)).image;
+    EXPECT_EQ(reds(left, 146, 288), 0);
+    // The wind, of a cell a step towards -z, takes it away from the eye.
+    SceneDraft later = two_ellipsoids(0);
+    later.time = 5;
+    EXPECT_LT(reds(render(later).image, 0, 60), reds(left, 0, 60));
 }
 
 TEST(Display, IsPartOfThePictureAndNotOfTheLight) {

@@ -28,7 +28,8 @@ const cloud = (model, own) => ({ clouds: [{ model, [model]: own, translate: [1, 
 const DOCUMENTS = {
   cubes: FULL,
   "cubes as words": { cubes: CUBES },
-  automaton: cloud("automaton", { random: {}, ellipsoids: [{ center: [48, 6, 48], radii: [14, 10, 14] }], wind: { ellipsoids: [{ from: 1, to: 9 }] } }),
+  automaton: cloud("automaton", { random: {}, ellipsoids: [{ center: [48, 6, 48], radii: [14, 10, 14] }], fall_off: "table", fall_off_table: [1, 0], smooth_weight: "table", smooth_weight_table: [1, 0],
+    wind: { layer_bands: [{ from: 1, to: 9 }], ellipsoids: [{ from: 1, to: 9 }] } }),
   spheres: cloud("spheres", { kind: "cirrus", morph: {} }),
   implicit: cloud("implicit", { primitives: [{}], growth: {}, attractors: [{ strength: 1, reach: 60 }], vortices: [{ angle: 90, reach: 60 }] }),
   ellipsoids: cloud("ellipsoids", { formations: [{}], ellipsoids: [{ center: [0, 0, 0], radii: [1, 1, 1] }], plane: {} }),
@@ -49,7 +50,7 @@ const useAll = (page, skipped) => page.evaluate((skip) => {
   const values = {
     color: (one) => [one.value === "#808080" ? "#404040" : "#808080"],
     number: (one) => [1, 2, 0.5, 8].map((step) => String(Number(one.value) + step)).concat(["1", "2"]),
-    text: () => ["1", "2"],
+    text: (one) => (one.closest(".numbers") ? ["1, 0.25"] : ["1", "2"]),
     range: (one) => [one.min, one.max],
   };
   function use(one) {

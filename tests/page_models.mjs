@@ -116,7 +116,7 @@ export const modelTests = {
 
   async "draws looks, which have no error"(page) {
     const choice = group(page, "Cloud").getByLabel("Look");
-    for (const [name, its] of [["spheres", "ostroushko"], ["ellipsoids", "gardner"]]) {
+    for (const [name, its] of [["spheres", "ostroushko"], ["ellipsoids", "gardner"], ["automaton", "upchurch"]]) {
       await model(page).selectOption(name);
       await settled(page);
       const { hash } = await look(page);

@@ -38,8 +38,8 @@ inline RandomScene random_scene_of_any_model(std::uint64_t seed) {
         draft.sequence = Sequence{dice.between(-1, 1), dice.between(0, 5), 3};
         cloud.velocity *= 1e-3;
     }
-    if (dice.chance(0.15) && draft.clouds.size() == 1 && (model == 1 || model == 3)) {
-        draft.look = model == 1 ? Look::kOstroushko : Look::kGardner;
+    if (dice.chance(0.15) && draft.clouds.size() == 1 && model != 2) {
+        draft.look = model == 0 ? Look::kUpchurch : model == 1 ? Look::kOstroushko : Look::kGardner;
         draft.accuracy = {};
     }
     if (!validate(draft).ok()) {  // two edges of the world at once

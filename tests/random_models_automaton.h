@@ -17,7 +17,17 @@ inline AutomatonSpeed random_speed(Dice& dice) {
         speed.linear = dice.chance(0.5) ? 0 : dice.between(-0.2, 0.2);
         speed.quadratic = dice.chance(0.7) ? 0 : dice.between(-0.01, 0.01);
     }
+    if (dice.chance(0.4)) speed.direction = dice.any(limits::kMaxAngle);
+    if (dice.chance(0.4)) speed.turn = dice.between(-20, 20);
     return speed;
+}
+
+// Of a word "table", a list for it.
+inline std::vector<float> random_table(Dice& dice, bool wanted) {
+    std::vector<float> table;
+    for (int n = wanted ? 2 + dice.below(8) : 0; n > 0; --n)
+        table.push_back(static_cast<float>(dice.between(0.01, 1)));
+    return table;
 }
 
 inline double random_share(Dice& dice, double usual) {
@@ -72,7 +82,13 @@ inline Cloud random_automaton(Dice& dice, const Whereabouts& where) {
     a.activation = random_share(dice, 0.01);
     a.extinction = random_share(dice, 0.1);
     a.outside_extinction = random_share(dice, 0.2);
+    a.fall_off = static_cast<AutomatonShape>(dice.below(4));
+    a.fall_off_table = random_table(dice, a.fall_off == AutomatonShape::kTable);
+    a.smooth_weight = static_cast<AutomatonWeight>(dice.below(5));
+    a.smooth_weight_table = random_table(dice, a.smooth_weight == AutomatonWeight::kTable);
+    if (dice.chance(0.5)) a.wind.direction = dice.between(-360, 360);
     if (dice.chance(0.4)) a.wind.layers = random_speed(dice);
+    if (dice.chance(0.3)) a.wind.layer_bands.push_back({0, y, random_speed(dice)});
     for (int n = dice.chance(0.6) ? 0 : 1 + dice.below(3); n > 0; --n) {
         AutomatonWindBand band;
         band.from = dice.chance(0.5) ? -limits::kMaxAutomatonPlace : y * dice.uniform();
@@ -97,6 +113,15 @@ inline Cloud random_automaton(Dice& dice, const Whereabouts& where) {
     a.threshold = dice.chance(0.6) ? 0 : dice.chance(0.1) ? 1 : dice.log_between(1e-6, 1);
     a.most_particles = dice.chance(0.1) ? 1 + static_cast<std::uint64_t>(dice.below(10))
                                         : static_cast<std::uint64_t>(dice.log_between(20, 2000));
+
+    a.drawing.mode = static_cast<AutomatonMode>(dice.below(4));
+    a.drawing.textures = dice.chance(0.5) ? "soft" : "wisp,puff";
+    a.drawing.billboard_scale = dice.log_between(0.1, 30);
+    a.drawing.color_multiplier = dice.log_between(0.1, 10);
+    a.drawing.opacity = dice.log_between(0.1, 10);
+    a.drawing.point_size = dice.log_between(0.1, 10);
+    a.drawing.hold = dice.chance(0.5);
+    if (!a.ellipsoids.empty() && dice.chance(0.3)) a.chosen = a.ellipsoids.size() - 1;
 
     Cloud cloud;
     cloud.model = CloudModel::kAutomaton;

@@ -39,9 +39,14 @@ const char* const kDocuments[] = {
      "ellipsoids": [{"center": [20, 8, 15], "radii": [8, 6, 7]}, {"center": [12, 8, 11], "radii": [5, 6, 4]}],
      "random": {"count": 3, "smallest": [4, 4, 4], "largest": [7, 6, 7], "level": 4},
      "overlap": "first", "base": 4, "humidity": 0.2, "activation": 0.01, "extinction": 0.1,
-     "outside_extinction": 0.3,
-     "wind": {"layers": {"constant": 0.1, "linear": 0.02, "quadratic": 0.001}, "mutation": 0.2,
-              "ellipsoids": [{"from": 1, "to": 15, "constant": 0.2, "linear": 0.03, "quadratic": 0.002}]},
+     "outside_extinction": 0.3, "fall_off": "table", "fall_off_table": [1, 0.5, 0.25],
+     "wind": {"direction": 70, "layers": {"constant": 0.1, "linear": 0.02, "quadratic": 0.001, "direction": 20, "turn": 2},
+              "layer_bands": [{"from": 2, "to": 9, "constant": 0.3, "linear": 0.01, "quadratic": 0.003, "direction": 10, "turn": 1}],
+              "mutation": 0.2,
+              "ellipsoids": [{"from": 1, "to": 15, "constant": 0.2, "linear": 0.03, "quadratic": 0.002, "direction": 200, "turn": -1}]},
+     "smooth_weight": "table", "smooth_weight_table": [1, 0.5],
+     "drawing": {"mode": "textures", "textures": "soft,hard", "billboard_scale": 5, "color_multiplier": 2.5, "opacity": 0.75,
+                 "point_size": 2, "between_steps": "hold"}, "chosen": 2,
      "warm_up": 30, "steps_per_second": 2, "steps": 500, "smooth": [1, 2, 1], "smooth_steps": 3,
      "metaball_radius": 2.5, "threshold": 0.05, "most_particles": 9000}},
   {"model": "spheres", "spheres": {
@@ -122,6 +127,8 @@ const char* const kDocuments[] = {
 const char* const kWords[] = {"uniform",
                               "soft",
                               "gardner",
+                              "generated",
+                              "blend",
                               "printed",
                               "henyey-greenstein",
                               "cornette-shanks",
@@ -173,6 +180,8 @@ const std::map<std::string, std::string> kStandsWithOthers = {
     {"/sky/model", "says which of its neighbours are allowed"},
     {"/medium/phase", "droplets belong to one of them"},
     {"/clouds/ellipsoids/plane", "\"none\" is the only word"},
+    {"/clouds/automaton/fall_off", "a table has values, which no other word has"},
+    {"/clouds/automaton/smooth_weight", "a table has values, which no other word has"},
     {"/clouds/implicit/primitives/shape", "says which of its neighbours are allowed"},
     {"/effects", "\"auto\" is the only word"},
     {"/clouds/implicit/flow/size", "says how many vectors there are"}};
@@ -184,6 +193,7 @@ const std::map<std::string, std::string> kSaysNothing = {
     {"/cubes/1/particles", "the scene's billboards stand for them"},
     {"/clouds/0/cubes/1/particles", "its billboards stand for them"},
     {"/clouds/1/cubes/0/particles", "the cloud's billboards stand for them"},
+    {"/clouds/3/automaton/wind/direction", "all its parts have a direction of their own"},
     {"/clouds/4/spheres/kind", "only gives defaults, and all of them are given"}};
 
 // Beginnings of what light does not depend on: the light of a cloud is the same for every picture of it.

@@ -9,6 +9,9 @@
 //   { kind: "switch", member, label, fresh, fields }              an object that may be left out
 //   { kind: "section", title, fields }                            folded away until the document has some of it
 //   { kind: "table", member, title, one, fresh, columns }         a list of objects, a row each
+//   { kind: "text", member, label }                               words of one's own; while they break the rule they stay here
+//   { kind: "shape", member, label, titles, fresh }               words, of which "table" has a list of numbers beside it,
+//                                                                 `${member}_table`, at first `fresh`
 //   { kind: "cards", member, title, one, fresh, fields }          a list of objects, a box each
 //
 // Any may have a `hint`, shown by the pointer instead of what the service says of the field. `fresh` is what an object
@@ -56,6 +59,66 @@ function makeNumber(context, spec) {
 
 function makeSelect({ store, ...context }, spec) {
   return select(store, { ...spec, pointer: pointerOf(context, spec) });
+}
+
+function makeText(context, spec) {
+  const { store } = context;
+  const place = pointerOf(context, spec);
+  const id = freshId("text");
+  const rule = () => fieldAt(place()).pattern;
+  const input = el("input", { id, type: "text", spellcheck: "false" });
+  input.addEventListener("input", () => {
+    const wrong = rule() !== undefined && !new RegExp(rule()).test(input.value);
+    input.classList.toggle("incomplete", wrong);
+    input.setCustomValidity(wrong ? "Names with commas between." : "");
+    if (!wrong) store.set(place(), input.value);
+  });
+  const shown = () => String(atOrDefault(store.scene, place()) ?? "");
+  input.addEventListener("blur", () => { input.value = shown(); });
+  const element = el("div", { class: "field text", title: hintOf({ ...spec, pointer: place }) }, el("label", { for: id }, spec.label), input);
+  return {
+    element,
+    refresh() {
+      element.dataset.pointer = place();
+      if (document.activeElement !== input) input.value = shown();
+    },
+  };
+}
+
+// The list is in the document with its word alone.
+function makeShape(context, spec) {
+  const { store, base } = context;
+  const word = pointerOf(context, spec);
+  const list = () => `${base()}/${spec.member}_table`;
+  const words = select(store, {
+    ...spec, pointer: word,
+    set: (chosen) => store.update((scene) => withAt(withAt(scene, word(), chosen), list(), chosen === "table" ? [...spec.fresh] : undefined)),
+  });
+  const id = freshId("numbers");
+  const input = el("input", { id, type: "text", inputmode: "decimal", spellcheck: "false" });
+  const read = () => input.value.split(/[\s,;]+/).filter((part) => part !== "").map(Number);
+  input.addEventListener("input", () => {
+    const values = read();
+    const wrong = values.length < 2 || !values.every((value) => value >= 0 && value <= 1);
+    input.classList.toggle("incomplete", wrong);
+    input.setCustomValidity(wrong ? "Two numbers at least, from 0 to 1." : "");
+    if (!wrong) store.set(list(), values);
+  });
+  const shown = () => {
+    const values = at(store.scene, list());
+    return Array.isArray(values) ? values.join(", ") : "";
+  };
+  input.addEventListener("blur", () => { input.value = shown(); });
+  const row = el("div", { class: "field numbers", title: hintOf({ pointer: list }) }, el("label", { for: id }, `${spec.label}, table`), input);
+  return {
+    element: el("div", {}, words.element, row),
+    refresh() {
+      words.refresh();
+      row.dataset.pointer = list();
+      row.hidden = atOrDefault(store.scene, word()) !== "table";
+      if (document.activeElement !== input) input.value = shown();
+    },
+  };
 }
 
 // Three numbers in a row. Writing one writes all: a document has whole vectors only.
@@ -208,7 +271,7 @@ function makeCards(context, spec) {
 
 const MAKERS = {
   number: makeNumber, select: makeSelect, vector: makeVector, switch: makeSwitch,
-  section: makeSection, table: makeTable, cards: makeCards, slider: makeSlider,
+  section: makeSection, shape: makeShape, text: makeText, table: makeTable, cards: makeCards, slider: makeSlider,
 };
 
 // A field that only some documents have says so by `when(own)`.

@@ -19,7 +19,7 @@ const TITLES = {
   particles: "Ready-made particles",
 };
 // The look that each published system has of its own.
-const LOOKS = { spheres: "ostroushko", ellipsoids: "gardner" };
+const LOOKS = { spheres: "ostroushko", ellipsoids: "gardner", automaton: "upchurch" };
 const kAsItIs = "physical: light as it is";
 
 const FRESH_CUBES = [{ particles: 200, size: [8, 2, 6], center: [0, 0, 0], radius: 1.5 }];

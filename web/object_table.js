@@ -32,9 +32,9 @@ function head(columns, row) {
     el("tr", {}, ...columns.filter(({ over }) => over).map(({ title, member }) => th({ scope: "col", title: hint(member) }, title))));
 }
 
-// spec: { title, noun, pointer(), fresh, columns: [{ title, over, member, step, change }], why,
+// spec: { title, noun, pointer(), fresh, columns: [{ title, over, member, step, change, empty }], why,
 // make(rows): the row that is added, in place of another like the last. change(row, chosen): the row with a choice among
-// words that other fields of it follow. bare: the title is only for those who listen }
+// words that other fields of it follow. empty: what no number there means. bare: the title is only for those who listen }
 export function createObjectTable(store, spec) {
   const { pointer, noun, columns } = spec;
   const list = () => {
@@ -56,7 +56,7 @@ export function createObjectTable(store, spec) {
     },
   }, `Add ${spec.one}`);
 
-  function cellOf(index, { title, over, member, step = 1, change: changed }) {
+  function cellOf(index, { title, over, member, step = 1, change: changed, empty }) {
     const place = () => `${pointer()}/${index}/${member}`;
     const name = `${noun} ${index + 1}, ${over ? `${over} ` : ""}${title}`;
     const value = () => atOrDefault(store.scene, place());
@@ -77,7 +77,10 @@ export function createObjectTable(store, spec) {
         ...choices.map(([word, shown]) => el("option", { value: word }, shown)));
       return { input, refresh: () => { input.dataset.pointer = place(); input.value = value() ?? ""; } };
     }
-    const field = numberInput({ pointer: place, get: value, set, "aria-label": name, digits: 5, characters: 8 });
+    const optional = empty !== undefined;
+    const field = numberInput({
+      pointer: place, optional, placeholder: empty, get: optional ? () => at(store.scene, place()) : value, set, "aria-label": name, digits: 5, characters: 8,
+    });
     stepByArrows(field.input, step);
     return { input: field.input, refresh: () => { field.input.dataset.pointer = place(); field.refresh(); } };
   }

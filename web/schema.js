@@ -37,6 +37,7 @@ function schemasAt(pointer) {
 //   least, most    both ends of a number, or of each component of a vector; `above`: more than `least`
 //   whole, orZero  only whole numbers; 0, too, wherever the range begins
 //   words          those it may be; []: none
+//   pattern        that its text has, if any
 //   examples       some of those it may be, where there are others
 //   unit, says     for people; undefined where the service says nothing
 export function fieldAt(pointer) {
@@ -52,6 +53,7 @@ export function fieldAt(pointer) {
     least: range.exclusiveMinimum ?? range.minimum, above: range.exclusiveMinimum !== undefined, most: range.maximum,
     whole: range.type === "integer", orZero: numbers.some(({ const: only }) => only === 0),
     words: [...new Set(values.flatMap((value) => value.enum ?? []))],
+    pattern: values.find((value) => value.pattern)?.pattern,
     examples: values.flatMap((value) => value.examples ?? []),
   };
 }

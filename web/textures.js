@@ -63,7 +63,7 @@ export function texturePanel(store) {
       label: "Display", pointer: () => "/display",
       titles: {
         lit: "lit: clouds in light", cubes: "cubes", quads: "quads: textures on the cubes", billboards: "billboards",
-        bounding_boxes: "bounding boxes", show_texture: "show texture: each cube’s",
+        bounding_boxes: "bounding boxes", show_texture: "show texture: each cube’s", ellipsoids: "ellipsoids of automata, their grids",
       },
     }),
   ];

@@ -145,7 +145,9 @@ Result<Image> draw_display(const Scene& scene, const ParticleSet& particles, con
         scene->image.width, scene->image.height, scene->image.background == Background::kSky, {}};
     image.pixels.resize(4 * image.pixel_count());
     const std::vector<DisplayBox> boxes = display_boxes(scene, particles);
-    const DisplayShapes shapes = display_shapes(scene, boxes, view);
+    const auto ellipsoids = display_ellipsoids(scene, deadline);
+    if (!ellipsoids.ok()) return ellipsoids.error();
+    const DisplayShapes shapes = display_shapes(scene, boxes, *ellipsoids, view);
     std::vector<std::uint32_t> order;
     if (scene->display == Display::kBillboards) order = display_order(particles, view);
     const Displayed shown{scene, particles, view, boxes, shapes, order};

@@ -7,6 +7,8 @@
 //                   a particle without a texture, Awan's texture "soft"
 //   bounding_boxes  edges alone
 //   show_texture    the texture of each cube, once, on one square that faces the eye
+//   ellipsoids      the ellipsoids of automata as rings, the chosen one red, and the edges of their grids (the
+//                   editor of Upchurch 2009)
 //
 // A cloud of another model counts as one cube, the box around its particles.
 #pragma once

@@ -6,22 +6,28 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "core/base/exact_math.h"
 #include "core/draw/billboards.h"
+#include "core/generate/automaton/cells.h"
 #include "core/generate/gaussian.h"
 #include "core/generate/keyed_random.h"
 #include "core/generate/motion.h"
+#include "core/scene/automaton.h"
 
 namespace awan {
 namespace {
 
 // No exposure is metered for them (formats/image_file.h); the tone curve takes a little off the paint.
 const glm::dvec3 kEdge{0.02, 0.05, 0.12}, kFace{0.3, 0.36, 0.45}, kPaint{0.7, 0.7, 0.7};
+const glm::dvec3 kEllipsoid{0.5, 0.6, 0.7}, kChosen{0.85, 0.03, 0.02};
 // Opacity of the faces of a cube without a texture, and of what is painted.
 constexpr double kBareFace = 0.25, kPaintedPart = 0.92;
 // Edges are so many pixels wide in a picture of 600 rows, and at least one.
 constexpr double kEdgeWidth = 1.6;
 // Nearer to the eye by so much, so that an edge is seen before the faces that it bounds.
 constexpr double kBefore = 0.998;
+// The one that is chosen is seen through all others.
+constexpr double kBeforeAll = 0.2;
 // Nothing nearer to the eye than this share of the farthest corner is drawn.
 constexpr double kNearest = 1e-4;
 
@@ -59,13 +65,14 @@ void add_quad(const std::array<glm::vec4, 4>& p, const glm::vec4& color, int lay
 }
 
 // A line of a width in pixels, of the part before the eye.
-void add_line(const Lens& lens, glm::dvec3 a, glm::dvec3 b, std::vector<DisplayVertex>& out) {
+void add_line(const Lens& lens, glm::dvec3 a, glm::dvec3 b, std::vector<DisplayVertex>& out,
+              const glm::dvec3& color = kEdge, double before = kBefore) {
     const double near = 1.01 * lens.near;
     if (a.z > b.z) std::swap(a, b);
     if (!(b.z > near)) return;
     if (a.z < near) a += (near - a.z) / (b.z - a.z) * (b - a);
     const auto flat = [&](const glm::dvec3& q) {
-        const glm::dvec4 c = lens.clip(kBefore * q);
+        const glm::dvec4 c = lens.clip(before * q);
         return glm::dvec3(c) / c.w;
     };
     const glm::dvec3 p = flat(a), q = flat(b);
@@ -81,7 +88,7 @@ void add_line(const Lens& lens, glm::dvec3 a, glm::dvec3 b, std::vector<DisplayV
         const glm::dvec2 xy = glm::dvec2(r) + side * aside + end * past;
         return glm::vec4(glm::dvec4(xy, r.z, 1));
     };
-    add_quad({at(p, -1, -1), at(q, -1, 1), at(q, 1, 1), at(p, 1, -1)}, premultiplied(kEdge, 1), -1,
+    add_quad({at(p, -1, -1), at(q, -1, 1), at(q, 1, 1), at(p, 1, -1)}, premultiplied(color, 1), -1,
              out);
 }
 
@@ -164,6 +171,21 @@ void add_textures(const std::vector<DisplayBox>& boxes, const Lens& lens,
     }
 }
 
+// A ring of the ellipsoid where its first axis is `level` radii from the middle, about that axis.
+void add_ring(const DisplayEllipsoid& one, std::size_t about, double level, int segments,
+              const Lens& lens, std::vector<DisplayVertex>& out) {
+    const double wide = std::sqrt(1 - level * level);
+    const glm::dvec3 middle = one.center + level * one.axis[about];
+    const glm::dvec3 &a = one.axis[(about + 1) % 3], &b = one.axis[(about + 2) % 3];
+    const auto at = [&](int n) {
+        const exact::SinCos turn = exact::sincos_degrees(360.0 * n / segments);
+        return in_frame(middle + wide * (turn.cos * a + turn.sin * b), lens.view);
+    };
+    for (int n = 0; n < segments; ++n)
+        add_line(lens, at(n), at(n + 1), out, one.chosen ? kChosen : kEllipsoid,
+                 one.chosen ? kBeforeAll : kBefore);
+}
+
 Lens lens_of(const Scene& scene, const View& view, double farthest) {
     return {view, std::max(kNearest * farthest, 1e-12), static_cast<double>(scene->image.height)};
 }
@@ -179,6 +201,18 @@ DisplayBox box_around(const ParticleSet& particles, std::size_t first, std::size
     for (std::size_t i = 0; i < 8; ++i)
         box.corner[i] = {(i & 1) ? high.x : low.x, (i & 2) ? high.y : low.y,
                          (i & 4) ? high.z : low.z};
+    return box;
+}
+
+// Of an automaton: what its cells may fill.
+DisplayBox box_of_grid(const Cloud& cloud, double time) {
+    const Motion motion = motion_of(cloud, time);
+    const AutomatonCloud& automaton = *cloud.automaton;
+    DisplayBox box;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const glm::dvec3 share((i & 1) ? 0.5 : -0.5, (i & 2) ? 1 : 0, (i & 4) ? 0.5 : -0.5);
+        box.corner[i] = motion(automaton.cell * (share * automaton.cells));
+    }
     return box;
 }
 
@@ -203,6 +237,10 @@ std::vector<DisplayBox> display_boxes(const Scene& scene, const ParticleSet& par
     for (std::size_t k = 0; k < scene->clouds.size(); ++k) {
         const Cloud& cloud = scene->clouds[k];
         if (cloud.model != CloudModel::kCubes) {
+            if (scene->display == Display::kEllipsoids && cloud.automaton) {
+                boxes.push_back(box_of_grid(cloud, clouds_time(*scene)));
+                continue;
+            }
             if (particles.cloud_begin[k] == particles.cloud_begin[k + 1]) continue;
             boxes.push_back(
                 box_around(particles, particles.cloud_begin[k], particles.cloud_begin[k + 1]));
@@ -224,8 +262,37 @@ std::vector<DisplayBox> display_boxes(const Scene& scene, const ParticleSet& par
     return boxes;
 }
 
+Result<std::vector<DisplayEllipsoid>> display_ellipsoids(const Scene& scene,
+                                                         const Deadline& deadline) {
+    std::vector<DisplayEllipsoid> all;
+    if (scene->display != Display::kEllipsoids) return all;
+    const double time = clouds_time(*scene);
+    for (std::size_t k = 0; k < scene->clouds.size(); ++k) {
+        const Cloud& cloud = scene->clouds[k];
+        if (!cloud.automaton) continue;
+        const AutomatonCloud& automaton = *cloud.automaton;
+        const auto now =
+            automaton::ellipsoids_at(automaton, keyed(seed_of(*scene, cloud), k), time, deadline);
+        if (!now.ok()) return now.error();
+        const Motion motion = motion_of(cloud, time);
+        const glm::dvec3 corner(automaton.cells.x / 2, 0, automaton.cells.z / 2);
+        for (std::size_t n = 0; n < now->size(); ++n) {
+            const AutomatonEllipsoid& one = (*now)[n];
+            const glm::dvec3 middle = motion(automaton.cell * (one.center - corner));
+            DisplayEllipsoid shown{middle, {}, automaton.chosen == n};
+            for (int axis = 0; axis < 3; ++axis) {
+                glm::dvec3 tip = one.center - corner;
+                tip[axis] += one.radii[axis];
+                shown.axis[static_cast<std::size_t>(axis)] = motion(automaton.cell * tip) - middle;
+            }
+            all.push_back(shown);
+        }
+    }
+    return all;
+}
+
 DisplayShapes display_shapes(const Scene& scene, const std::vector<DisplayBox>& boxes,
-                             const View& view) {
+                             const std::vector<DisplayEllipsoid>& ellipsoids, const View& view) {
     const Lens lens = lens_of(scene, view, farthest_of(boxes, view));
     DisplayShapes shapes;
     if (scene->display == Display::kShowTexture) {
@@ -233,6 +300,15 @@ DisplayShapes display_shapes(const Scene& scene, const std::vector<DisplayBox>& 
         return shapes;
     }
     for (const DisplayBox& box : boxes) add_edges(box, lens, shapes.solid);
+    // Many are drawn with fewer lines each.
+    constexpr std::size_t kFew = 40;
+    const bool few = ellipsoids.size() <= kFew;
+    for (const DisplayEllipsoid& one : ellipsoids)
+        for (const std::size_t about : {0, 1, 2}) {
+            add_ring(one, about, 0, few ? 64 : 24, lens, shapes.solid);
+            for (const double level : {-0.6, 0.6})
+                if (few) add_ring(one, about, level, 48, lens, shapes.solid);
+        }
     if (scene->display != Display::kCubes && scene->display != Display::kQuads) return shapes;
     const bool solid = scene->display == Display::kCubes;
     for (const Face& face : faces_of(boxes, view)) {

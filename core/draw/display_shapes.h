@@ -7,6 +7,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include "core/base/deadline.h"
 #include "core/generate/particle_set.h"
 #include "core/scene/scene.h"
 #include "core/survey/survey.h"
@@ -31,12 +32,25 @@ struct DisplayBox {
     glm::dvec3 middle() const { return 0.5 * (corner[0] + corner[7]); }
 };
 
-// The cubes of clouds of cubes; of others the box around their particles, where they have any.
+// An ellipsoid of an automaton, in the scene: its middle, and from there to where its axes end.
+struct DisplayEllipsoid {
+    glm::dvec3 center;
+    std::array<glm::dvec3, 3> axis;
+    // It is the one that is shown in red.
+    bool chosen = false;
+};
+
+// Of all automata, where the wind has taken them, if that is what is displayed. Errors: of the deadline.
+Result<std::vector<DisplayEllipsoid>> display_ellipsoids(const Scene& scene,
+                                                         const Deadline& deadline);
+
+// The cubes of clouds of cubes; of others the box around their particles, where they have any. Of automata whose
+// ellipsoids are displayed: their grids.
 std::vector<DisplayBox> display_boxes(const Scene& scene, const ParticleSet& particles);
 
 // Everything that scene->display asks for but kBillboards' squares. scene->display is not kLit.
 DisplayShapes display_shapes(const Scene& scene, const std::vector<DisplayBox>& boxes,
-                             const View& view);
+                             const std::vector<DisplayEllipsoid>& ellipsoids, const View& view);
 
 // Particles from the eye outward, those before it. order[n]: which; for display_billboards.
 std::vector<std::uint32_t> display_order(const ParticleSet& particles, const View& view);

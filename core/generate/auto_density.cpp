@@ -11,6 +11,7 @@
 #include "core/base/exact_math.h"
 #include "core/generate/cubes.h"
 #include "core/generate/keyed_random.h"
+#include "core/generate/models.h"
 #include "core/scene/limits.h"
 
 namespace awan {
@@ -115,6 +116,12 @@ double rounded(double x) {
 }  // namespace
 
 double auto_density(const Cloud& cloud, Fill fill, std::uint64_t key) {
+    if (cloud.model == CloudModel::kAutomaton) {
+        const double own =
+            automaton::density_for_depth(*cloud.automaton, key, kAutoDepth / cloud.scale);
+        return own > 0 ? rounded(std::min(own, limits::kMaxDensity)) : kDefaultDensity;
+    }
+    if (is_procedural(cloud)) return kDefaultDensity;
     const std::uint64_t all = size_of(cloud);
     const std::vector<Blob> blobs = sampled(cloud, fill, key, std::min(all, kSampled));
     const glm::dvec3 depths = cloud.scale * mean_depths(blobs, all);

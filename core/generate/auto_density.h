@@ -11,10 +11,11 @@ namespace awan {
 // thinnest: that of a well grown cumulus. Through the middle it is up to twice that, as a cloud thins out to its rim.
 inline constexpr double kAutoDepth = 24;
 
-// What makes a cloud of cubes or of ready particles that deep, 1/unit: the peak extinction of a particle whose own
-// density is 1. It depends on nothing but the cloud, its fill and its key = keyed(seed, cloud): it is the same at all
-// times and on every machine. With 256 particles at most it is exact, with more it is found from 256 of them, evenly
-// chosen (within 15%). Three digits; no more than a particle may have; kDefaultDensity for a cloud without matter.
+// What makes a cloud of cubes, of ready particles or of an automaton (models.h) that deep, 1/unit: the peak extinction
+// of a particle whose own density is 1. It depends on nothing but the cloud, its fill and its key = keyed(seed, cloud):
+// it is the same at all times and on every machine. With 256 particles at most it is exact, with more it is found from
+// 256 of them, evenly chosen (within 15%). Three digits; no more than a particle may have; kDefaultDensity for a cloud
+// without matter, and for those of other models.
 double auto_density(const Cloud& cloud, Fill fill, std::uint64_t key);
 
 }  // namespace awan

@@ -53,9 +53,9 @@ void add_pieces(std::vector<Piece>& pieces, Piece whole, std::uint64_t count, st
 double density_of_cloud(const Scene& scene, std::size_t k) {
     const Cloud& cloud = scene->clouds[k];
     if (const auto given = density_of(*scene, cloud)) return *given;
-    if (is_procedural(cloud)) return kDefaultDensity;
     const Fill fill = fill_of(*scene, cloud);
     const std::uint64_t key = keyed(seed_of(*scene, cloud), k);
+    if (is_procedural(cloud)) return auto_density(cloud, fill, key);
     if (cloud.model != CloudModel::kCubes) return auto_density(cloud, fill, key);
     Cloud filled = cloud;
     for (Cube& cube : filled.cubes) cube.particles = particles_of(*scene, cloud, cube);
@@ -212,7 +212,7 @@ Status run_models(const Scene& scene, int threads, const Deadline& deadline, boo
         ModelRequest request;
         request.key = keyed(seed_of(*scene, cloud), k);
         request.place = k;
-        request.density = density_of(*scene, cloud).value_or(kDefaultDensity);
+        request.density = density_of_cloud(scene, k);
         request.time = clouds_time(*scene);
         request.threads = threads;
         request.coarse = coarse;

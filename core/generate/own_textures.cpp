@@ -60,9 +60,9 @@ double soft(double x, double y) {
 }
 
 // As deep as a ball, its radius by noise.
-double puff(double x, double y) {
+double puff(std::uint64_t key, double x, double y) {
     const double r = std::sqrt(x * x + y * y);
-    const double bumps = octaves(kKey + 1, 2.6 * x + 9, 2.6 * y + 9, 5);
+    const double bumps = octaves(key, 2.6 * x + 9, 2.6 * y + 9, 5);
     const double inside = 0.8 - r + 0.7 * (bumps - 0.5);
     return rise(0, 0.55, inside) * (0.7 + 0.6 * (bumps - 0.5)) * rise(1, 0.85, r);
 }
@@ -142,7 +142,7 @@ std::vector<std::uint8_t> own_texture_depth(std::size_t place) {
             case 0:
                 return soft(x, y);
             case 1:
-                return puff(x, y);
+                return puff(kKey + 1, x, y);
             case 2:
                 return cauliflower(balls, x, y);
             case 3:
@@ -172,6 +172,17 @@ std::vector<std::uint8_t> own_texture_depth(std::size_t place) {
     for (const double one : depth)
         bytes.push_back(static_cast<std::uint8_t>(255 * one / most + 0.5));
     return bytes;
+}
+
+std::vector<float> generated_puff(std::uint64_t key, int side) {
+    std::vector<float> texels;
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column) {
+            const double x = (2 * column + 1.0) / side - 1, y = 1 - (2 * row + 1.0) / side;
+            const double depth = x * x + y * y < 1 ? puff(key, x, y) : 0;
+            texels.push_back(static_cast<float>(std::clamp(depth, 0.0, 1.0)));
+        }
+    return texels;
 }
 
 std::shared_ptr<const Texture> texture_of_hash(const SceneDraft& scene, std::string_view hash) {

@@ -12,4 +12,7 @@ std::shared_ptr<const Texture> texture_of_hash(const SceneDraft& scene, std::str
 // What one of them holds (Texture::depth), the same bytes on every machine. place: in kOwnTextures.
 std::vector<std::uint8_t> own_texture_depth(std::size_t place);
 
+// Another puff for every key: opacities 0..1 of side^2 points, row by row from the top left.
+std::vector<float> generated_puff(std::uint64_t key, int side);
+
 }  // namespace awan

@@ -18,12 +18,15 @@ Result<Image> draw_look(const Scene& scene, const View& view, int threads,
 // About how long it will take, wall clock.
 double look_time_ms(const Scene& scene, const View& view, int threads);
 
-// The two of them, each in its own files.
+// Each in its own files.
 Result<Image> ostroushko_look(const Scene& scene, const View& view, int threads,
                               const Deadline& deadline);
 Result<Image> gardner_look(const Scene& scene, const View& view, int threads,
                            const Deadline& deadline);
 double ostroushko_look_ms(const Scene& scene, const View& view, int threads);
+Result<Image> upchurch_look(const Scene& scene, const View& view, int threads,
+                            const Deadline& deadline);
+double upchurch_look_ms(const Scene& scene, const View& view, int threads);
 double gardner_look_ms(const Scene& scene, const View& view, int threads);
 
 }  // namespace awan

@@ -14,6 +14,9 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/scene/automaton_drawing.h"
+#include "core/scene/automaton_shape.h"
+#include "core/scene/automaton_wind.h"
 #include "core/scene/cloud.h"
 #include "core/scene/limits.h"
 #include "core/scene/table.h"
@@ -21,9 +24,12 @@
 namespace awan {
 
 struct AutomatonState;  // core/generate/automaton/state.h
+namespace automaton {
+class KeptStates;  // core/generate/automaton/kept_states.h
+}
 
 // A parcel of wet air: vapour and phase transition are supplied in it, most at its centre, and clouds in it vanish
-// fastest at its edge; all linear in d, the distance from the centre in radii (Upchurch 2009, "Controlling Clouds with
+// fastest at its edge, by d, the distance from the centre in radii (Upchurch 2009, "Controlling Clouds with
 // Ellipsoids").
 struct AutomatonEllipsoid {
     glm::dvec3 center{0};
@@ -31,7 +37,6 @@ struct AutomatonEllipsoid {
 };
 
 inline constexpr const char* kCellsWanted = "[x, y, z]: three numbers (cells)";
-inline constexpr Range kAutomatonPlace = within(limits::kMaxAutomatonPlace);
 inline constexpr Range kAutomatonRadius =
     from_to(limits::kMinAutomatonRadius, limits::kMaxAutomatonRadius);
 
@@ -108,120 +113,6 @@ inline const Table& table_of<RandomEllipsoids>() {
 enum class AutomatonOverlap { kDeepest, kFirst };
 inline constexpr const char* kAutomatonOverlapWords[] = {"deepest", "first"};
 
-// Of height y (cells): constant + linear y + quadratic y^2, cells a step towards +x.
-struct AutomatonSpeed {
-    double constant = 0;
-    double linear = 0;
-    double quadratic = 0;
-    bool operator==(const AutomatonSpeed&) const = default;
-};
-
-inline constexpr Row kSpeedConstant{.name = "constant",
-                                    .wanted = "a number (cells a step)",
-                                    .range = within(limits::kMaxAutomatonSpeed),
-                                    .unit = "cells a step",
-                                    .says = "Cells a step towards +x."};
-inline constexpr Row kSpeedLinear{.name = "linear",
-                                  .wanted = "a number (cells a step, a cell of height)",
-                                  .range = within(limits::kMaxAutomatonSpeed),
-                                  .says = "Times the height in cells."};
-inline constexpr Row kSpeedQuadratic{.name = "quadratic",
-                                     .wanted = "a number (cells a step, a cell of height squared)",
-                                     .range = within(limits::kMaxAutomatonSpeed),
-                                     .says = "Times the height squared."};
-
-inline constexpr Field kAutomatonSpeedFields[] = {
-    field<&AutomatonSpeed::constant>(kSpeedConstant),
-    field<&AutomatonSpeed::linear>(kSpeedLinear),
-    field<&AutomatonSpeed::quadratic>(kSpeedQuadratic),
-};
-static_assert(covers<AutomatonSpeed>(kAutomatonSpeedFields));
-inline constexpr Table kAutomatonSpeedTable{
-    .name = "AutomatonLayers",
-    .says = "Whole layers of cells shift, constant + linear y + quadratic y^2.",
-    .fields = kAutomatonSpeedFields,
-    .standard = standard_of<AutomatonSpeed>};
-template <>
-inline const Table& table_of<AutomatonSpeed>() {
-    return kAutomatonSpeedTable;
-}
-
-// Moves the ellipsoids whose centre's y is from `from` to `to`; those in several bands by the sum (Upchurch 2009,
-// "Cloud Advection by Wind"). In documents the speed's parts stand beside `from` and `to`.
-struct AutomatonWindBand {
-    double from = 0;
-    double to = 1024;
-    AutomatonSpeed speed;
-};
-
-constexpr Row part_of_speed(Row row) {
-    row.part_of = "speed";
-    return row;
-}
-
-inline constexpr Field kAutomatonWindBandFields[] = {
-    field<&AutomatonWindBand::from>({.name = "from",
-                                     .wanted = "a number (cells)",
-                                     .range = kAutomatonPlace,
-                                     .unit = "cells",
-                                     .says = "Lowest height, in cells."}),
-    field<&AutomatonWindBand::to>({.name = "to",
-                                   .wanted = "a number (cells)",
-                                   .range = kAutomatonPlace,
-                                   .unit = "cells",
-                                   .says = "Greatest height."}),
-    field_within<&AutomatonWindBand::speed, &AutomatonSpeed::constant>(
-        part_of_speed(kSpeedConstant)),
-    field_within<&AutomatonWindBand::speed, &AutomatonSpeed::linear>(part_of_speed(kSpeedLinear)),
-    field_within<&AutomatonWindBand::speed, &AutomatonSpeed::quadratic>(
-        part_of_speed(kSpeedQuadratic)),
-};
-static_assert(covers<AutomatonWindBand>(kAutomatonWindBandFields));
-static_assert(covers_part<AutomatonSpeed>(kAutomatonWindBandFields, "speed"));
-inline constexpr Table kAutomatonWindBandTable{
-    .name = "AutomatonWindBand",
-    .says = "Moves ellipsoids by constant + linear y + quadratic y^2 a step.",
-    .fields = kAutomatonWindBandFields,
-    .standard = standard_of<AutomatonWindBand>};
-template <>
-inline const Table& table_of<AutomatonWindBand>() {
-    return kAutomatonWindBandTable;
-}
-
-struct AutomatonWind {
-    // All three bits of a layer of cells shift by v(j + 1/2) a step, Dobashi et al. 2000 (8)-(10): whole cells, the
-    // fractions of slow winds saved up. Nothing comes in at the border.
-    AutomatonSpeed layers;
-    std::vector<AutomatonWindBand> ellipsoids;
-    // An ellipsoid that has left the grid comes back at the upwind side, at a random y and z, its radii those of the
-    // beginning times 1 - mutation .. 1 + mutation.
-    double mutation = 0.25;
-};
-
-inline constexpr Field kAutomatonWindFields[] = {
-    field<&AutomatonWind::layers>(
-        {.name = "layers", .wanted = "an object", .says = "Moves the cells, bits and all."}),
-    field<&AutomatonWind::ellipsoids>(
-        {.name = "ellipsoids",
-         .wanted = "a list of bands",
-         .counts = at_most(limits::kMaxAutomatonBands),
-         .says = "Each moves the ellipsoids whose centre is in its range of heights."}),
-    field<&AutomatonWind::mutation>({.name = "mutation",
-                                     .wanted = "a number from 0 to 1",
-                                     .range = from_to(0, 1),
-                                     .says = "How much the radii of an ellipsoid change that has "
-                                             "left and comes back upwind, relative."}),
-};
-static_assert(covers<AutomatonWind>(kAutomatonWindFields));
-inline constexpr Table kAutomatonWindTable{.name = "AutomatonWind",
-                                           .says = "Wind along x, of two kinds.",
-                                           .fields = kAutomatonWindFields,
-                                           .standard = standard_of<AutomatonWind>};
-template <>
-inline const Table& table_of<AutomatonWind>() {
-    return kAutomatonWindTable;
-}
-
 struct AutomatonCloud {
     // Whole numbers.
     glm::dvec3 cells{96, 32, 96};
@@ -234,13 +125,17 @@ struct AutomatonCloud {
     // Clouds are flat there. 0: none.
     double base = 5;
 
-    // Probabilities a step, each a damping factor of Upchurch 2009 (without, "puff-balls"): p_hum = humidity (1 - d) in
-    // an ellipsoid, else 0; p_act = activation (1 - d), else 0; p_ext = extinction d, else outside_extinction, for
+    // Probabilities a step, each a damping factor of Upchurch 2009 (without, "puff-balls"): p_hum = humidity F(d) in an
+    // ellipsoid, else 0; p_act = activation F(d), else 0; p_ext = extinction (1 - F(d)), else outside_extinction, for
     // which Upchurch's 0 leaves stranded clouds for ever.
     double humidity = 0.1;
     double activation = 0.002;
     double extinction = 0.12;
     double outside_extinction = 0.25;
+    // F. Linear in Upchurch 2009, which calls one that the user defines "an interesting extension".
+    AutomatonShape fall_off = AutomatonShape::kLinear;
+    // Of kTable.
+    std::vector<float> fall_off_table;
 
     AutomatonWind wind;
 
@@ -250,18 +145,30 @@ struct AutomatonCloud {
     double steps_per_second = 1;
     std::uint64_t steps = 1000;
 
-    // Density of a cell, 0..1: the mean of cld over (2i+1)(2j+1)(2k+1) cells (i, j, k whole numbers) and the last
-    // `smooth_steps` steps (q of Dobashi et al. 2000, weights 1).
+    // Density of a cell, 0..1: the weighted mean of cld over (2i+1)(2j+1)(2k+1) cells (i, j, k whole numbers) and the
+    // last `smooth_steps` steps (q of Dobashi et al. 2000). The weight w(i', j', k') of Upchurch 2009, who does not say
+    // which it is, is F(|i'|/(i+1)) F(|j'|/(j+1)) F(|k'|/(k+1)); even: 1.
     glm::dvec3 smooth{1, 1, 1};
+    AutomatonWeight smooth_weight = AutomatonWeight::kEven;
+    // Of kTable.
+    std::vector<float> smooth_weight_table;
     std::uint64_t smooth_steps = 1;
     // Each cell is a metaball of this effective radius; drawn as the Gaussian of the same mass and second moment.
     double metaball_radius = 2;
     double threshold = 0;
     std::uint64_t most_particles = 1u << 20;
 
-    // Where to begin instead of at step 0, if it fits: set by the command line, never by a document, and it changes
-    // nothing but the time taken.
-    std::shared_ptr<const AutomatonState> start;
+    // Of the look "upchurch".
+    AutomatonDrawing drawing;
+    // The ellipsoid that the display "ellipsoids" shows in red, by its number: those listed first, then the random
+    // ones.
+    std::optional<std::uint64_t> chosen;
+
+    // Where to begin instead of at step 0: the latest of those that are not too late. Set by the command line, never by
+    // a document; it changes nothing but the time taken.
+    std::vector<std::shared_ptr<const AutomatonState>> starts{};
+    // Where states are kept for other frames; null: nowhere.
+    std::shared_ptr<automaton::KeptStates> kept{};
 };
 
 inline constexpr Field kAutomatonFields[] = {
@@ -317,6 +224,21 @@ inline constexpr Field kAutomatonFields[] = {
                                                 .wanted = "a number from 0 to 1",
                                                 .range = from_to(0, 1),
                                                 .says = "The same outside of all ellipsoids."}),
+    field<&AutomatonCloud::fall_off>(
+        {.name = "fall_off",
+         .words = kAutomatonShapeWords,
+         .says = "How vapour and phase transition fall off from an ellipsoid's middle (1) to its "
+                 "edge, over the distance d: linear 1 - d, quadratic 1 - d^2, smooth 1 - 3 d^2 + 2 "
+                 "d^3, or a table's; vanishing is what is left of 1."}),
+    field<&AutomatonCloud::fall_off_table>(shape_table(
+        {.name = "fall_off_table",
+         .says =
+             "Of fall_off \"table\": 2 to 64 values at equal steps from the middle to the edge, "
+             "straight between them.",
+         .idle =
+             [](const void* o) {
+                 return static_cast<const AutomatonCloud*>(o)->fall_off != AutomatonShape::kTable;
+             }})),
     field<&AutomatonCloud::wind>({.name = "wind", .wanted = "an object", .says = "What moves."}),
     field<&AutomatonCloud::warm_up>({.name = "warm_up",
                                      .wanted = "an integer >= 0",
@@ -340,6 +262,20 @@ inline constexpr Field kAutomatonFields[] = {
          .whole = true,
          .unit = "cells",
          .says = "i, j, k: density is the mean of (2i+1)(2j+1)(2k+1) cells."}),
+    field<&AutomatonCloud::smooth_weight>(
+        {.name = "smooth_weight",
+         .words = kAutomatonWeightWords,
+         .says = "How much each of them counts: even, all alike; else the product of how much it "
+                 "does along each axis, by its distance over (i+1), (j+1), (k+1), falling off as "
+                 "`fall_off` does."}),
+    field<&AutomatonCloud::smooth_weight_table>(shape_table(
+        {.name = "smooth_weight_table",
+         .says = "Of smooth_weight \"table\": 2 to 64 values at equal steps, the first above 0.",
+         .idle =
+             [](const void* o) {
+                 return static_cast<const AutomatonCloud*>(o)->smooth_weight !=
+                        AutomatonWeight::kTable;
+             }})),
     field<&AutomatonCloud::smooth_steps>({.name = "smooth_steps",
                                           .wanted = "an integer >= 1",
                                           .counts = count_from_to(1, limits::kMaxAutomatonHistory),
@@ -359,7 +295,18 @@ inline constexpr Field kAutomatonFields[] = {
          .wanted = "an integer >= 1",
          .counts = count_from_to(1, limits::kMaxParticles),
          .says = "More cells with matter are merged, 2x2x2, 4x4x4, ... to one particle."}),
-    outside_document<&AutomatonCloud::start>("only where to begin; the cloud is the same"),
+    field<&AutomatonCloud::drawing>({.name = "drawing",
+                                     .wanted = "an object",
+                                     .says = "How the look upchurch draws the cells."}),
+    field<&AutomatonCloud::chosen>(
+        {.name = "chosen",
+         .wanted = "an integer >= 0",
+         .counts = at_most(limits::kMaxAutomatonEllipsoids - 1),
+         .says = "Number of the ellipsoid that the display `ellipsoids` shows in red: those listed "
+                 "first, then the random ones.",
+         .otherwise = "none"}),
+    outside_document<&AutomatonCloud::starts>("only where to begin; the cloud is the same"),
+    outside_document<&AutomatonCloud::kept>("only where to begin; the cloud is the same"),
 };
 static_assert(covers<AutomatonCloud>(kAutomatonFields));
 inline constexpr Table kAutomatonTable{
@@ -371,7 +318,7 @@ inline constexpr Table kAutomatonTable{
     .fields = kAutomatonFields,
     .standard = standard_of<AutomatonCloud>};
 
-// The ellipsoids to be drawn, if any.
+// The ellipsoids to be drawn by chance, if any.
 RandomEllipsoids random_ellipsoids_of(const AutomatonCloud& cloud);
 // Steps made at time t: from 0 to cloud.steps.
 double automaton_steps_at(const AutomatonCloud& cloud, double time);

@@ -190,7 +190,7 @@ void leave_out_if_all(Instead& instead, const std::vector<T>& values, const T& s
         instead.leave_out(values);
 }
 
-void settle_model(Instead& instead, const Cloud& cloud) {
+void settle_model(Instead& instead, const SceneDraft& scene, const Cloud& cloud) {
     if (cloud.implicit)
         instead.put(cloud.implicit,
                     std::shared_ptr<const ImplicitCloud>(
@@ -198,6 +198,11 @@ void settle_model(Instead& instead, const Cloud& cloud) {
     if (cloud.automaton) {
         auto all = std::make_shared<AutomatonCloud>(*cloud.automaton);
         all->random = random_ellipsoids_of(*cloud.automaton);
+        all->wind = spelled_out(cloud.automaton->wind);
+        // By whatever names, textures are what they show.
+        all->drawing.textures.clear();
+        for (const std::string_view name : names_in(cloud.automaton->drawing.textures))
+            all->drawing.textures.append(find_texture(scene, name)).append(",");
         instead.put(cloud.automaton, std::shared_ptr<const AutomatonCloud>(std::move(all)));
     }
     if (cloud.spheres) {
@@ -235,7 +240,7 @@ void settle_textures(Instead& instead, const SceneDraft& scene, const Cloud& clo
 void settle_cloud(Instead& instead, const SceneDraft& scene, const Cloud& cloud) {
     leave_out_if_all(instead, cloud.ready.densities, 1.0f);
     leave_out_if_all(instead, cloud.ready.colors, glm::vec3(1.0f));
-    settle_model(instead, cloud);
+    settle_model(instead, scene, cloud);
     // Where it stands is what tells two times apart.
     instead.put(cloud.velocity, clouds_time(scene) * cloud.velocity);
     instead.put(cloud.fill, fill_of(scene, cloud));

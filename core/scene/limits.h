@@ -170,8 +170,12 @@ inline constexpr double kMaxAutomatonCells = 1u << 26;
 inline constexpr double kMinAutomatonCell = 1e-3, kMaxAutomatonCell = 1e3;
 // Ellipsoids, those given and those made by chance together.
 inline constexpr std::uint64_t kMaxAutomatonEllipsoids = 1'000;
-// Bands of wind. Each moves every ellipsoid at each step.
+// Bands of wind. Each moves every ellipsoid, or every layer, at each step.
 inline constexpr std::uint64_t kMaxAutomatonBands = 100;
+// |degrees a cell of height|: once around.
+inline constexpr double kMaxAutomatonTurn = 360;
+// Values of a table of how something falls off: finer than any ellipsoid has cells along its radius.
+inline constexpr std::uint64_t kMaxAutomatonTable = 64;
 // Radii of ellipsoids, cells. A smaller one may contain no cell's middle; within the largest, the whole grid lies in
 // its core.
 inline constexpr double kMinAutomatonRadius = 0.5;
@@ -193,6 +197,11 @@ inline constexpr std::uint64_t kMaxAutomatonHistory = 8;
 // The metaballs' radius, cells. Below, single cells show; beyond, a coarser grid would do.
 inline constexpr double kMinMetaballRadius = 1.5;
 inline constexpr double kMaxMetaballRadius = 16;
+
+// Sides of a look's billboards and points, cells: from far below a pixel to as large as many a cloud.
+inline constexpr double kMinBillboardScale = 0.01, kMaxBillboardScale = 100;
+// Times a density of 0..1. Beyond, the faintest cell is white.
+inline constexpr double kMaxColorMultiplier = 1000;
 
 // --- Spheres (core/scene/spheres.h)
 

@@ -82,14 +82,20 @@ Status multiplied_density(double density, double cloud_density, Pointer pointer)
 }
 
 // That there is a texture of that name.
+Error no_texture(const SceneDraft& draft, const std::string& pointer, const std::string& wanted,
+                 const char* last = "") {
+    std::string known;
+    for (const OwnTexture& own : kOwnTextures)
+        known += (known.empty() ? "" : ", ") + std::string(own.name);
+    for (const auto& given : draft.textures) known += ", " + given->name;
+    return invalid(pointer, wanted + " (" + known + last + "), or that of one that is uploaded");
+}
+
 Status check_texture(const SceneDraft& draft, const std::optional<std::string>& name,
                      const std::string& at) {
     if (!name || *name == kNoTexture || !find_texture(draft, *name).empty()) return std::nullopt;
-    std::string known;
-    for (const OwnTexture& own : kOwnTextures) known += std::string(own.name) + ", ";
-    for (const auto& given : draft.textures) known += given->name + ", ";
-    return invalid(at + "/texture", "must be the name or the hash of a texture (" + known +
-                                        "none), or that of one that is uploaded");
+    return no_texture(draft, at + "/texture", "must be the name or the hash of a texture",
+                      ", none");
 }
 
 Status check_cube(const SceneDraft& draft, const Cloud& cloud, const Cube& cube,
@@ -174,7 +180,13 @@ Status check_cloud(const SceneDraft& draft, std::size_t k, Totals& totals) {
     for (std::size_t i = 0; i < std::size(kOf); ++i)
         if (described[i] != (cloud.model == kOf[i]))
             return invalid(at, "must have the description of its model and no other");
-    if (cloud.automaton) return check_rules(*cloud.automaton, at + "/automaton");
+    if (cloud.automaton) {
+        for (const std::string_view name : names_in(cloud.automaton->drawing.textures))
+            if (name == kNoTexture || find_texture(draft, name).empty())
+                return no_texture(draft, at + "/automaton/drawing/textures",
+                                  "must name textures, with commas between");
+        return check_rules(*cloud.automaton, at + "/automaton");
+    }
     if (cloud.spheres) return check_rules(*cloud.spheres, at + "/spheres");
     if (cloud.implicit) return check_rules(*cloud.implicit, at + "/implicit");
     if (cloud.ellipsoids) return check_rules(*cloud.ellipsoids, at + "/ellipsoids");
@@ -192,12 +204,15 @@ Status check_cloud(const SceneDraft& draft, std::size_t k, Totals& totals) {
 // A look belongs to one model, and has no rungs.
 Status check_look(const SceneDraft& draft) {
     if (draft.look == Look::kPhysical) return std::nullopt;
-    const bool gardner = draft.look == Look::kGardner;
+    // In the order of the looks, of those behind kPhysical.
+    constexpr CloudModel kOf[] = {CloudModel::kSpheres, CloudModel::kEllipsoids,
+                                  CloudModel::kAutomaton};
+    const CloudModel model = kOf[static_cast<int>(draft.look) - 1];
     for (std::size_t k = 0; k < draft.clouds.size(); ++k)
-        if (draft.clouds[k].model != (gardner ? CloudModel::kEllipsoids : CloudModel::kSpheres))
+        if (draft.clouds[k].model != model)
             return invalid("/look", std::string("belongs to clouds of model \"") +
-                                        (gardner ? "ellipsoids" : "spheres") + "\", and cloud " +
-                                        std::to_string(k) + " is not");
+                                        kCloudModelWords[static_cast<int>(model)] +
+                                        "\", and cloud " + std::to_string(k) + " is not");
     const Accuracy& accuracy = draft.accuracy;
     if (accuracy.error || accuracy.time_ms || accuracy.rung)
         return invalid("/accuracy",

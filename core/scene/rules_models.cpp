@@ -35,13 +35,35 @@ Status check_random(const AutomatonCloud& cloud, const std::string& at) {
     return std::nullopt;
 }
 
-Status check_bands(const AutomatonWind& wind, const std::string& at) {
-    for (std::size_t i = 0; i < wind.ellipsoids.size(); ++i) {
-        const AutomatonWindBand& band = wind.ellipsoids[i];
-        if (!(band.to >= band.from))
-            return too_small(at + "/ellipsoids/" + std::to_string(i) + "/to", "from", band.from,
-                             band.to);
-    }
+Status check_bands(const std::vector<AutomatonWindBand>& bands, const std::string& at) {
+    for (std::size_t i = 0; i < bands.size(); ++i)
+        if (!(bands[i].to >= bands[i].from))
+            return too_small(at + "/" + std::to_string(i) + "/to", "from", bands[i].from,
+                             bands[i].to);
+    return std::nullopt;
+}
+
+// of_table: whether the word is "table", which wants a list, as no other word does.
+Status check_shape_table(bool of_table, const std::vector<float>& table, const std::string& word,
+                         const std::string& at) {
+    const std::string pointer = at + "/" + word + "_table";
+    if (!of_table && !table.empty()) return invalid(pointer, "belongs to " + word + " \"table\"");
+    if (of_table && table.size() < 2)
+        return invalid(pointer, "must have two values at least, from the middle to the edge, not " +
+                                    std::to_string(table.size()));
+    return std::nullopt;
+}
+
+Status check_shapes(const AutomatonCloud& cloud, const std::string& at) {
+    if (Status wrong = check_shape_table(cloud.fall_off == AutomatonShape::kTable,
+                                         cloud.fall_off_table, "fall_off", at))
+        return wrong;
+    const bool weights = cloud.smooth_weight == AutomatonWeight::kTable;
+    if (Status wrong = check_shape_table(weights, cloud.smooth_weight_table, "smooth_weight", at))
+        return wrong;
+    if (weights && !(cloud.smooth_weight_table[0] > 0))
+        return invalid(at + "/smooth_weight_table/0",
+                       "must be above 0: a cell counts towards its own density");
     return std::nullopt;
 }
 
@@ -183,7 +205,14 @@ Status check_rules(const AutomatonCloud& cloud, const std::string& at) {
         return invalid(at + "/cells", "must be at most " + to_text(limits::kMaxAutomatonCells) +
                                           " cells in all, not " + to_text(cells));
     if (Status wrong = check_random(cloud, at)) return wrong;
-    if (Status wrong = check_bands(cloud.wind, at + "/wind")) return wrong;
+    const std::uint64_t ellipsoids = cloud.ellipsoids.size() + random_ellipsoids_of(cloud).count;
+    if (cloud.chosen && *cloud.chosen >= ellipsoids)
+        return invalid(at + "/chosen", "must be below " + std::to_string(ellipsoids) +
+                                           ", how many ellipsoids there are, not " +
+                                           std::to_string(*cloud.chosen));
+    if (Status wrong = check_bands(cloud.wind.layer_bands, at + "/wind/layer_bands")) return wrong;
+    if (Status wrong = check_bands(cloud.wind.ellipsoids, at + "/wind/ellipsoids")) return wrong;
+    if (Status wrong = check_shapes(cloud, at)) return wrong;
     if (Status wrong = count_in_range(cloud.warm_up, 0, cloud.steps, at + "/warm_up")) return wrong;
     return check_work(cloud, at);
 }

@@ -138,20 +138,22 @@ constexpr Field kSceneFields[] = {
         {.name = "accuracy",
          .wanted = "an object",
          .says = "How accurate the picture is to be, or how fast; left out: error 0.1."}),
-    field<&SceneDraft::look>({.name = "look",
-                              .words = kLookWords,
-                              .says = "How the picture is made: by light as it is, or by the rules "
-                                      "of a published system: ostroushko for "
-                                      "clouds of model spheres, gardner for model ellipsoids. A "
-                                      "look has no rungs and no stated error, and "
-                                      "goes without accuracy."}),
+    field<&SceneDraft::look>(
+        {.name = "look",
+         .words = kLookWords,
+         .says = "How the picture is made: by light as it is, or by the rules "
+                 "of a published system: ostroushko for "
+                 "clouds of model spheres, gardner for model ellipsoids, upchurch for "
+                 "model automaton. A look has no rungs and no stated error, and "
+                 "goes without accuracy."}),
     field<&SceneDraft::display>(
         {.name = "display",
          .words = kDisplayWords,
-         .says = "What the picture shows: lit, the clouds by light; or, drawn flat, what they are "
-                 "made of: cubes, quads (textures on the cubes' faces), billboards, "
-                 "bounding_boxes, show_texture (each cube's texture by itself). Only lit has "
-                 "rungs and an error."}),
+         .says =
+             "What the picture shows: lit, the clouds by light; or, drawn flat, what they are "
+             "made of: cubes, quads (textures on the cubes' faces), billboards, "
+             "bounding_boxes, show_texture (each cube's texture by itself), ellipsoids (those of "
+             "automata, and their grids' boundaries). Only lit has rungs and an error."}),
     field<&SceneDraft::time>(
         {.name = "time",
          .wanted = "a number (seconds)",

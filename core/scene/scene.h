@@ -35,11 +35,11 @@ namespace awan {
 
 // How a picture is made: by light as it is, or by the rules of a published system, which are a look and have no error
 // against the truth (core/looks).
-enum class Look { kPhysical, kOstroushko, kGardner };
-inline constexpr const char* kLookWords[] = {"physical", "ostroushko", "gardner"};
+enum class Look { kPhysical, kOstroushko, kGardner, kUpchurch };
+inline constexpr const char* kLookWords[] = {"physical", "ostroushko", "gardner", "upchurch"};
 
-// Of procedural clouds that are given none, 1/unit. Cubes and ready particles get what makes them deep enough
-// (core/generate/auto_density.h).
+// Of clouds of spheres, implicit functions and ellipsoids that are given none, 1/unit. Others get what makes them deep
+// enough (core/generate/auto_density.h).
 inline constexpr double kDefaultDensity = 0.2;
 
 struct SceneDraft {

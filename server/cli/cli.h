@@ -183,10 +183,12 @@ struct PlanCommand {
 };
 int run_plan(const PlanCommand& command);
 
-// The state of an automaton at the scene's time, for --state.
+// The state of an automaton at the scene's time, or those up to it, for --state.
 struct StateCommand {
     SceneInput scene;
     std::string output;
+    // States at every so many steps, and of a sequence up to its last frame; none: the one at the scene's time.
+    std::optional<std::uint64_t> every;
     // The cloud's place in the scene; none: the only automaton.
     std::optional<std::uint64_t> cloud;
     // As RenderCommand has them.

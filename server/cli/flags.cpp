@@ -51,8 +51,10 @@ void add_scene(CLI::App& command, SceneInput& scene, const std::string& name) {
 }
 
 void add_state(CLI::App& command, SceneInput& scene) {
-    add(command, "--state", scene.state,
-        "a file of `awan state`: its automaton goes on from there instead of from the beginning");
+    add(command, "--state", scene.states,
+        "a file of `awan state`, or a folder of such files: the automaton goes on from the latest "
+        "that is not too late instead of from the beginning; may be repeated")
+        ->allow_extra_args(false);
 }
 
 void only_one(CLI::Option* option) {

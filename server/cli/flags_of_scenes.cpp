@@ -57,6 +57,10 @@ Run add_state_command(CLI::App& app) {
     add(*state, "-o,--output", command->output, "a file, or - for standard output")->required();
     add(*state, "--cloud", command->cloud,
         "which of the scene's clouds, from 0; needed when several are automata");
+    add(*state, "--every", command->every,
+        "states after every so many steps, to the scene's time or the last frame of its sequence, "
+        "a file each; their names need a place for the step, %06d")
+        ->check(CLI::Range(std::uint64_t{1}, limits::kMaxAutomatonSteps));
     add_farm_flags(*state, command->skip_existing, command->depfile);
     add_threads(*state, command->threads);
     return [command] { return run_state(*command); };

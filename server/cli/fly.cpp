@@ -35,7 +35,7 @@ std::optional<Failure> read_scenes(const FlyCommand& command, SceneDraft& draft)
                                .sets = {},
                                .seed = {},
                                .radius = command.input.radius,
-                               .state = "",
+                               .states = {},
                                .textures = command.input.textures};
         input.path = command.scenes[i];
         auto read = read_scene_input(input);

@@ -100,6 +100,7 @@ int run_render(const RenderCommand& command) {
 
     auto scene = validate(std::move(draft).value());
     if (!scene) return report_error(name, scene.error());
+    if (command.preview) scene = for_preview(*scene);
     Work work(command, *std::move(targets));
     work.png_bits = bits;
     const bool animated = std::any_of(work.targets.begin(), work.targets.end(),

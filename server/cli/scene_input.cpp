@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "core/formats/texture_file.h"
+#include "core/generate/automaton/kept_states.h"
 #include "core/scene/validate.h"
 #include "server/cli/files.h"
 #include "server/document/overrides.h"
@@ -14,6 +15,9 @@ namespace {
 
 // A gzip file may hold this much: more than any scene is allowed to be.
 constexpr std::size_t kMostUnpacked = std::size_t{1} << 30;
+
+// Of the states that a run keeps of its automata: 400 of the source's size.
+constexpr std::size_t kKeptStatesBytes = std::size_t{256} << 20;
 
 Result<SceneDraft> read_file(const SceneInput& input, std::vector<std::string>& notes) {
     auto bytes = read_input(input.path);
@@ -69,7 +73,8 @@ Result<SceneDraft> read_scene_input(const SceneInput& input) {
     for (const std::string& given : input.textures)
         if (const Status wrong = add_texture(given, *draft)) return *wrong;
     if (input.seed) draft->seed = *input.seed;
-    if (const Status wrong = begin_with_state(input.state, *draft)) return *wrong;
+    if (const Status wrong = begin_with_states(input.states, *draft)) return *wrong;
+    automaton::keep_states(*draft, std::make_shared<automaton::KeptStates>(kKeptStatesBytes));
     return draft;
 }
 
@@ -81,8 +86,9 @@ Result<Scene> read_valid_scene(const SceneInput& input) {
 
 std::vector<std::string> files_of(const SceneInput& input) {
     std::vector<std::string> files;
-    for (const std::string& path : {input.path, input.state})
-        if (!path.empty() && path != "-") files.push_back(path);
+    if (!input.path.empty() && input.path != "-") files.push_back(input.path);
+    for (const std::string& path : input.states)
+        if (path != "-") files.push_back(path);
     for (const std::string& given : input.textures)
         files.push_back(given.substr(given.find('=') + 1));
     return files;

@@ -18,8 +18,8 @@ struct SceneInput {
     std::optional<std::uint64_t> seed;
     // Of ready particles.
     std::optional<double> radius;
-    // A file with the state of an automaton to begin with, or "".
-    std::string state;
+    // Files with states of automata to begin with, or folders of such files.
+    std::vector<std::string> states{};
     // "puff=my puff.png", in their order.
     std::vector<std::string> textures{};
 };
@@ -35,7 +35,7 @@ std::vector<std::string> files_of(const SceneInput& input);
 Status write_dependencies(const std::string& depfile, const std::vector<std::string>& outputs,
                           const SceneInput& input);
 
-// Gives the state in a file ("": none) to the automaton of the scene that it belongs to (state.cpp).
-Status begin_with_state(const std::string& path, SceneDraft& draft);
+// Gives states in files, or in all files of a folder, to the automata of the scene that they belong to (state.cpp).
+Status begin_with_states(const std::vector<std::string>& paths, SceneDraft& draft);
 
 }  // namespace awan

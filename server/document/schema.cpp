@@ -94,10 +94,18 @@ std::string layers_schema() {
            R"())*)$","examples":["none","all","depth,sun"]})";
 }
 
+// Names of textures with commas between.
+std::string textures_schema() {
+    const std::string name = "[A-Za-z0-9][A-Za-z0-9._-]*";
+    return R"({"type":"string","pattern":"^)" + name + "(," + name +
+           R"()*$","examples":["puff","wisp,hard"]})";
+}
+
 // A name; of a rung, one of those there are; of a texture, those that are always there as examples.
 std::string text_schema(const Field& field) {
     if (std::string_view(field.name) == "rung") return reference("Rung");
     if (std::string_view(field.name) == "layers") return layers_schema();
+    if (std::string_view(field.name) == "textures") return textures_schema();
     if (std::string_view(field.name) == "texture") return reference("TextureName");
     return R"({"type":"string","maxLength":)" + std::to_string(limits::kMaxString) + '}';
 }

@@ -9,6 +9,7 @@
 #include "core/base/thrown.h"
 #include "core/formats/image_file.h"
 #include "core/formats/particle_files.h"
+#include "core/generate/automaton/kept_states.h"
 #include "core/generate/generate.h"
 #include "core/gl/device.h"
 #include "core/light/machine_speed.h"
@@ -36,6 +37,8 @@ namespace {
 
 // Beyond that no machine is.
 constexpr int kMostThreads = 256;
+// Of the states that automata of one scene keep for its other times.
+constexpr std::size_t kKeptStatesBytes = std::size_t{64} << 20;
 
 ErrorKind kind_of(ErrorCode code) {
     switch (code) {
@@ -164,6 +167,7 @@ Scene read_scene(std::string_view bytes, const Reading& reading) {
         auto draft =
             awan::read_scene(format_of(reading.form, bytes), bytes, {reading.radius, nullptr});
         if (!draft.ok()) return draft.error();
+        automaton::keep_states(*draft, std::make_shared<automaton::KeptStates>(kKeptStatesBytes));
         auto scene = validate(*std::move(draft));
         if (!scene.ok()) return scene.error();
         return std::make_shared<const Scene::Inside>(*std::move(scene));

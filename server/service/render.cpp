@@ -267,13 +267,14 @@ Drawn draw_in_lanes(Service::State& state, const Request& request, const Scene& 
     return {std::nullopt, std::move(job.rendered), queue_ms};
 }
 
-Response answer_render(Service::State& state, const Request& request, const Scene& scene,
+Response answer_render(Service::State& state, const Request& request, const Scene& asked,
                        std::string_view type, Lanes::Pass& pass) {
     // The answer's tag names the renderer.
     if (const Status over = state.renderer.wait_until_started(request.deadline))
         return fail(*over, request);
     const auto preview = query_flag(request, kPreviewName);
     if (!preview) return fail(preview.error(), request);
+    const Scene scene = *preview ? for_preview(asked) : asked;
     const RenderThread::Info info = state.renderer.info();
     const std::string etag = make_etag({*preview ? "preview" : "render", fingerprint(scene),
                                         engine_version(), info.device.renderer, info.device.version,

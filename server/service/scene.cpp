@@ -72,7 +72,7 @@ Response answer_plan(Service::State& state, const Request& request, const Scene&
 }  // namespace
 
 Result<Scene> read_request_scene(const Service::State& state, const Request& request) {
-    auto read = read_scene_request(request, state.textures.all());
+    auto read = read_scene_request(request, state.textures.all(), state.kept);
     if (!read) return read.error();
     return std::move(read->scene);
 }
@@ -208,7 +208,7 @@ Response answer_scene_request(Service::State& state, const Request& request) {
                           (may_bring_texture(request) ? limits::kTextureWorkBytes : 0));
     if (!reading) return no_memory(state, request);
     if (auto refused = check_scene_body(request)) return *std::move(refused);
-    const auto read = read_scene_request(request, state.textures.all());
+    const auto read = read_scene_request(request, state.textures.all(), state.kept);
     reading = {};
     if (!read) return fail(read.error(), request);
     const Scene& scene = read->scene;

@@ -252,7 +252,8 @@ std::optional<Response> check_scene_body(const Request& request) {
         request);
 }
 
-Result<SceneRequest> read_scene_request(const Request& request, GivenTextures textures) {
+Result<SceneRequest> read_scene_request(const Request& request, GivenTextures textures,
+                                        const std::shared_ptr<automaton::KeptStates>& kept) {
     auto body = scene_bytes(request);
     if (!body) return body.error();
     auto overrides = read_overrides(body->fields);
@@ -267,6 +268,7 @@ Result<SceneRequest> read_scene_request(const Request& request, GivenTextures te
     override_scene(*overrides, *draft);
     draft->textures = std::move(body->textures);
     draft->textures.insert(draft->textures.end(), textures.begin(), textures.end());
+    automaton::keep_states(*draft, kept);
     auto scene = validate(*std::move(draft));
     if (!scene) return scene.error();
     return SceneRequest{*std::move(scene), *std::move(overrides), std::move(notes)};

@@ -2,12 +2,14 @@
 // takes the place of what the document says.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/generate/automaton/kept_states.h"
 #include "core/scene/scene.h"
 #include "server/document/overrides.h"
 #include "server/service/service.h"
@@ -41,8 +43,10 @@ struct SceneRequest {
     // What was taken for what in a file of particles, for Awan-Notes.
     std::vector<std::string> notes;
 };
-// textures: that may be named, beside those that are in the form and Awan's own.
-Result<SceneRequest> read_scene_request(const Request& request, GivenTextures textures);
+// textures: that may be named, beside those that are in the form and Awan's own. kept: where its automata keep their
+// states.
+Result<SceneRequest> read_scene_request(const Request& request, GivenTextures textures,
+                                        const std::shared_ptr<automaton::KeptStates>& kept);
 
 // The offer that is answered: what `format` says ("" nothing), else what Accept prefers; nothing when neither fits.
 std::optional<std::string_view> chosen_offer(const Request& request, std::string_view format,

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "core/generate/automaton/kept_states.h"
 #include "core/light/light_cache.h"
 #include "server/limits.h"
 #include "server/service/jobs.h"
@@ -46,6 +47,9 @@ struct Service::State {
     DetailTiles tiles;
     // Of the frames by which the rungs of sequences are settled: for the frames that are asked for next.
     LightCache settling_lights{limits::kSettlingLightBytes};
+    // Of automata, for their other frames.
+    const std::shared_ptr<automaton::KeptStates> kept =
+        std::make_shared<automaton::KeptStates>(limits::kKeptStatesBytes);
     // Held from looking for an Idempotency-Key to the job being there.
     std::mutex submitting;
     // Streams that tell how jobs go.

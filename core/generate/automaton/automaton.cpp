@@ -6,33 +6,32 @@
 
 #include "core/generate/automaton/cells_to_particles.h"
 #include "core/generate/automaton/coarse.h"
+#include "core/generate/automaton/kept_states.h"
 #include "core/generate/automaton/parcels.h"
 #include "core/generate/automaton/run.h"
+#include "core/generate/automaton/skies.h"
 #include "core/generate/models.h"
 
 namespace awan::automaton {
 
-Result<AutomatonState> run_automaton(const AutomatonCloud& cloud, std::uint64_t key,
-                                     std::uint64_t step, int threads, const Deadline& deadline,
-                                     AutomatonScratch& scratch) {
-    const auto begin = [&]() -> Result<AutomatonState> {
-        if (cloud.start) {
-            if (Status wrong = check_start(cloud, key)) return *wrong;
-            if (cloud.start->step <= step) return *cloud.start;
-        }
-        return first_state(cloud, key, threads, deadline, scratch);
+namespace {
+
+// From where to go on; null: from step 0.
+std::shared_ptr<const AutomatonState> latest_start(const AutomatonCloud& cloud, std::uint64_t key,
+                                                   std::uint64_t step) {
+    std::shared_ptr<const AutomatonState> latest;
+    const auto offer = [&](const std::shared_ptr<const AutomatonState>& one) {
+        if (one && one->step <= step && (!latest || one->step > latest->step)) latest = one;
     };
-    auto state = begin();
-    while (state.ok() && state->step < step)
-        if (Status late = step_automaton(cloud, threads, deadline, scratch, *state)) return *late;
-    return state;
+    for (const auto& start : cloud.starts) offer(start);
+    if (cloud.kept) offer(cloud.kept->latest(rules_key(cloud), key, step));
+    return latest;
 }
 
-Status check_start(const AutomatonCloud& cloud, std::uint64_t key) {
+Status check_start(const AutomatonCloud& cloud, std::uint64_t key, const AutomatonState& start) {
     const auto wrong = [](const std::string& what) {
         return Error{ErrorCode::kInvalidScene, "", "the state to begin with belongs to " + what};
     };
-    const AutomatonState& start = *cloud.start;
     if (start.key != key) return wrong("another seed, or another place among the scene's clouds");
     if (start.rules != rules_key(cloud)) return wrong("an automaton with other parameters");
     // Refuses a state from a file that no automaton of these rules could be in.
@@ -44,6 +43,29 @@ Status check_start(const AutomatonCloud& cloud, std::uint64_t key) {
     return std::nullopt;
 }
 
+}  // namespace
+
+Status check_starts(const AutomatonCloud& cloud, std::uint64_t key) {
+    for (const auto& start : cloud.starts)
+        if (Status wrong = check_start(cloud, key, *start)) return wrong;
+    return std::nullopt;
+}
+
+Result<AutomatonState> run_automaton(const AutomatonCloud& cloud, std::uint64_t key,
+                                     std::uint64_t step, int threads, const Deadline& deadline,
+                                     AutomatonScratch& scratch) {
+    if (Status wrong = check_starts(cloud, key)) return *wrong;
+    const auto start = latest_start(cloud, key, step);
+    auto state = start ? Result<AutomatonState>(*start)
+                       : first_state(cloud, key, threads, deadline, scratch);
+    while (state.ok() && state->step < step) {
+        if (Status late = step_automaton(cloud, threads, deadline, scratch, *state)) return *late;
+        if (cloud.kept && state->step < step) cloud.kept->pass(*state);
+    }
+    if (state.ok() && cloud.kept) cloud.kept->arrive(*state);
+    return state;
+}
+
 Result<ModelParticles> make_particles(const AutomatonCloud& cloud, const ModelRequest& request,
                                       const Deadline& deadline) {
     const double steps = automaton_steps_at(cloud, request.time);
@@ -53,35 +75,9 @@ Result<ModelParticles> make_particles(const AutomatonCloud& cloud, const ModelRe
     constexpr double kQuick = 0x1p26;
     if (request.coarse && cloud.cells.x * cloud.cells.y * cloud.cells.z * (whole + 2) > kQuick)
         return coarse_automaton(cloud, request.key, static_cast<std::uint64_t>(whole), deadline);
-    AutomatonScratch scratch;
-    auto state = run_automaton(cloud, request.key, static_cast<std::uint64_t>(whole),
-                               request.threads, deadline, scratch);
-    if (!state.ok()) return state.error();
-
-    CellDensity density;
-    density.share_of_next = steps - whole;
-    std::vector<std::vector<std::uint64_t>> skies, next;
-    const auto take = [](const AutomatonState& from, std::vector<std::vector<std::uint64_t>>& to) {
-        to.push_back(from.cld);
-        to.insert(to.end(), from.earlier.begin(), from.earlier.end());
-    };
-    // Before step 0 the sky was clear: empty fields are put in for the steps that were not made, as many as are
-    // smoothed over.
-    const AutomatonGrid grid(cloud.cells);
-    const auto complete = [&](std::vector<std::vector<std::uint64_t>>& fields,
-                              std::vector<CloudBits>& to) {
-        while (fields.size() < cloud.smooth_steps) fields.emplace_back(grid.all_words(), 0);
-        for (const auto& field : fields) to.push_back(&field);
-    };
-    take(*state, skies);
-    if (density.share_of_next > 0) {
-        if (Status late = step_automaton(cloud, request.threads, deadline, scratch, *state))
-            return *late;
-        take(*state, next);
-        complete(next, density.next);
-    }
-    complete(skies, density.now);
-    scratch = {};
+    const auto skies = skies_at(cloud, request.key, steps, request.threads, deadline);
+    if (!skies.ok()) return skies.error();
+    const CellDensity density = skies->density();
     const std::uint64_t most = request.coarse ? 400 : cloud.most_particles;
     auto made = cells_to_particles(cloud, density, most, request.threads, deadline);
     if (!made.ok()) return made.error();

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <optional>
 
 #include "core/base/parallel.h"
+#include "core/generate/automaton/density_planes.h"
 #include "core/generate/automaton/metaball.h"
 #include "core/scene/automaton.h"
 
@@ -25,40 +25,6 @@ struct Moments {
 struct Piece {
     std::vector<glm::dvec3> positions;
     std::vector<float> radii, densities;
-};
-
-// The densities of cells, plane by plane, interpolated between two steps.
-class Densities {
-  public:
-    Densities(const AutomatonCloud& cloud, const AutomatonGrid& grid, const CellDensity& density)
-        : now_(grid, density.now, reach(cloud)), share_(density.share_of_next) {
-        if (!density.next.empty() && share_ > 0) next_.emplace(grid, density.next, reach(cloud));
-        scale_ = 1 / now_.most();
-    }
-
-    void go_to(std::size_t k) {
-        a_ = now_.plane(k);
-        if (next_) b_ = next_->plane(k);
-    }
-    bool row_is_empty(std::size_t j) const {
-        return a_.rows[j] == 0 && (!next_ || b_.rows[j] == 0);
-    }
-    double operator()(std::size_t i, std::size_t j) const {
-        const double a = a_.rows[j] != 0 ? a_.counts[j * a_.stride + i] : 0;
-        if (!next_) return a * scale_;
-        const double b = b_.rows[j] != 0 ? b_.counts[j * b_.stride + i] : 0;
-        return (a + share_ * (b - a)) * scale_;
-    }
-
-  private:
-    static std::array<std::size_t, 3> reach(const AutomatonCloud& cloud) {
-        return {static_cast<std::size_t>(cloud.smooth.x), static_cast<std::size_t>(cloud.smooth.y),
-                static_cast<std::size_t>(cloud.smooth.z)};
-    }
-    PlaneSmoother now_;
-    std::optional<PlaneSmoother> next_;
-    PlaneSmoother::Plane a_{}, b_{};
-    double share_, scale_ = 1;
 };
 
 struct Making {
@@ -85,7 +51,7 @@ struct Making {
 void make_piece(const Making& making, const CellDensity& density, std::size_t block,
                 std::size_t first, std::size_t last, Piece& piece) {
     const AutomatonGrid& grid = making.grid;
-    Densities densities(making.cloud, grid, density);
+    DensityPlanes densities(making.cloud, grid, density);
     const std::size_t wide = (grid.nx + block - 1) / block, high = (grid.ny + block - 1) / block;
     std::vector<Moments> blocks;
     for (std::size_t k = first; k < last; ++k) {

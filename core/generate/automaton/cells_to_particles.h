@@ -1,23 +1,11 @@
 // The density of an automaton's cells as Gaussians.
 #pragma once
 
-#include <array>
-#include <vector>
-
 #include "core/base/deadline.h"
-#include "core/generate/automaton/smooth.h"
+#include "core/generate/automaton/density_planes.h"
 #include "core/generate/models.h"
 
 namespace awan::automaton {
-
-// The density of an automaton's cells between two steps.
-struct CellDensity {
-    // The cloud bits (cld) after the steps to smooth over, the last one first; `next` the same one step later, or
-    // empty.
-    std::vector<CloudBits> now, next;
-    // How far between the two, 0..1.
-    double share_of_next = 0;
-};
 
 // One Gaussian a cell: a metaball of the cell's density whose integral is that of one cell (metaball.h), as the
 // Gaussian of the same mass and second moment. Where that makes more than `most`, one Gaussian a block of 2x2x2

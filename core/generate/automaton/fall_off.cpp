@@ -36,8 +36,10 @@ std::uint64_t eight_bytes(const std::uint8_t* bytes) {
     return x;
 }
 
-// square: d^2 of 64 cells. Gives the word of those inside, and writes their digits.
-AWAN_INLINE std::uint64_t pack_body(const float* square, std::uint64_t* planes) {
+// square: d^2 of 64 cells. Gives the word of those inside, and writes their digits. shape: those that stand for each
+// distance, or null.
+AWAN_INLINE std::uint64_t pack_body(const float* square, const std::uint16_t* shape,
+                                    std::uint64_t* planes) {
     alignas(64) std::array<std::int32_t, 64> digits;
     alignas(64) std::array<std::uint8_t, 64> outside, high, low;
     // In float: the last bit of d decides nothing that shows, and IEEE's square root is the same everywhere. One loop
@@ -47,6 +49,8 @@ AWAN_INLINE std::uint64_t pack_body(const float* square, std::uint64_t* planes) 
     for (std::size_t i = 0; i < 64; ++i) d[i] = std::sqrt(d[i]);
     for (std::size_t i = 0; i < 64; ++i) digits[i] = static_cast<std::int32_t>(d[i] * 65536.0F);
     for (std::size_t i = 0; i < 64; ++i) outside[i] = static_cast<std::uint8_t>(digits[i] >> 16);
+    if (shape != nullptr)
+        for (std::size_t i = 0; i < 64; ++i) digits[i] = digits[i] < 65536 ? shape[digits[i]] : 0;
     for (std::size_t i = 0; i < 64; ++i) high[i] = static_cast<std::uint8_t>(digits[i] >> 8);
     for (std::size_t i = 0; i < 64; ++i) low[i] = static_cast<std::uint8_t>(digits[i]);
     std::uint64_t inside = 0;
@@ -65,7 +69,9 @@ AWAN_INLINE std::uint64_t pack_body(const float* square, std::uint64_t* planes) 
     std::memcpy(planes, bytes.data(), sizeof bytes);
     return inside;
 }
-AWAN_KERNEL(std::uint64_t, pack, (const float* square, std::uint64_t* planes), (square, planes))
+AWAN_KERNEL(std::uint64_t, pack,
+            (const float* square, const std::uint16_t* shape, std::uint64_t* planes),
+            (square, shape, planes))
 
 // The cells of a row that anything was written to: first .. last - 1.
 struct Reach {
@@ -131,6 +137,7 @@ Status make_fall_off(const AutomatonGrid& grid, const std::vector<AutomatonEllip
     into.inside.resize(grid.all_words());
     into.distance.resize(grid.all_words() * kDistancePlanes);
     into.row_inside.resize(grid.rows());
+    const std::uint16_t* const shape = into.shape.empty() ? nullptr : into.shape.data();
     const double work =
         static_cast<double>(grid.rows()) * static_cast<double>(64 * grid.words + 20);
     std::atomic<bool> late{false};
@@ -161,10 +168,10 @@ Status make_fall_off(const AutomatonGrid& grid, const std::vector<AutomatonEllip
             bool any = false;
             for (std::size_t w = 0; w < grid.words; ++w) {
                 const std::size_t word = row * grid.words + w;
-                into.inside[word] =
-                    64 * w < reach.last && 64 * (w + 1) > reach.first
-                        ? pack(square.data() + 64 * w, &into.distance[word * kDistancePlanes])
-                        : 0;
+                into.inside[word] = 64 * w < reach.last && 64 * (w + 1) > reach.first
+                                        ? pack(square.data() + 64 * w, shape,
+                                               &into.distance[word * kDistancePlanes])
+                                        : 0;
                 any |= into.inside[word] != 0;
             }
             into.row_inside[row] = any;

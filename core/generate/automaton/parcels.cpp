@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/generate/automaton/wind.h"
 #include "core/generate/keyed_random.h"
 
 namespace awan::automaton {
@@ -23,13 +24,17 @@ double place(double side, double radius, double share) {
     return side > 2 * radius ? between(radius, side - radius, share) : side / 2;
 }
 
-// How far a wind moves what stands at height y, cells a step.
-double speed_at(const AutomatonWind& wind, double y) {
-    double speed = 0;
-    for (const AutomatonWindBand& band : wind.ellipsoids)
-        if (y >= band.from && y <= band.to)
-            speed += band.speed.constant + band.speed.linear * y + band.speed.quadratic * y * y;
-    return speed;
+// Along which axis the wind has taken an ellipsoid out of the grid; -1: none. Where it takes it along, and no other
+// way: one that was put beside the grid stays there.
+int axis_of_leaving(const AutomatonCloud& cloud, const AutomatonEllipsoid& ellipsoid,
+                    const glm::dvec2& speed) {
+    for (const int axis : {0, 2}) {
+        const double v = axis == 0 ? speed.x : speed.y;
+        if (v > 0 && !(ellipsoid.center[axis] - ellipsoid.radii[axis] < cloud.cells[axis]))
+            return axis;
+        if (v < 0 && !(ellipsoid.center[axis] + ellipsoid.radii[axis] > 0)) return axis;
+    }
+    return -1;
 }
 
 }  // namespace
@@ -61,13 +66,13 @@ bool move_ellipsoids(const AutomatonCloud& cloud, const std::vector<AutomatonEll
     const RandomEllipsoids random = random_ellipsoids_of(cloud);
     for (std::size_t n = 0; n < ellipsoids.size(); ++n) {
         AutomatonEllipsoid& ellipsoid = ellipsoids[n];
-        const double speed = speed_at(cloud.wind, ellipsoid.center.y);
-        if (speed == 0) continue;
+        const glm::dvec2 speed = wind_on_ellipsoids(cloud.wind, ellipsoid.center.y);
+        if (speed == glm::dvec2(0)) continue;
         moved = true;
-        ellipsoid.center.x += speed;
-        const double left = ellipsoid.center.x + ellipsoid.radii.x;
-        const double right = ellipsoid.center.x - ellipsoid.radii.x;
-        if (speed > 0 ? right < cloud.cells.x : left > 0) continue;
+        ellipsoid.center.x += speed.x;
+        ellipsoid.center.z += speed.y;
+        const int left_along = axis_of_leaving(cloud, ellipsoid, speed);
+        if (left_along < 0) continue;
         const std::uint64_t own = keyed(keyed(keyed(key, kAgain), n), step);
         const bool is_random = n >= cloud.ellipsoids.size();
         for (int axis = 0; axis < 3; ++axis) {
@@ -82,7 +87,9 @@ bool move_ellipsoids(const AutomatonCloud& cloud, const std::vector<AutomatonEll
             ellipsoid.center[axis] = place(2 * half, radius, uniform(own, 3 + a));
         }
         if (is_random && random.level) ellipsoid.center.y = *random.level;
-        ellipsoid.center.x = speed > 0 ? ellipsoid.radii.x : cloud.cells.x - ellipsoid.radii.x;
+        const double radius = ellipsoid.radii[left_along];
+        ellipsoid.center[left_along] =
+            (left_along == 0 ? speed.x : speed.y) > 0 ? radius : cloud.cells[left_along] - radius;
     }
     return moved;
 }

@@ -5,13 +5,14 @@
 
 namespace awan::automaton {
 
-// From cloud.start where that is set and not later, else from step 0; the result is the same either way. Errors:
-// kInvalidScene when the start belongs to another cloud; kOverDeadline, kCancelled.
+// From the latest of cloud.starts and of the states in cloud.kept that is not later, else from step 0; the result is
+// the same either way. On the way states go into cloud.kept, where that is set. Errors: kInvalidScene when one of the
+// starts belongs to another cloud; kOverDeadline, kCancelled.
 Result<AutomatonState> run_automaton(const AutomatonCloud& cloud, std::uint64_t key,
                                      std::uint64_t step, int threads, const Deadline& deadline,
                                      AutomatonScratch& scratch);
 
-// Whether cloud.start, which is set, is of this cloud.
-Status check_start(const AutomatonCloud& cloud, std::uint64_t key);
+// Whether all of cloud.starts are of this cloud.
+Status check_starts(const AutomatonCloud& cloud, std::uint64_t key);
 
 }  // namespace awan::automaton

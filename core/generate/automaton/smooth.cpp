@@ -17,11 +17,6 @@ constexpr std::array<std::uint64_t, 256> make_bytes_of_bits() {
 }
 constexpr std::array<std::uint64_t, 256> kBytesOfBits = make_bytes_of_bits();
 
-void add_bits(std::uint64_t bits, std::uint64_t* bytes) {
-    for (std::size_t group = 0; group < 8; ++group)
-        bytes[group] += kBytesOfBits[bits >> (8 * group) & 255];
-}
-
 // out = in (assign) or out += in, for n counts.
 template <typename From>
 void add_row(const From* in, std::size_t n, bool assign, std::uint16_t* out) {
@@ -32,6 +27,11 @@ void add_row(const From* in, std::size_t n, bool assign, std::uint16_t* out) {
 }
 
 }  // namespace
+
+void add_bits(std::uint64_t bits, std::uint64_t* bytes) {
+    for (std::size_t group = 0; group < 8; ++group)
+        bytes[group] += kBytesOfBits[bits >> (8 * group) & 255];
+}
 
 PlaneSmoother::PlaneSmoother(const AutomatonGrid& grid, std::vector<CloudBits> fields,
                              std::array<std::size_t, 3> reach)

@@ -1,5 +1,5 @@
 // From bits to a density: the smoothing q of Dobashi et al. 2000 (Upchurch 2009, "Continuous Density Distribution"),
-// with all weights 1.
+// with all weights 1; with others, weighted.h.
 #pragma once
 
 #include <array>
@@ -11,6 +11,9 @@
 namespace awan::automaton {
 
 using CloudBits = const std::vector<std::uint64_t>*;
+
+// Adds the 64 bits of a word to as many bytes, that of bit 0 first in memory.
+void add_bits(std::uint64_t bits, std::uint64_t* bytes);
 
 // Counts how many of the cells around each are clouds, plane after plane: sums of whole numbers along x, then y, then
 // z, so that their order does not show. Cells beyond the grid are none.

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <cmath>
 
 #include "core/base/parallel.h"
 #include "core/generate/automaton/parcels.h"
 #include "core/generate/automaton/random_bits.h"
+#include "core/generate/automaton/shape.h"
+#include "core/generate/automaton/wind.h"
 
 namespace awan::automaton {
 namespace {
@@ -35,8 +36,8 @@ Rules rules_of(const AutomatonCloud& cloud) {
             chance_of(cloud.outside_extinction)};
 }
 
-// The cells of `lanes`, which lie within ellipsoids, that get an event of probability p (1 - d). It is two
-// independent events: one of probability p, and one "not d".
+// The cells of `lanes`, which lie within ellipsoids, that get an event of probability p F(d) = p (1 - e). It is two
+// independent events: one of probability p, and one "not e"; e is what FallOff::distance holds.
 Word supplied(Word lanes, Chance p, const Word* distance, std::uint64_t key,
               std::uint64_t distance_key, std::uint64_t word) {
     const Word some = lanes_that_happen(lanes, p, key, word);
@@ -76,37 +77,6 @@ Word near_act(const Neighbours& near, std::size_t w, std::size_t words) {
                (own >> 2 | after << 62);
     for (int n = 0; n < near.count; ++n) any |= near.others[n][w];
     return any;
-}
-
-// Shifts the bits of a row by `by` cells towards +x. What leaves is lost; zeros come in.
-void shift_row(Word* row, std::size_t words, std::int64_t by, Word last_mask) {
-    const auto bits = static_cast<std::uint64_t>(std::abs(by));
-    const std::size_t whole = static_cast<std::size_t>(bits / 64);
-    const unsigned part = bits % 64;
-    const auto get = [&](std::size_t w, bool there) { return there ? row[w] : 0; };
-    if (by > 0)
-        for (std::size_t w = words; w-- > 0;) {
-            const Word near = get(w - whole, w >= whole);
-            const Word far = get(w - whole - 1, w >= whole + 1);
-            row[w] = part == 0 ? near : near << part | far >> (64 - part);
-        }
-    else
-        for (std::size_t w = 0; w < words; ++w) {
-            const Word near = get(w + whole, w + whole < words);
-            const Word far = get(w + whole + 1, w + whole + 1 < words);
-            row[w] = part == 0 ? near : near >> part | far << (64 - part);
-        }
-    row[words - 1] &= last_mask;
-}
-
-// By how many whole cells layer j shifts in step `step`. The fraction is saved up for later steps.
-std::int64_t shift_of(const AutomatonSpeed& speed, std::size_t j, std::uint64_t step) {
-    const double y = static_cast<double>(j) + 0.5;
-    const double v = speed.constant + speed.linear * y + speed.quadratic * y * y;
-    // A shift of more than the widest grid empties the row just as well.
-    const double one = std::clamp(v, -2048.0, 2048.0);
-    const double before = std::floor(one * static_cast<double>(step));
-    return static_cast<std::int64_t>(std::floor(one * static_cast<double>(step + 1)) - before);
 }
 
 struct Stepping {
@@ -157,6 +127,7 @@ Status fall_off_of(const AutomatonCloud& cloud, const AutomatonGrid& grid, int t
                    const Deadline& deadline, const AutomatonState& state,
                    AutomatonScratch& scratch) {
     if (scratch.fall_off_ready) return std::nullopt;
+    if (scratch.fall_off.shape.empty()) scratch.fall_off.shape = fall_off_digits(cloud);
     if (Status late = make_fall_off(grid, state.ellipsoids, cloud.overlap, cloud.base, threads,
                                     deadline, scratch.fall_off))
         return late;
@@ -246,14 +217,8 @@ Status step_automaton(const AutomatonCloud& cloud, int threads, const Deadline& 
     });
     if (auto error = deadline.over()) return *error;
     std::swap(state.act, scratch.act);
-    for (std::size_t j = 0; j < grid.ny && cloud.wind.layers != AutomatonSpeed{}; ++j) {
-        const std::int64_t by = shift_of(cloud.wind.layers, j, state.step);
-        for (std::size_t k = 0; k < grid.nz && by != 0; ++k)
-            if (scratch.row_lives[grid.row(j, k)] != 0)
-                for (auto* bits : {&state.hum, &state.act, &state.cld})
-                    shift_row(bits->data() + grid.row(j, k) * grid.words, grid.words, by,
-                              grid.last_mask());
-    }
+    shift_layers(cloud.wind, state.step, grid, {&state.hum, &state.act, &state.cld},
+                 scratch.row_lives);
     ++state.step;
     return std::nullopt;
 }
