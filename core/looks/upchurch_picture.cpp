@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numeric>
 
 #include "core/base/parallel.h"
 #include "core/draw/backdrop.h"
@@ -26,7 +26,7 @@ using automaton::Cell;
 // The side of a tile, pixels.
 constexpr int kTile = 32;
 // A pixel is done where less than this share of the light from behind is left.
-constexpr float kUnseen = 1e-3F;
+constexpr float kUnseen = 4e-3F;
 // Textures that are made by rule, and their side.
 constexpr std::size_t kGenerated = 4;
 constexpr int kGeneratedSide = 64;
@@ -137,13 +137,30 @@ bool place(const Drawn& drawn, const Cell& cell, const Image& image, Square& squ
     return true;
 }
 
-// From the eye outward; of those as far, in the order of the cells.
+// From the eye outward; of those as far, in the order of the cells. Sorted by digits of eleven bits: the bits of floats
+// above 0 are in the order of their values.
 std::vector<std::uint32_t> front_to_back(const std::vector<Square>& squares) {
-    std::vector<std::uint32_t> order(squares.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return squares[a].depth < squares[b].depth;
-    });
+    constexpr unsigned kDigit = 11;
+    struct Entry {
+        std::uint32_t bits, square;
+    };
+    std::vector<Entry> entries(squares.size()), sorted(squares.size());
+    for (std::size_t i = 0; i < squares.size(); ++i)
+        entries[i] = {std::bit_cast<std::uint32_t>(squares[i].depth),
+                      static_cast<std::uint32_t>(i)};
+    for (unsigned shift = 0; shift < 32; shift += kDigit) {
+        std::array<std::size_t, (1u << kDigit) + 1> begin{};
+        const auto digit = [&](const Entry& one) {
+            return one.bits >> shift & ((1u << kDigit) - 1);
+        };
+        for (const Entry& one : entries) ++begin[digit(one) + 1];
+        for (std::size_t d = 1; d < begin.size(); ++d) begin[d] += begin[d - 1];
+        for (const Entry& one : entries) sorted[begin[digit(one)]++] = one;
+        std::swap(entries, sorted);
+    }
+    std::vector<std::uint32_t> order;
+    order.reserve(entries.size());
+    for (const Entry& one : entries) order.push_back(one.square);
     return order;
 }
 
