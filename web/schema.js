@@ -38,6 +38,7 @@ function schemasAt(pointer) {
 //   whole, orZero  only whole numbers; 0, too, wherever the range begins
 //   words          those it may be; []: none
 //   examples       some of those it may be, where there are others
+//   names, functions   what a formula may use, each with what it is
 //   unit, says     for people; undefined where the service says nothing
 export function fieldAt(pointer) {
   const nodes = schemasAt(pointer);
@@ -53,6 +54,8 @@ export function fieldAt(pointer) {
     whole: range.type === "integer", orZero: numbers.some(({ const: only }) => only === 0),
     words: [...new Set(values.flatMap((value) => value.enum ?? []))],
     examples: values.flatMap((value) => value.examples ?? []),
+    names: values.find((value) => value["x-names"])?.["x-names"],
+    functions: values.find((value) => value["x-functions"])?.["x-functions"],
   };
 }
 
