@@ -249,7 +249,7 @@ function shownWhen(context, { when }, field) {
 
 export function makeFields(context, specs) {
   return specs.map((spec) => {
-    const field = spec.make ? spec.make(context) : MAKERS[spec.kind ?? "slider"](context, spec);
+    const field = spec.make && !spec.kind ? spec.make(context) : MAKERS[spec.kind ?? "slider"](context, spec);
     return shownWhen(context, spec, field);
   });
 }
