@@ -39,6 +39,11 @@ inline json one_cube() {
         R"([{"particles": 5, "size": [1, 1, 1], "center": [0, 0, 0], "radius": 1}])");
 }
 
+// The only primitive of a document whose keys are looked at.
+inline json& keyed_primitive(json& document) {
+    return document["clouds"][0]["implicit"]["primitives"][0];
+}
+
 inline const Companion kCompanions[] = {
     // --- the scene
     {"Scene", "time", "moves clouds that change",
@@ -192,6 +197,25 @@ inline const Companion kCompanions[] = {
      [](json&, json& primitive) {
          int time = 0;
          for (json& key : primitive["keys"]) key["time"] = ++time;
+     }},
+    {"ImplicitKey", "radii", "belong to an ellipsoid",
+     [](json& document, json&) { keyed_primitive(document)["shape"] = "ellipsoid"; }},
+    {"ImplicitKey", "points", "as many as those of the skeleton",
+     [](json& document, json& key) {
+         while (key["points"].size() < 2) key["points"].push_back({0, 0, 0});
+         json& primitive = keyed_primitive(document);
+         primitive["shape"] = "segment";
+         primitive["points"] = json(key["points"].size(), {0, 0, 0});
+     }},
+    {"Implicit", "keys", "keys are in rising order of time",
+     [](json&, json& object) {
+         int time = 0;
+         for (json& key : object["keys"]) key["time"] = ++time;
+     }},
+    {"ImplicitSquash", "keys", "keys are in rising order of time",
+     [](json&, json& object) {
+         int time = 0;
+         for (json& key : object["keys"]) key["time"] = ++time;
      }},
     {"ImplicitGrowth", "seeds", "seeds <= most", [](json&, json& growth) { growth["most"] = 500; }},
     {"ImplicitGrowth", "most", "seeds <= most", [](json&, json& growth) { growth["seeds"] = 1; }},

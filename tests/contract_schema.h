@@ -106,9 +106,9 @@ class Contract {
 
     bool word_allows(const std::string& word, const json& says, const json& schema,
                      const json& value) const {
-        static const std::set<std::string> kProse{"description", "default",   "example",
-                                                  "examples",    "format",    "x-unit",
-                                                  "x-otherwise", "x-presets", "x-presets-by"};
+        static const std::set<std::string> kProse{
+            "description", "default",   "example",      "examples", "format",     "x-unit",
+            "x-otherwise", "x-presets", "x-presets-by", "x-names",  "x-functions"};
         if (kProse.contains(word)) return true;
         if (word == "$ref") return allows(named(name_of(says)), value);
         if (word == "oneOf") return count_allowing(says, value) == 1;
@@ -118,6 +118,8 @@ class Contract {
         if (word == "pattern")
             return !value.is_string() ||
                    std::regex_search(value.get<std::string>(), std::regex(says.get<std::string>()));
+        if (word == "maxLength")
+            return !value.is_string() || value.get<std::string>().size() <= says.get<std::size_t>();
         if (word == "enum") return std::find(says.begin(), says.end(), value) != says.end();
         if (word == "pattern")
             return !value.is_string() ||

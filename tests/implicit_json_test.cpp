@@ -9,6 +9,7 @@
 #include "core/scene/implicit.h"
 #include "core/scene/limits.h"
 #include "core/scene/rules.h"
+#include "server/document/overrides.h"
 #include "tests/random_models_implicit.h"
 #include "tests/scene_checks.h"
 
@@ -128,6 +129,83 @@ TEST(ImplicitJson, WrongTypesAndNamesAreRefusedWhereTheyStand) {
     refuse(R"("growth": {"seeds": -1})", "/growth/seeds");
     refuse(R"("growth": 3)", "/growth", {"object"});
     refuse(R"("swirl_path": "round")", "/swirl_path", {"steady"});
+}
+
+TEST(ImplicitJson, KeysFitTheirPrimitive) {
+    refuse(R"("primitives": [{"keys": [{"time": 0, "points": [[0, 0, 0]]}]}])",
+           "/primitives/0/keys/0/points", {"cylinder"});
+    refuse(R"("primitives": [{"shape": "cylinder", "points": [[0, 0, 0], [1, 0, 0]],
+                              "keys": [{"time": 0, "points": [[0, 0, 0]]}]}])",
+           "/primitives/0/keys/0/points", {"as many", "2, not 1"});
+    refuse(R"("primitives": [{"keys": [{"time": 0, "radii": [1, 1, 1]}]}])",
+           "/primitives/0/keys/0/radii", {"ellipsoid"});
+    refuse(R"("primitives": [{"shape": "ellipsoid", "keys": [{"time": 0, "core": 1}]}])",
+           "/primitives/0/keys/0/core", {"spheres"});
+    refuse(R"("primitives": [{"shape": "ellipsoid", "radius": 90000,
+                              "keys": [{"time": 0, "radii": [1, 2, 1]}]}])",
+           "/primitives/0/keys/0/radii/1", {"1e+05"});
+    refuse(R"("keys": [{"time": 1}, {"time": 1}])", "/keys/1/time", {"later"});
+    refuse(R"("squash": {"keys": [{"time": 1, "amount": 2}, {"time": 0, "amount": 2}]})",
+           "/squash/keys/1/time", {"later"});
+    refuse(R"("squash": {"axis": [0, 0, 0]})", "/squash/axis", {"1e-6"});
+    refuse(R"("squash": {"amount": 11})", "/squash/amount", {"0.1", "10"});
+}
+
+TEST(ImplicitJson, AFormulaIsReadWithTheDocument) {
+    EXPECT_TRUE(read(implicit_with(R"("formula": "density * height")")).ok());
+    refuse(R"("formula": "density +\n rain")", "/formula",
+           {"line 2, column 2", "`rain`", "height"});
+    refuse(R"("formula": 3)", "/formula", {"a formula"});
+    refuse("\"formula\": \"" + std::string(4097, ' ') + "1\"", "/formula", {"4096 bytes"});
+    // Names stay short.
+    const std::string longest(4095, ' ');
+    EXPECT_TRUE(read(implicit_with("\"formula\": \"" + longest + "1\"")).ok());
+}
+
+TEST(ImplicitJson, ATableHasEachRowOnce) {
+    refuse(R"("particles": [{"time": 0, "id": 1, "center": [0, 0, 0], "radius": 1},
+                            {"time": 0, "id": 2, "center": [0, 0, 0], "radius": 1},
+                            {"time": 0, "id": 1, "center": [9, 0, 0], "radius": 1}])",
+           "/particles/2", {"particle 1", "row 0"});
+    refuse(R"("particles": [{"time": 0, "id": 1, "radius": 1}])", "/particles/0", {"center"});
+    std::string many;
+    for (int i = 0; i <= 1000; ++i)
+        many += (i > 0 ? "," : "") +
+                (R"({"time": 0, "radius": 1, "center": [0, 0, 0], "id": )" + std::to_string(i)) +
+                "}";
+    refuse("\"particles\": [" + many + "]", "/particles", {"1000"});
+}
+
+TEST(ImplicitJson, ATableMayComeAsText) {
+    constexpr const char* kPlace = "/clouds/0/implicit/particles";
+    SceneDraft draft = draft_of(implicit_with(""));
+    ASSERT_FALSE(set_in_scene(kPlace,
+                              "# from elsewhere\nid, Time, x,y,z, speed, radius\r\n"
+                              "7, 0.5, 1,2,3, 9, 4\n\n7, 2, 3,2,1, 9, 5\n",
+                              draft));
+    const auto& rows = cloud_of(draft).particles;
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[1].id, 7u);
+    EXPECT_EQ(rows[1].time, 2);
+    EXPECT_EQ(rows[0].center, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(rows[0].radius, 4);
+    EXPECT_EQ(rows[0].weight, 1);
+    const auto wrong = [&](const char* table) {
+        const Status status = set_in_scene(kPlace, table, draft);
+        return status ? status->pointer + ": " + status->message : "";
+    };
+    const auto says = [&](const char* table, const char* words) {
+        EXPECT_NE(wrong(table).find(words), std::string::npos) << wrong(table);
+    };
+    says("time id x y z\n0 1 0 0 0\n", "line 1 of the table: must name");
+    says("time id x y z radius\n0 1 0 0 0 1\n0 1.5 0 0 0 1\n", "line 3 of the table: `id`");
+    says("time;id;x;y;z;radius\n0;1;0;;0;1\n", "line 2 of the table: `y` must be a number");
+    says("time;id;x;y;z;radius\n0;1;0;0;0\n", "there is no `radius`");
+    says("time,time,id,x,y,z,radius\n0,0,1,0,0,0,1\n", "`time` stands twice");
+    EXPECT_EQ(wrong("time,id,x,y,z,radius\n0,1,0,0,0,-1\n"), "");
+    const auto scene = validate(draft);
+    ASSERT_FALSE(scene.ok());
+    EXPECT_EQ(scene.error().pointer, std::string(kPlace) + "/0/radius");
 }
 
 TEST(ImplicitJson, EveryRangeIsQuoted) {

@@ -16,6 +16,7 @@
 
 #include "core/pipeline.h"
 #include "core/scene/automaton.h"
+#include "core/scene/implicit.h"
 #include "core/scene/validate.h"
 #include "server/document/json.h"
 #include "tests/patience.h"
@@ -36,10 +37,22 @@ void overlapping_by_the_first(SceneDraft& draft) {
     cloud.overlap = AutomatonOverlap::kFirst;
     draft.clouds[0].automaton = std::make_shared<const AutomatonCloud>(std::move(cloud));
 }
+void by_a_formula(SceneDraft& draft) {
+    ImplicitCloud cloud = *draft.clouds[0].implicit;
+    cloud.resolution = 40;
+    cloud.squash = ImplicitSquash{{1, 2, 3}, {1, 3, 1}, 1.3, {}};
+    cloud.formula =
+        "a = fbm(x / 40, y / 40, z / 40, 4) + sin(x / 30) * cos(z / 20); b = exp(-height) * log(2 "
+        "+ a);"
+        "density * smoothstep(-0.5, 0.5, b) + (turb > 0.4 ? mdens ^ 1.7 : primitives(x, y + 9, z) "
+        "/ 9)";
+    draft.clouds[0].implicit = std::make_shared<const ImplicitCloud>(std::move(cloud));
+}
 constexpr Case kCases[] = {
     {"automaton-cumulus", change_nothing},
     {"automaton-cumulus", overlapping_by_the_first},
     {"implicit-growth", change_nothing},
+    {"implicit-cumulus", by_a_formula},
     {"fog-shafts", change_nothing},
     {"noon-cumulus", [](SceneDraft& draft) { draft.medium.g = 0; }},
 };

@@ -31,7 +31,9 @@ const DOCUMENTS = {
   automaton: cloud("automaton", { random: {}, ellipsoids: [{ center: [48, 6, 48], radii: [14, 10, 14] }], fall_off: "table", fall_off_table: [1, 0], smooth_weight: "table", smooth_weight_table: [1, 0],
     wind: { layer_bands: [{ from: 1, to: 9 }], ellipsoids: [{ from: 1, to: 9 }] } }),
   spheres: cloud("spheres", { kind: "cirrus", morph: {} }),
-  implicit: cloud("implicit", { primitives: [{}], growth: {}, attractors: [{ strength: 1, reach: 60 }], vortices: [{ angle: 90, reach: 60 }] }),
+  implicit: cloud("implicit", { primitives: [{}], growth: {}, attractors: [{ strength: 1, reach: 60 }], vortices: [{ angle: 90, reach: 60 }],
+    bubbles: {}, billows: {}, cells: {}, squash: { keys: [{ time: 0, amount: 1 }] }, keys: [{ time: 0 }], formula: "density",
+    particles: [{ time: 0, id: 1, center: [0, 0, 0], radius: 9 }] }),
   ellipsoids: cloud("ellipsoids", { formations: [{}], ellipsoids: [{ center: [0, 0, 0], radii: [1, 1, 1] }], plane: {} }),
 };
 

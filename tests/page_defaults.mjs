@@ -28,6 +28,7 @@ const SILENT = {
   "implicit without a preset": cloud("implicit", {}),
   "implicit in full": cloud("implicit", {
     primitives: [{}], growth: {}, attractors: [{ strength: 1, reach: 60 }], vortices: [{ angle: 90, reach: 60 }],
+    bubbles: {}, billows: {}, cells: {}, squash: {},
   }),
   "ellipsoids": cloud("ellipsoids", {}),
   "ellipsoids in full": cloud("ellipsoids", { formations: [{}], ellipsoids: [{ center: [0, 0, 0], radii: [1, 1, 1] }], plane: {} }),

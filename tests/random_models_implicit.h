@@ -34,12 +34,26 @@ struct RandomImplicit {
     }
     double time() { return dice.chance(0.2) ? dice.any(limits::kMaxTime) : dice.between(-5, 60); }
 
-    ImplicitKey key(double at) {
+    ImplicitKey key(double at, const ImplicitPrimitive& of) {
         ImplicitKey key;
         key.time = at;
         if (dice.chance(0.7)) key.center = place();
         if (dice.chance(0.5)) key.radius = length();
         if (dice.chance(0.5)) key.weight = weight();
+        if (dice.chance(0.3)) key.rotate = dice.any_vector(limits::kMaxAngle);
+        if (of.shape == ImplicitShape::kEllipsoid) {
+            if (dice.chance(0.3)) {
+                glm::dvec3& radii = key.radii.emplace();
+                for (int i = 0; i < 3; ++i)
+                    radii[i] = magnitude(limits::kMinImplicitRadii, limits::kMaxImplicitRadii);
+            }
+        } else if (dice.chance(0.3)) {
+            key.core = length();
+        }
+        if (!of.points.empty() && dice.chance(0.3)) {
+            key.points = of.points;
+            for (glm::dvec3& point : *key.points) point = place();
+        }
         return key;
     }
 
@@ -66,7 +80,7 @@ struct RandomImplicit {
         double at = time();
         for (int i = dice.chance(0.6) ? 0 : dice.below(6); i > 0 && at < limits::kMaxTime - 100;
              --i, at += dice.log_between(0.01, 10))
-            p.keys.push_back(key(at));
+            p.keys.push_back(key(at, p));
         return p;
     }
 
@@ -93,6 +107,90 @@ struct RandomImplicit {
         if (dice.chance(0.3))
             g.duration = magnitude(limits::kMinGrowthSeconds, limits::kMaxGrowthSeconds);
         return g;
+    }
+
+    ImplicitBubbles bubbles() {
+        ImplicitBubbles b;
+        b.most = 1 + static_cast<std::uint64_t>(dice.below(30));
+        b.knobs = static_cast<std::uint64_t>(dice.below(9));
+        b.radius = length();
+        b.weight = weight();
+        b.center = place();
+        b.rise = share(0, limits::kMaxGrowthMotion);
+        b.ceiling = magnitude(limits::kMinBubbleCeiling, limits::kMaxBubbleCeiling);
+        b.entrainment = share(0, 1);
+        b.rate = magnitude(limits::kMinBubbleRate, 1000);
+        b.began = time();
+        return b;
+    }
+
+    ImplicitBillows billows() {
+        ImplicitBillows b;
+        b.waves = 1 + static_cast<std::uint64_t>(dice.below(4));
+        b.wavelength = length();
+        b.length = length();
+        b.radius = length();
+        b.weight = weight();
+        b.center = place();
+        b.shear = magnitude(1e-3, 1e3);
+        b.amplitude = share(0, limits::kMaxBillowAmplitude);
+        b.smoothing = magnitude(limits::kMinBillowSmoothing, 1);
+        b.variation = share(0, 1);
+        b.began = time();
+        return b;
+    }
+
+    ImplicitCells cells() {
+        ImplicitCells c;
+        c.open = dice.chance(0.5);
+        c.rings = static_cast<std::uint64_t>(dice.below(3));
+        c.parcels = 1 + static_cast<std::uint64_t>(dice.below(12));
+        c.spacing = length();
+        c.depth = length();
+        c.radius = length();
+        c.weight = weight();
+        c.center = place();
+        c.irregular = share(0, 0.5);
+        c.turnover = magnitude(limits::kMinGrowthSeconds, limits::kMaxGrowthSeconds);
+        return c;
+    }
+
+    void makers(ImplicitCloud& c) {
+        if (dice.chance(0.1)) c.bubbles = bubbles();
+        if (dice.chance(0.1)) c.billows = billows();
+        if (dice.chance(0.1)) c.cells = cells();
+        for (int i = dice.chance(0.1) ? dice.below(20) : 0; i > 0; --i)
+            c.particles.push_back({static_cast<double>(i),
+                                   static_cast<std::uint64_t>(dice.below(4)), place(), length(),
+                                   weight()});
+    }
+
+    // Keys of the cloud, a squash and a formula.
+    void more(ImplicitCloud& c) {
+        double at = dice.between(-5, 5);
+        for (int i = dice.chance(0.3) ? dice.below(4) : 0; i > 0; --i, at += 1) {
+            ImplicitCloudKey& key = c.keys.emplace_back();
+            key.time = at;
+            if (dice.chance(0.5)) key.amount = dice.between(0.1, 2);
+            if (dice.chance(0.3))
+                key.exponent =
+                    magnitude(limits::kMinImplicitExponent, limits::kMaxImplicitExponent);
+            if (dice.chance(0.3)) key.displacement = share(0, limits::kMaxDisplacement);
+            if (dice.chance(0.3))
+                key.noise_size = magnitude(limits::kMinNoiseSize, limits::kMaxNoiseSize);
+            if (dice.chance(0.3)) key.jet = dice.any_vector(limits::kMaxJet);
+            if (dice.chance(0.3)) key.warp = share(0, 1);
+            if (dice.chance(0.2)) key.base = dice.between(-1, 1) * size;
+        }
+        if (dice.chance(0.2)) {
+            ImplicitSquash& squash = c.squash.emplace();
+            squash.axis = dice.on_sphere();
+            squash.amount = magnitude(limits::kMinSquash, limits::kMaxSquash);
+        }
+        constexpr const char* kFormulas[] = {
+            "density * (0.2 + height)", "max(0, fbm(x, y, z, 3)) + density / 0",
+            "mdens * turb ^ time", "exp(density) * seed", "primitives(z, x, y) < 0.5 ? 0 : 2"};
+        if (dice.chance(0.2)) c.formula = kFormulas[dice.below(5)];
     }
 
     void warps(ImplicitCloud& c) {
@@ -169,6 +267,8 @@ inline Cloud random_implicit(Dice& dice, const Whereabouts& where) {
         random.size = c->primitives ? random.size : 250;
         c->growth = random.growth();
     }
+    random.makers(*c);
+    random.more(*c);
     random.warps(*c);
     random.style(*c);
     cloud.implicit = c;

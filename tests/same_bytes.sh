@@ -19,6 +19,13 @@ cat >models/implicit.json <<'END_SCENE'
 {"clouds":[{"model":"implicit","density":2,
     "implicit":{"preset":"cumulus","displacement":0.9,"noise_size":0.55,"resolution":24}}]}
 END_SCENE
+cat >models/formula.json <<'END_SCENE'
+{"clouds":[{"model":"implicit","density":2,"implicit":{"resolution":20,"displacement":0.3,
+    "bubbles":{"most":6,"knobs":2},"billows":{"waves":1},"cells":{"rings":1,"parcels":4},
+    "squash":{"axis":[1,4,0],"amount":1.4},
+    "formula":"a = fbm(x / 40, y / 40, z / 40, 3) + sin(x / 30); density * exp(-height) + (turb > 0.4 ? mdens ^ 1.7 : log(2 + a) / 9)"}}],
+ "time":20}
+END_SCENE
 cat >models/ellipsoids.json <<'END_SCENE'
 {"clouds":[{"model":"ellipsoids","seed":3,"ellipsoids":{"formations":[{"kind":"combined","count":8,"spread":12}],
     "texture":{"terms":7,"frequency_x":1.6,"frequency_z":1.6},"threshold":0.05,"threshold_edge":0.75,"range":0.1,

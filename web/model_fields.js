@@ -6,6 +6,7 @@
 //   { kind: "number", member, label, empty }                      a number; `empty`: what none of it means
 //   { kind: "select", member, label, titles }                     titles: what its words are called
 //   { kind: "vector", member, label, step, unit }                 three numbers; `unit`: "" where that is clear
+//   { kind: "formula", member, label }                            a formula, and what it may use
 //   { kind: "switch", member, label, fresh, fields }              an object that may be left out
 //   { kind: "section", title, fields }                            folded away until the document has some of it
 //   { kind: "table", member, title, one, fresh, columns }         a list of objects, a row each
@@ -154,6 +155,29 @@ export function vector(store, { label, pointer, get: given, set, step = 1, unit:
   };
 }
 
+// Written as it is typed; the service says what is wrong with it, and where.
+function makeFormula({ store, ...context }, spec) {
+  const place = pointerOf(context, spec);
+  const id = freshId("formula");
+  const { examples, names, functions } = fieldAt(place());
+  const input = el("textarea", {
+    id, rows: 3, spellcheck: "false", autocomplete: "off", autocapitalize: "off", placeholder: examples[0],
+    oninput: () => store.set(place(), input.value.trim() === "" ? undefined : input.value),
+  });
+  const list = (of) => Object.entries(of).flatMap(([name, says]) => [el("dt", {}, el("code", {}, name)), el("dd", {}, says)]);
+  const element = el("div", { class: "field formula", title: hintOf({ ...spec, pointer: place }) },
+    el("label", { for: id }, spec.label), input,
+    el("details", { class: "words" }, el("summary", {}, "What it may use"), el("dl", {}, ...list(names), ...list(functions))));
+  return {
+    element,
+    refresh() {
+      element.dataset.pointer = place();
+      const value = at(store.scene, place()) ?? "";
+      if (document.activeElement !== input && input.value !== value) input.value = value;
+    },
+  };
+}
+
 function makeVector({ store, ...context }, spec) {
   return vector(store, { ...spec, pointer: pointerOf(context, spec) });
 }
@@ -270,7 +294,7 @@ function makeCards(context, spec) {
 }
 
 const MAKERS = {
-  number: makeNumber, select: makeSelect, vector: makeVector, switch: makeSwitch,
+  formula: makeFormula, number: makeNumber, select: makeSelect, vector: makeVector, switch: makeSwitch,
   section: makeSection, shape: makeShape, text: makeText, table: makeTable, cards: makeCards, slider: makeSlider,
 };
 
@@ -288,7 +312,7 @@ function shownWhen(context, { when }, field) {
 
 export function makeFields(context, specs) {
   return specs.map((spec) => {
-    const field = spec.make ? spec.make(context) : MAKERS[spec.kind ?? "slider"](context, spec);
+    const field = spec.make && !spec.kind ? spec.make(context) : MAKERS[spec.kind ?? "slider"](context, spec);
     return shownWhen(context, spec, field);
   });
 }

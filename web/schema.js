@@ -39,6 +39,7 @@ function schemasAt(pointer) {
 //   words          those it may be; []: none
 //   pattern        that its text has, if any
 //   examples       some of those it may be, where there are others
+//   names, functions   what a formula may use, each with what it is
 //   unit, says     for people; undefined where the service says nothing
 export function fieldAt(pointer) {
   const nodes = schemasAt(pointer);
@@ -55,6 +56,8 @@ export function fieldAt(pointer) {
     words: [...new Set(values.flatMap((value) => value.enum ?? []))],
     pattern: values.find((value) => value.pattern)?.pattern,
     examples: values.flatMap((value) => value.examples ?? []),
+    names: values.find((value) => value["x-names"])?.["x-names"],
+    functions: values.find((value) => value["x-functions"])?.["x-functions"],
   };
 }
 

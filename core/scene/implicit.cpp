@@ -9,6 +9,11 @@ const Table& table_of<ImplicitCloud>() {
     return kImplicitTable;
 }
 
+bool makes_primitives(const ImplicitCloud& cloud) {
+    return cloud.growth || cloud.bubbles || cloud.billows || cloud.cells ||
+           !cloud.particles.empty();
+}
+
 ImplicitCloud spelled_out(const ImplicitCloud& cloud) {
     const ImplicitSettings s = resolved(cloud);
     ImplicitCloud all = cloud;

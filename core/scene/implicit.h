@@ -8,8 +8,10 @@
 // p1 `amount`, p2 `exponent`, p3 `blend`, p4 `displacement`. All of it is a multiple of the cloud's density (1/unit).
 //
 // Positions, radii and points are in units. What is a matter of style is in mean radii: of the primitives as they are
-// described (without keys), or of the growth's particles where there are none. So a cloud described twice as large
-// looks the same.
+// described (without keys), or of the growth's particles, the procedures' or the table's where there are none. So a
+// cloud described twice as large looks the same.
+//
+// A formula (formula.h) has the last word: it is given that density and says another.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +22,11 @@
 
 #include "core/base/result.h"
 #include "core/scene/cloud.h"
+#include "core/scene/implicit_growth.h"
+#include "core/scene/implicit_keys.h"
+#include "core/scene/implicit_primitive.h"
+#include "core/scene/implicit_procedures.h"
+#include "core/scene/implicit_warps.h"
 #include "core/scene/interpolation.h"
 #include "core/scene/limits.h"
 #include "core/scene/table.h"
@@ -31,384 +38,18 @@ enum class ImplicitPreset { kCumulus, kCirrus, kStratus, kMackerel, kCreature };
 inline constexpr const char* kImplicitPresetWords[] = {"cumulus", "cirrus", "stratus", "mackerel",
                                                        "creature"};
 
-enum class ImplicitShape {
-    // The closest point q is within `core` of the centre.
-    kSphere,
-    // A sphere scaled by `radii`.
-    kEllipsoid,
-    // Solid, flat ends at two `points`, of radius `core`.
-    kCylinder,
-    // A skeleton: q is within `core` of the line through `points`.
-    kSegment,
-};
-inline constexpr const char* kImplicitShapeWords[] = {"sphere", "ellipsoid", "cylinder", "segment"};
-
-inline constexpr Range kImplicitPlace = within(limits::kMaxImplicitCoordinate);
-inline constexpr Range kImplicitRadius =
-    from_to(limits::kMinImplicitRadius, limits::kMaxImplicitRadius);
-inline constexpr Range kImplicitWeight = within(limits::kMaxImplicitWeight);
-inline constexpr const char* kPointWanted = "[x, y, z]: three numbers";
-
-// What is given holds at that time; between keys that have it a value is interpolated, before the first and after the
-// last it holds.
-struct ImplicitKey {
-    // The keys of a primitive rise.
-    double time = 0;
-    std::optional<glm::dvec3> center;
-    std::optional<double> radius;
-    std::optional<double> weight;
-};
-
-inline constexpr Field kImplicitKeyFields[] = {
-    field<&ImplicitKey::time>({.name = "time",
-                               .wanted = "a number (seconds)",
-                               .range = within(limits::kMaxTime),
-                               .required = true,
-                               .unit = "seconds",
-                               .says = "Seconds."}),
-    field<&ImplicitKey::center>({.name = "center",
-                                 .wanted = kPointWanted,
-                                 .range = kImplicitPlace,
-                                 .unit = "units",
-                                 .says = "Where it is then.",
-                                 .otherwise = "by the keys around"}),
-    field<&ImplicitKey::radius>({.name = "radius",
-                                 .wanted = "a number > 0",
-                                 .range = kImplicitRadius,
-                                 .unit = "units",
-                                 .says = "Its radius of influence then.",
-                                 .otherwise = "by the keys around"}),
-    field<&ImplicitKey::weight>({.name = "weight",
-                                 .wanted = "a number",
-                                 .range = kImplicitWeight,
-                                 .says = "Its weight then.",
-                                 .otherwise = "by the keys around"}),
-};
-static_assert(covers<ImplicitKey>(kImplicitKeyFields));
-inline constexpr Table kImplicitKeyTable{.name = "ImplicitKey",
-                                         .says = "What a primitive is at one time.",
-                                         .fields = kImplicitKeyFields,
-                                         .standard = standard_of<ImplicitKey>};
-template <>
-inline const Table& table_of<ImplicitKey>() {
-    return kImplicitKeyTable;
-}
-
-struct ImplicitPrimitive {
-    ImplicitShape shape = ImplicitShape::kSphere;
-    glm::dvec3 center{0};
-    double radius = 1;
-    glm::dvec3 radii{1};
-    double core = 0;
-    std::vector<glm::dvec3> points;
-    // Turns ellipsoids and points.
-    glm::dvec3 rotate{0};
-    double weight = 1;
-    std::vector<ImplicitKey> keys;
-};
-
-inline constexpr Field kImplicitPrimitiveFields[] = {
-    field<&ImplicitPrimitive::shape>(
-        {.name = "shape", .words = kImplicitShapeWords, .says = "From what distances are taken."}),
-    field<&ImplicitPrimitive::center>({.name = "center",
-                                       .wanted = kPointWanted,
-                                       .range = kImplicitPlace,
-                                       .unit = "units",
-                                       .says = "Units."}),
-    field<&ImplicitPrimitive::radius>({.name = "radius",
-                                       .wanted = "a number > 0",
-                                       .range = kImplicitRadius,
-                                       .unit = "units",
-                                       .says = "Of influence, from the primitive outward; units."}),
-    field<&ImplicitPrimitive::radii>(
-        {.name = "radii",
-         .wanted = "[x, y, z]: three numbers > 0 (times the radius)",
-         .range = from_to(limits::kMinImplicitRadii, limits::kMaxImplicitRadii),
-         .says = "An ellipsoid's semi-axes over `radius`."}),
-    field<&ImplicitPrimitive::core>({.name = "core",
-                                     .wanted = "a number >= 0",
-                                     .range = from_to(0, limits::kMaxImplicitRadius),
-                                     .unit = "units",
-                                     .says = "As far as that from its middle, line or axis a "
-                                             "sphere, segment or cylinder is solid; units."}),
-    // A skeleton of n pieces has n + 1 points.
-    field<&ImplicitPrimitive::points>(
-        {.name = "points",
-         .wanted = "a list of [x, y, z]",
-         .range = kImplicitPlace,
-         .counts = at_most(limits::kMaxImplicitElements + 1),
-         .unit = "units",
-         .says = "From `center`: the two ends of a cylinder, two or more points of a segment."}),
-    field<&ImplicitPrimitive::rotate>({.name = "rotate",
-                                       .wanted = "[x, y, z]: three numbers (degrees)",
-                                       .range = within(limits::kMaxAngle),
-                                       .unit = "degrees",
-                                       .says = "Degrees about x, then y, then z."}),
-    field<&ImplicitPrimitive::weight>({.name = "weight",
-                                       .wanted = "a number",
-                                       .range = kImplicitWeight,
-                                       .says = "Negative takes away."}),
-    field<&ImplicitPrimitive::keys>({.name = "keys",
-                                     .wanted = "a list of keys",
-                                     .counts = at_most(limits::kMaxImplicitKeys),
-                                     .says = "In rising order of time."}),
-};
-static_assert(covers<ImplicitPrimitive>(kImplicitPrimitiveFields));
-inline constexpr Table kImplicitPrimitiveTable{
-    .name = "ImplicitPrimitive",
-    .says = "A weight and a density that falls off from a shape.",
-    .fields = kImplicitPrimitiveFields,
-    .standard = standard_of<ImplicitPrimitive>};
-template <>
-inline const Table& table_of<ImplicitPrimitive>() {
-    return kImplicitPrimitiveTable;
-}
-
-// The particle system whose particles are primitives (spheres): seeds rise and wander in a turbulent force, bear
-// children as often as the turbulence where they are is strong, come to rest after their lifetime, and never die.
-// Lengths are in `radius`.
-struct ImplicitGrowth {
-    std::uint64_t seeds = 12;
-    std::uint64_t most = 50;
-    double radius = 54;
-    // Of a full-grown child.
-    double shrink = 0.85;
-    // Of each when full-grown.
-    double weight = 1;
-    glm::dvec3 center{0};
-    glm::dvec3 spread{2.2, 0.15, 1.6};
-    glm::dvec3 velocity{0, 0.03, 0};
-    glm::dvec3 force{0, 0.006, 0};
-    double turbulence = 0.05;
-    double drag = 0.12;
-    // They are full-grown halfway.
-    double lifetime = 25;
-    double rate = 0.175;
-    double duration = 60;
-};
-
-inline constexpr Range kGrowthSeconds =
-    from_to(limits::kMinGrowthSeconds, limits::kMaxGrowthSeconds);
-inline constexpr Range kGrowthMotion = within(limits::kMaxGrowthMotion);
-
-inline constexpr Field kImplicitGrowthFields[] = {
-    field<&ImplicitGrowth::seeds>({.name = "seeds",
-                                   .wanted = "an integer from 1 to 500",
-                                   .counts = count_from_to(1, limits::kMaxGrowth),
-                                   .says = "Particles at time 0."}),
-    field<&ImplicitGrowth::most>({.name = "most",
-                                  .wanted = "an integer from 1 to 500",
-                                  .counts = count_from_to(1, limits::kMaxGrowth),
-                                  .says = "Particles in all, at least `seeds`."}),
-    field<&ImplicitGrowth::radius>(
-        {.name = "radius",
-         .wanted = "a number > 0",
-         .range = from_to(limits::kMinImplicitRadius, limits::kMaxImplicitRadius / 10),
-         .unit = "units",
-         .says = "Of a full-grown seed, units. Lengths below are in it."}),
-    field<&ImplicitGrowth::shrink>({.name = "shrink",
-                                    .wanted = "a number from 0.1 to 1",
-                                    .range = from_to(0.1, 1),
-                                    .says = "A child's radius over its parent's."}),
-    field<&ImplicitGrowth::weight>(
-        {.name = "weight", .wanted = "a number", .range = kImplicitWeight, .says = "Of each."}),
-    field<&ImplicitGrowth::center>({.name = "center",
-                                    .wanted = kPointWanted,
-                                    .range = kImplicitPlace,
-                                    .unit = "units",
-                                    .says = "Of the seeds, units."}),
-    field<&ImplicitGrowth::spread>({.name = "spread",
-                                    .wanted = "[x, y, z]: three numbers >= 0 (radii)",
-                                    .range = from_to(0, limits::kMaxGrowthSpread),
-                                    .unit = "radii",
-                                    .says = "Seeds stand within so much of it, either way."}),
-    field<&ImplicitGrowth::velocity>({.name = "velocity",
-                                      .wanted = "[x, y, z]: three numbers (radii a second)",
-                                      .range = kGrowthMotion,
-                                      .unit = "radii a second",
-                                      .says = "At birth, radii a second."}),
-    field<&ImplicitGrowth::force>(
-        {.name = "force",
-         .wanted = "[x, y, z]: three numbers (radii a second, each second)",
-         .range = kGrowthMotion,
-         .unit = "radii a second^2",
-         .says = "Radii a second, each second."}),
-    field<&ImplicitGrowth::turbulence>({.name = "turbulence",
-                                        .wanted = "a number >= 0",
-                                        .range = from_to(0, limits::kMaxGrowthMotion),
-                                        .unit = "radii a second^2",
-                                        .says = "Of the force."}),
-    field<&ImplicitGrowth::drag>({.name = "drag",
-                                  .wanted = "a number >= 0",
-                                  .range = from_to(0, limits::kMaxGrowthMotion),
-                                  .unit = "1/second",
-                                  .says = "1/second."}),
-    field<&ImplicitGrowth::lifetime>({.name = "lifetime",
-                                      .wanted = "a number > 0 (seconds)",
-                                      .range = kGrowthSeconds,
-                                      .unit = "seconds",
-                                      .says = "Seconds from birth to rest."}),
-    field<&ImplicitGrowth::rate>(
-        {.name = "rate",
-         .wanted = "a number >= 0 (children a second)",
-         .range = from_to(0, 1000),
-         .unit = "1/second",
-         .says = "Children a second, times the turbulence where a particle is."}),
-    field<&ImplicitGrowth::duration>({.name = "duration",
-                                      .wanted = "a number > 0 (seconds)",
-                                      .range = kGrowthSeconds,
-                                      .unit = "seconds",
-                                      .says = "Seconds from time 0; then all rests."}),
-};
-static_assert(covers<ImplicitGrowth>(kImplicitGrowthFields));
-inline constexpr Table kImplicitGrowthTable{
-    .name = "ImplicitGrowth",
-    .says =
-        "A particle system whose particles are primitives. Without `primitives` of its own a cloud "
-        "has only these.",
-    .fields = kImplicitGrowthFields,
-    .standard = standard_of<ImplicitGrowth>};
-template <>
-inline const Table& table_of<ImplicitGrowth>() {
-    return kImplicitGrowthTable;
-}
-
-// Draws matter towards (or, negative, pushes it from) a place: what is seen at p is what was at
-// p + strength h(d / reach) (p - at), d the distance from `at`.
-struct ImplicitAttractor {
-    glm::dvec3 at{0};
-    double strength = 0;
-    double reach = 1;
-};
-
-inline constexpr Field kImplicitAttractorFields[] = {
-    field<&ImplicitAttractor::at>({.name = "at",
-                                   .wanted = kPointWanted,
-                                   .range = kImplicitPlace,
-                                   .unit = "units",
-                                   .says = "Its place."}),
-    field<&ImplicitAttractor::strength>(
-        {.name = "strength",
-         .wanted = "a number",
-         .range = from_to(limits::kMinAttraction, limits::kMaxAttraction),
-         .required = true,
-         .says = "Positive draws matter in."}),
-    field<&ImplicitAttractor::reach>({.name = "reach",
-                                      .wanted = "a number > 0",
-                                      .range = kImplicitRadius,
-                                      .required = true,
-                                      .unit = "units",
-                                      .says = "Beyond it moves nothing."}),
-};
-static_assert(covers<ImplicitAttractor>(kImplicitAttractorFields));
-inline constexpr Table kImplicitAttractorTable{
-    .name = "ImplicitAttractor",
-    .says = "Draws matter towards a place, or pushes it away.",
-    .fields = kImplicitAttractorFields,
-    .standard = standard_of<ImplicitAttractor>};
-template <>
-inline const Table& table_of<ImplicitAttractor>() {
-    return kImplicitAttractorTable;
-}
-
-// Turns matter about an axis through `at` by angle h(d / reach).
-struct ImplicitVortex {
-    glm::dvec3 at{0};
-    glm::dvec3 axis{0, 1, 0};
-    // Right-handed.
-    double angle = 0;
-    double reach = 1;
-};
-
-inline constexpr Field kImplicitVortexFields[] = {
-    field<&ImplicitVortex::at>({.name = "at",
-                                .wanted = kPointWanted,
-                                .range = kImplicitPlace,
-                                .unit = "units",
-                                .says = "Its place."}),
-    field<&ImplicitVortex::axis>({.name = "axis",
-                                  .wanted = kPointWanted,
-                                  .range = kImplicitPlace,
-                                  .says = "Of any length > 0."}),
-    field<&ImplicitVortex::angle>({.name = "angle",
-                                   .wanted = "a number (degrees)",
-                                   .range = within(limits::kMaxVortexAngle),
-                                   .required = true,
-                                   .unit = "degrees",
-                                   .says = "Degrees, in the middle."}),
-    field<&ImplicitVortex::reach>({.name = "reach",
-                                   .wanted = "a number > 0",
-                                   .range = kImplicitRadius,
-                                   .required = true,
-                                   .unit = "units",
-                                   .says = "Beyond it turns nothing."}),
-};
-static_assert(covers<ImplicitVortex>(kImplicitVortexFields));
-inline constexpr Table kImplicitVortexTable{.name = "ImplicitVortex",
-                                            .says = "Turns matter about an axis.",
-                                            .fields = kImplicitVortexFields,
-                                            .standard = standard_of<ImplicitVortex>};
-template <>
-inline const Table& table_of<ImplicitVortex>() {
-    return kImplicitVortexTable;
-}
-
-// A vector flow table: matter at p was moved there by the vector of p, trilinear between the table's, those of the
-// faces outside.
-struct ImplicitFlow {
-    // Of the box; the first and the last vectors of a row stand on its faces.
-    glm::dvec3 min{-1};
-    glm::dvec3 max{1};
-    // Whole numbers.
-    glm::dvec3 size{0};
-    std::vector<glm::dvec3> vectors;
-};
-
-inline constexpr Field kImplicitFlowFields[] = {
-    field<&ImplicitFlow::min>({.name = "min",
-                               .wanted = kPointWanted,
-                               .range = kImplicitPlace,
-                               .required = true,
-                               .unit = "units",
-                               .says = "Corner of the box."}),
-    field<&ImplicitFlow::max>({.name = "max",
-                               .wanted = kPointWanted,
-                               .range = kImplicitPlace,
-                               .required = true,
-                               .unit = "units",
-                               .says = "The corner opposite."}),
-    field<&ImplicitFlow::size>(
-        {.name = "size",
-         .wanted = "[x, y, z]: three whole numbers, how many vectors along each axis",
-         .range = from_to(1, static_cast<double>(limits::kMaxFlowVectors)),
-         .whole = true,
-         .required = true,
-         .says = "Vectors along x, y, z."}),
-    field<&ImplicitFlow::vectors>({.name = "vectors",
-                                   .wanted = "a list of [x, y, z]",
-                                   .range = within(limits::kMaxImplicitRadius),
-                                   .counts = count_from_to(1, limits::kMaxFlowVectors),
-                                   .required = true,
-                                   .unit = "units",
-                                   .says = "Units by which matter was moved there; x fastest, then "
-                                           "y, then z; trilinear between."}),
-};
-static_assert(covers<ImplicitFlow>(kImplicitFlowFields));
-inline constexpr Table kImplicitFlowTable{.name = "ImplicitFlow",
-                                          .says = "A vector flow table.",
-                                          .fields = kImplicitFlowFields,
-                                          .standard = standard_of<ImplicitFlow>};
-template <>
-inline const Table& table_of<ImplicitFlow>() {
-    return kImplicitFlowTable;
-}
-
 // As given; resolved() below fills in the rest.
 struct ImplicitCloud {
     ImplicitPreset preset = ImplicitPreset::kCumulus;
-    // None: the preset's, or none beside a growth.
+    // None: the preset's, or none beside what makes primitives of its own (the next five).
     std::optional<std::vector<ImplicitPrimitive>> primitives;
     std::optional<ImplicitGrowth> growth;
+    std::optional<ImplicitBubbles> bubbles;
+    std::optional<ImplicitBillows> billows;
+    std::optional<ImplicitCells> cells;
+    std::vector<ImplicitParticle> particles;
+    // In rising order of time.
+    std::vector<ImplicitCloudKey> keys;
     // Straight, else smoothstep.
     bool linear_keys = false;
     // Soft over a fifth of a mean radius.
@@ -435,6 +76,7 @@ struct ImplicitCloud {
     std::vector<ImplicitAttractor> attractors;
     std::vector<ImplicitVortex> vortices;
     std::optional<ImplicitFlow> flow;
+    std::optional<ImplicitSquash> squash;
 
     // Mackerel: the density times 1 - depth (1 - s_x s_y s_z), s = (1 + sin(2 pi x / wavelength + turbulence t)) / 2,
     // for axes with a wavelength > 0, mean radii.
@@ -447,6 +89,8 @@ struct ImplicitCloud {
     // Ebert's path winds out for ever, and its noise coarsens into chaos with the frame number. Else the same path
     // without these two.
     bool printed_swirl = false;
+
+    std::optional<std::string> formula;
 
     std::uint64_t resolution = 96;
     double threshold = 0.004;
@@ -467,7 +111,8 @@ inline constexpr Field kImplicitFields[] = {
                                            "Instead of the preset's. Density is the sum of their "
                                            "weights times Wyvill's cubic of distance over "
                                            "radius, at least 0.",
-                                       .otherwise = "the preset's, or none beside a growth"}),
+                                       .otherwise = "the preset's, or none beside a growth, "
+                                                    "procedures or particles"}),
     field<&ImplicitCloud::linear_keys>(
         {.name = "interpolation", .words = kInterpolationWords, .says = "Between keys."}),
     field<&ImplicitCloud::base>({.name = "base",
@@ -597,6 +242,34 @@ inline constexpr Field kImplicitFields[] = {
     field<&ImplicitCloud::growth>({.name = "growth",
                                    .wanted = "an object",
                                    .says = "A particle system whose particles are primitives."}),
+    field<&ImplicitCloud::bubbles>(
+        {.name = "bubbles", .wanted = "an object", .says = "Bubbles of warm air rise."}),
+    field<&ImplicitCloud::billows>(
+        {.name = "billows", .wanted = "an object", .says = "Kelvin-Helmholtz billows roll up."}),
+    field<&ImplicitCloud::cells>(
+        {.name = "cells", .wanted = "an object", .says = "Benard cells turn over."}),
+    field<&ImplicitCloud::particles>(
+        {.name = "particles",
+         .wanted = "a list of particles",
+         .counts = at_most(limits::kMaxImplicitRows),
+         .says =
+             "Spheres moved by a particle system elsewhere: a row for each particle and time, in "
+             "any order."}),
+    field<&ImplicitCloud::keys>(
+        {.name = "keys",
+         .wanted = "a list of keys",
+         .counts = at_most(limits::kMaxImplicitKeys),
+         .says = "Of the cloud's own parameters, in rising order of time."}),
+    field<&ImplicitCloud::squash>(
+        {.name = "squash", .wanted = "an object", .says = "Squash and stretch."}),
+    field<&ImplicitCloud::formula>(
+        {.name = "formula",
+         .wanted = "a formula",
+         .counts = at_most(limits::kMaxFormulaBytes),
+         .says = "Of the density, from 0 to 1000, at each place. It is given density (that of the "
+                 "model), mdens (of the primitives), turb (the turbulence), x, y, z, height, time, "
+                 "seed, and may use noise, turbulence, fbm, primitives.",
+         .otherwise = "density"}),
     field<&ImplicitCloud::resolution>(
         {.name = "resolution",
          .wanted = "an integer from 16 to 400 (cells along the longest side)",
@@ -627,8 +300,13 @@ struct ImplicitSettings {
     glm::dvec3 ripple{0};
     double ripple_depth = 0, ripple_turbulence = 0;
     double mean_radius = 1;  // units
+    // What share of the warps there is; keys alone say less than all.
+    double warp = 1;
 };
 ImplicitSettings resolved(const ImplicitCloud& cloud);
+
+// Whether it has a growth, procedures or particles, which stand for the preset's primitives.
+bool makes_primitives(const ImplicitCloud& cloud);
 
 // The same cloud with every field given that a preset may decide: equal for clouds that come to the same.
 ImplicitCloud spelled_out(const ImplicitCloud& cloud);

@@ -133,6 +133,21 @@ ImplicitSettings of_preset(ImplicitPreset preset) {
     return cumulus();
 }
 
+// Of what makes primitives of its own, each counted once.
+double mean_of_makers(const ImplicitCloud& cloud) {
+    double sum = 0, count = 0;
+    const auto add = [&](const auto& maker) {
+        if (maker) sum += maker->radius, ++count;
+    };
+    add(cloud.growth), add(cloud.bubbles), add(cloud.billows), add(cloud.cells);
+    if (!cloud.particles.empty()) {
+        double radii = 0;
+        for (const ImplicitParticle& row : cloud.particles) radii += row.radius;
+        sum += radii / static_cast<double>(cloud.particles.size()), ++count;
+    }
+    return count > 0 ? sum / count : 1;
+}
+
 double mean_radius(const ImplicitSettings& settings, const ImplicitCloud& cloud) {
     double sum = 0;
     for (const ImplicitPrimitive& primitive : settings.primitives) {
@@ -141,14 +156,14 @@ double mean_radius(const ImplicitSettings& settings, const ImplicitCloud& cloud)
         sum += primitive.radius * (scaled ? exact::cbrt(r.x * r.y * r.z) : 1.0) + primitive.core;
     }
     if (!settings.primitives.empty()) return sum / static_cast<double>(settings.primitives.size());
-    return cloud.growth ? cloud.growth->radius : 1;
+    return mean_of_makers(cloud);
 }
 
 }  // namespace
 
 ImplicitSettings resolved(const ImplicitCloud& cloud) {
     ImplicitSettings s = of_preset(cloud.preset);
-    if (cloud.primitives || cloud.growth) {
+    if (cloud.primitives || makes_primitives(cloud)) {
         s.primitives = cloud.primitives.value_or(std::vector<ImplicitPrimitive>());
         s.base.reset();
     }

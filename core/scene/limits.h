@@ -116,6 +116,27 @@ inline constexpr double kMaxGrowthMotion = 10;
 // Lifetimes and durations of growth, seconds: from a few frames to a day.
 inline constexpr double kMinGrowthSeconds = 0.1, kMaxGrowthSeconds = 1e5;
 
+// Bubbles and the smaller ones on each, billows in a row, rings of Benard cells (127 cells) and parcels in each
+// (core/scene/implicit_procedures.h). Each part is a primitive: some thousands at most.
+inline constexpr std::uint64_t kMaxBubbles = 200, kMaxKnobs = 8;
+inline constexpr std::uint64_t kMaxBillows = 12;
+inline constexpr std::uint64_t kMaxCellRings = 6, kMaxCellParcels = 24;
+// How high bubbles rise, in radii, and how many leave a second; both divide.
+inline constexpr double kMinBubbleCeiling = 0.1, kMaxBubbleCeiling = 20, kMinBubbleRate = 1e-3;
+// The wave that billows grow from, and what smooths their sheet, in wavelengths. At .2 a sheet crosses itself; below
+// .02 the 96 points of it do not hold together.
+inline constexpr double kMaxBillowAmplitude = 0.2, kMinBillowSmoothing = 0.02;
+// Rows of a table of particles that were moved elsewhere: a few hundred particles through 200 frames.
+inline constexpr std::uint64_t kMaxImplicitRows = 100'000;
+// How many times as long a squash makes a cloud.
+inline constexpr double kMinSquash = 0.1, kMaxSquash = 10;
+// A formula (core/scene/formula.h): bytes; steps that it comes to; how deep it goes (a parenthesis is two); values that
+// it holds at once; names that it gives; octaves of all its noise together; how often it asks for the primitives. A
+// place takes some dozen times what it takes without, at the most.
+inline constexpr std::uint64_t kMaxFormulaBytes = 4'096;
+inline constexpr int kMaxFormulaSteps = 512, kMaxFormulaDepth = 64, kMaxFormulaValues = 32;
+inline constexpr int kMaxFormulaNames = 24, kMaxFormulaOctaves = 48, kMaxFormulaPrimitives = 8;
+
 // --- Ellipsoids (core/scene/ellipsoids.h)
 
 // Terms of either sum of sines. Gardner 1985 has 4 to 7; at 8 the highest frequency is 128 times the first.

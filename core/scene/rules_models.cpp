@@ -6,6 +6,7 @@
 #include "core/scene/automaton.h"
 #include "core/scene/checks.h"
 #include "core/scene/ellipsoids.h"
+#include "core/scene/formula.h"
 #include "core/scene/implicit.h"
 #include "core/scene/limits.h"
 #include "core/scene/rules.h"
@@ -126,22 +127,56 @@ Status check_shape(const ImplicitPrimitive& p, const std::string& at) {
     return std::nullopt;
 }
 
-Status check_primitive(const ImplicitPrimitive& p, const std::string& at) {
-    if (Status wrong = check_shape(p, at)) return wrong;
-    for (std::size_t i = 1; i < p.keys.size(); ++i)
-        if (!(p.keys[i].time > p.keys[i - 1].time))
+// Times of keys rise.
+template <typename Key>
+Status check_times(const std::vector<Key>& keys, const std::string& at) {
+    for (std::size_t i = 1; i < keys.size(); ++i)
+        if (!(keys[i].time > keys[i - 1].time))
             return invalid(
-                at + "/keys/" + std::to_string(i) + "/time",
-                "must be later than that of the key before, " + to_text(p.keys[i - 1].time));
-    // Semi-axes are lengths too, whatever radius a key gives.
-    double largest = p.radius;
-    for (const ImplicitKey& key : p.keys) largest = std::max(largest, key.radius.value_or(0));
+                at + "/" + std::to_string(i) + "/time",
+                "must be later than that of the key before, " + to_text(keys[i - 1].time));
+    return std::nullopt;
+}
+
+// That a key gives what the shape has.
+Status check_key(const ImplicitPrimitive& p, const ImplicitKey& key, const std::string& at) {
+    const bool skeleton = p.shape == ImplicitShape::kCylinder || p.shape == ImplicitShape::kSegment;
+    if (key.points && !skeleton)
+        return invalid(at + "/points", "belongs to a cylinder or a segment");
+    if (key.points && key.points->size() != p.points.size())
+        return invalid(at + "/points", "must be as many as the primitive's `points`, " +
+                                           std::to_string(p.points.size()) + ", not " +
+                                           std::to_string(key.points->size()));
+    if (key.radii && p.shape != ImplicitShape::kEllipsoid)
+        return invalid(at + "/radii", "belongs to an ellipsoid");
+    if (key.core && p.shape == ImplicitShape::kEllipsoid)
+        return invalid(at + "/core", "belongs to spheres, cylinders and segments");
+    return std::nullopt;
+}
+
+// Semi-axes are lengths too, whatever radius a key gives.
+Status check_axes(double radius, const glm::dvec3& radii, const std::string& at) {
     for (int i = 0; i < 3; ++i)
-        if (largest * p.radii[i] > limits::kMaxImplicitRadius)
+        if (radius * radii[i] > limits::kMaxImplicitRadius)
             return invalid(at + "/radii/" + std::to_string(i),
                            "times the radius must be at most " +
                                to_text(limits::kMaxImplicitRadius) + ", not " +
-                               to_text(largest * p.radii[i]));
+                               to_text(radius * radii[i]));
+    return std::nullopt;
+}
+
+Status check_primitive(const ImplicitPrimitive& p, const std::string& at) {
+    if (Status wrong = check_shape(p, at)) return wrong;
+    if (Status wrong = check_times(p.keys, at + "/keys")) return wrong;
+    double largest = p.radius;
+    for (const ImplicitKey& key : p.keys) largest = std::max(largest, key.radius.value_or(0));
+    if (Status wrong = check_axes(largest, p.radii, at)) return wrong;
+    for (std::size_t i = 0; i < p.keys.size(); ++i) {
+        const std::string of = at + "/keys/" + std::to_string(i);
+        if (Status wrong = check_key(p, p.keys[i], of)) return wrong;
+        if (p.keys[i].radii)
+            if (Status wrong = check_axes(largest, *p.keys[i].radii, of)) return wrong;
+    }
     return std::nullopt;
 }
 
@@ -173,6 +208,30 @@ Status check_flow(const ImplicitFlow& flow, const std::string& at) {
         return invalid(at + "/vectors", "must have as many vectors as `size` says, " +
                                             to_text(wanted) + ", not " +
                                             std::to_string(flow.vectors.size()));
+    return std::nullopt;
+}
+
+// No row twice, and no more particles than there may be primitives.
+Status check_particles(const std::vector<ImplicitParticle>& table, const std::string& at) {
+    std::vector<std::size_t> order(table.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        if (table[a].id != table[b].id) return table[a].id < table[b].id;
+        return table[a].time != table[b].time ? table[a].time < table[b].time : a < b;
+    });
+    std::uint64_t particles = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const ImplicitParticle& row = table[order[i]];
+        const bool another = i == 0 || table[order[i - 1]].id != row.id;
+        if (!another && table[order[i - 1]].time == row.time)
+            return invalid(at + "/" + std::to_string(order[i]),
+                           "is particle " + std::to_string(row.id) + " at " + to_text(row.time) +
+                               " seconds again, as row " + std::to_string(order[i - 1]));
+        particles += another ? 1 : 0;
+        if (particles > limits::kMaxImplicitElements)
+            return invalid(at, "may have at most " + std::to_string(limits::kMaxImplicitElements) +
+                                   " particles, each with any number of rows");
+    }
     return std::nullopt;
 }
 
@@ -229,6 +288,16 @@ Status check_rules(const ImplicitCloud& cloud, const std::string& at) {
         if (Status wrong = count_in_range(cloud.growth->most, cloud.growth->seeds,
                                           limits::kMaxGrowth, at + "/growth/most"))
             return wrong;
+    if (Status wrong = check_particles(cloud.particles, at + "/particles")) return wrong;
+    if (Status wrong = check_times(cloud.keys, at + "/keys")) return wrong;
+    if (cloud.formula)
+        if (const auto formula = parse_formula(*cloud.formula, at + "/formula"); !formula)
+            return formula.error();
+    if (cloud.squash) {
+        if (!(glm::length(cloud.squash->axis) >= 1e-6))
+            return invalid(at + "/squash/axis", "must have a length of 1e-6 at least");
+        if (Status wrong = check_times(cloud.squash->keys, at + "/squash/keys")) return wrong;
+    }
     for (std::size_t i = 0; i < cloud.vortices.size(); ++i)
         if (!(glm::length(cloud.vortices[i].axis) >= 1e-6))
             return invalid(at + "/vortices/" + std::to_string(i) + "/axis",

@@ -36,7 +36,9 @@ void add_textures(CLI::App& command, SceneInput& scene) {
 
 void add_values(CLI::App& command, SceneInput& scene) {
     add(command, "--set", scene.sets,
-        "a value of the document, as /sun/elevation=12 or /clouds/0/density=auto; may be repeated")
+        "a value of the document, as /sun/elevation=12 or /clouds/0/density=auto, or @ and a file "
+        "that "
+        "holds it; may be repeated")
         ->allow_extra_args(false);
     add_textures(command, scene);
     add(command, "--seed", scene.seed, "instead of the document's");

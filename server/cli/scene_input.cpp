@@ -1,6 +1,7 @@
 #include "server/cli/scene_input.h"
 
 #include <cstdio>
+#include <optional>
 
 #include "core/formats/texture_file.h"
 #include "core/generate/automaton/kept_states.h"
@@ -32,13 +33,26 @@ Result<SceneDraft> read_file(const SceneInput& input, std::vector<std::string>& 
                       {input.radius, &notes});
 }
 
+// The file of /place=@file, whose content is the value.
+std::optional<std::string> file_of_set(const std::string& set) {
+    const std::size_t equals = set.find('=');
+    if (equals == std::string::npos || equals + 1 == set.size() || set[equals + 1] != '@')
+        return std::nullopt;
+    return set.substr(equals + 2);
+}
+
 Status apply_set(const std::string& set, SceneDraft& draft) {
     const std::size_t equals = set.find('=');
     if (equals == std::string::npos)
         return Error{ErrorCode::kInvalidScene, "",
                      "--set " + set + ": must be a place and a value, /sun/elevation=12"};
-    return set_in_scene(std::string_view(set).substr(0, equals),
-                        std::string_view(set).substr(equals + 1), draft);
+    const std::string_view place = std::string_view(set).substr(0, equals);
+    if (const auto file = file_of_set(set)) {
+        const auto bytes = read_input(*file);
+        if (!bytes) return bytes.error();
+        return set_in_scene(place, *bytes, draft);
+    }
+    return set_in_scene(place, std::string_view(set).substr(equals + 1), draft);
 }
 
 Error bad_texture(const std::string& given, const std::string& what) {
@@ -91,6 +105,8 @@ std::vector<std::string> files_of(const SceneInput& input) {
         if (path != "-") files.push_back(path);
     for (const std::string& given : input.textures)
         files.push_back(given.substr(given.find('=') + 1));
+    for (const std::string& set : input.sets)
+        if (auto file = file_of_set(set)) files.push_back(*std::move(file));
     return files;
 }
 

@@ -1,5 +1,7 @@
 #include "server/document/field_values.h"
 
+#include "core/scene/limits.h"
+
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -77,6 +79,11 @@ bool takes_words(const Field& field) {
     if (field.access.holds != Holds::kObject) return false;
     const Table& table = field.access.table();
     return table.shorthand != nullptr || absence_of(table) != nullptr;
+}
+
+std::uint64_t most_bytes(const Field& field) {
+    const bool own = field.access.holds == Holds::kText && field.counts.highest != Counts{}.highest;
+    return own ? field.counts.highest : limits::kMaxString;
 }
 
 void set_absent(const Table& table, void* object, bool absent) {

@@ -20,6 +20,9 @@ bool takes_words(const Field& field);
 // Whether the word is one that the field has; then it is taken.
 bool take_word(const Field& field, void* object, std::string& word);
 
+// No longer may the string be.
+std::uint64_t most_bytes(const Field& field);
+
 // Where the value goes, which is then used.
 void* put_field(const Field& field, void* object);
 // Of an object that a word may stand for: whether it is there.

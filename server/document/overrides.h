@@ -42,7 +42,8 @@ Result<Overrides> read_overrides(std::span<const std::pair<std::string, std::str
 void override_scene(const Overrides& overrides, SceneDraft& draft);
 
 // A value and its place in a document: `pointer` as /sun/elevation (RFC 6901), `value` JSON, the numbers of a list
-// without its brackets ("1, 2, 3"), or a word without quotes.
+// without its brackets ("1, 2, 3"), or a word without quotes; particles of an implicit cloud also a table
+// (particle_table.h).
 struct PlacedValue {
     std::string pointer, value;
 };

@@ -131,8 +131,8 @@ class SceneReader {
         if (left_.passed()) return true;
         const Field* const field = open_field();
         if (!field || !takes_words(*field)) return wrong_type("a string");
-        if (value.size() > limits::kMaxString)
-            return fail("must be at most " + std::to_string(limits::kMaxString) + " bytes long");
+        if (const std::uint64_t most = most_bytes(*field); value.size() > most)
+            return fail("must be at most " + std::to_string(most) + " bytes long");
         if (take_word(*field, top().object, value)) return true;
         return fail("must be " + wanted_of(*field) + ", not " + short_quote(value));
     }

@@ -5,12 +5,14 @@
 #include <map>
 
 #include "core/scene/fingerprint.h"
+#include "core/scene/formula.h"
 #include "core/scene/implicit.h"
 #include "core/scene/layers.h"
 #include "core/scene/limits.h"
 #include "core/scene/rungs.h"
 #include "core/scene/scene.h"
 #include "core/scene/spheres.h"
+#include "server/document/field_values.h"
 #include "server/document/json.h"
 #include "server/document/json_text.h"
 #include "server/document/particle_answer.h"
@@ -101,13 +103,31 @@ std::string textures_schema() {
            R"()*$","examples":["puff","wisp,hard"]})";
 }
 
+// What a formula may say is no pattern; its names and functions are told.
+std::string formula_schema(const Field& field) {
+    std::string out = R"({"type":"string","maxLength":)" + std::to_string(most_bytes(field));
+    out += R"x(,"examples":["density * (0.3 + height)",)x"
+           R"x("a = noise(x / 40, y / 40, z / 40); density * smoothstep(-0.2, 0.4, a)"])x"
+           R"x(,"x-names":{)x";
+    for (const FormulaName& input : kFormulaInputs) words(input.name, input.says, out);
+    words("pi", "3.14159", out);
+    out += R"(},"x-functions":{)";
+    for (const FormulaFunction& f : kFormulaFunctions) {
+        std::string call = std::string(f.name) + '(';
+        for (int i = 0; i < f.takes; ++i) call += std::string(i > 0 ? ", " : "") + "abcd"[i];
+        words((call + (f.more ? ", ...)" : ")")).c_str(), f.says, out);
+    }
+    return out + "}}";
+}
+
 // A name; of a rung, one of those there are; of a texture, those that are always there as examples.
 std::string text_schema(const Field& field) {
     if (std::string_view(field.name) == "rung") return reference("Rung");
     if (std::string_view(field.name) == "layers") return layers_schema();
     if (std::string_view(field.name) == "textures") return textures_schema();
     if (std::string_view(field.name) == "texture") return reference("TextureName");
-    return R"({"type":"string","maxLength":)" + std::to_string(limits::kMaxString) + '}';
+    if (std::string_view(field.name) == "formula") return formula_schema(field);
+    return R"({"type":"string","maxLength":)" + std::to_string(most_bytes(field)) + '}';
 }
 
 // The alternatives, each a schema; one stands alone.

@@ -6,6 +6,7 @@
 #include "core/formats/quote.h"
 #include "server/document/json.h"
 #include "server/document/overrides.h"
+#include "server/document/particle_table.h"
 
 namespace awan {
 namespace {
@@ -51,6 +52,13 @@ Json value_of(std::string_view text) {
     return Json(std::string(text));
 }
 
+// Particles that were moved elsewhere may come as a table; a list of JSON is one already.
+bool is_particle_table(std::string_view pointer, std::string_view value) {
+    const std::size_t begin = value.find_first_not_of(" \t\r\n");
+    return pointer.ends_with("/implicit/particles") && begin != std::string_view::npos &&
+           value[begin] != '[' && value.find('\n') != std::string_view::npos;
+}
+
 Status put(Json& document, std::string_view pointer, std::string_view value) {
     Json* at = &document;
     for (std::string_view rest = pointer; !rest.empty();) {
@@ -65,6 +73,12 @@ Status put(Json& document, std::string_view pointer, std::string_view value) {
             return at_pointer(pointer, "what stands before " + short_quote(name) +
                                            " is neither an object nor a list");
         }
+    }
+    if (is_particle_table(pointer, value)) {
+        const auto rows = particle_table_to_json(value, std::string(pointer));
+        if (!rows) return rows.error();
+        *at = Json::parse(*rows);
+        return std::nullopt;
     }
     *at = value_of(value);
     return std::nullopt;

@@ -8,6 +8,7 @@ awan=$here/../../build/release/awan
 cells=(automaton-cumulus:15 automaton-cumulus:40 automaton-cumulus:100 automaton-wind:50 automaton-wind:120
     spheres-cumulus spheres-cirrus spheres-ostroushko:0 spheres-ostroushko:48 spheres-ostroushko:96
     implicit-cumulus implicit-cirrus implicit-stratus implicit-mackerel implicit-creature
+    implicit-cirrostratus:0 implicit-cirrostratus:20 implicit-cirrostratus:60 implicit-sunset-cirrus implicit-sunset-cirrostratus
     implicit-growth:5 implicit-growth:20 implicit-growth:35 implicit-growth:48 implicit-growth:60
     ellipsoids-volume ellipsoids-stratus gardner-cumulus gardner-sky:0 gardner-sky:47)
 work=$(mktemp -d)
@@ -20,4 +21,4 @@ for i in "${!cells[@]}"; do
     pictures+=("$picture")
 done
 mkdir -p "$here/pictures"
-oiiotool "${pictures[@]}" --mosaic:pad=4 5x5 --resize 1300x0 -o "$here/pictures/models.png"
+oiiotool "${pictures[@]}" --mosaic:pad=4 5x6 --resize 1300x0 -o "$here/pictures/models.png"

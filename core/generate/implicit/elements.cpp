@@ -7,26 +7,10 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/exact_math.h"
+#include "core/generate/implicit/keys.h"
 
 namespace awan::implicit {
 namespace {
-
-// A value at a time. of(key) gives the value of a key frame, or none where the key does not say; `standard` holds
-// where no key says.
-template <typename T, typename Of>
-T at_time(const ImplicitPrimitive& primitive, const T& standard, bool smooth, double time, Of of) {
-    const ImplicitKey *before = nullptr, *after = nullptr;
-    for (const ImplicitKey& key : primitive.keys) {
-        if (!of(key)) continue;
-        if (key.time <= time) before = &key;
-        if (key.time > time && after == nullptr) after = &key;
-    }
-    if (before == nullptr) return after == nullptr ? standard : *of(*after);
-    if (after == nullptr) return *of(*before);
-    double t = (time - before->time) / (after->time - before->time);
-    if (smooth) t = smoothstep(t);
-    return *of(*before) * (1 - t) + *of(*after) * t;
-}
 
 glm::dmat3 turn(const glm::dvec3& degrees) {
     const exact::SinCos x = exact::sincos_degrees(degrees.x), y = exact::sincos_degrees(degrees.y),
@@ -97,14 +81,14 @@ void add_elements(const ImplicitPrimitive& primitive, bool smooth, double time, 
                   std::vector<Element>& elements) {
     const auto value = [&](const auto& standard, auto ImplicitKey::*member) {
         return at_time(
-            primitive, standard, smooth,
+            primitive.keys, standard, smooth,
             time, [=](const ImplicitKey& key) -> const auto& { return key.*member; });
     };
     const glm::dvec3 center = value(primitive.center, &ImplicitKey::center);
     const double radius = value(primitive.radius, &ImplicitKey::radius);
     const double weight = value(primitive.weight, &ImplicitKey::weight);
-    const glm::dmat3 turned = turn(primitive.rotate);
-    const double core = primitive.core;
+    const glm::dmat3 turned = turn(value(primitive.rotate, &ImplicitKey::rotate));
+    const double core = value(primitive.core, &ImplicitKey::core);
     switch (primitive.shape) {
         case ImplicitShape::kSphere:
             if (core > 0)
@@ -114,24 +98,94 @@ void add_elements(const ImplicitPrimitive& primitive, bool smooth, double time, 
                 elements.push_back(sphere_element(center, radius, weight, frame));
             break;
         case ImplicitShape::kEllipsoid:
-            elements.push_back(ball(center, radius * primitive.radii, turned, weight, frame));
+            elements.push_back(ball(center, radius * value(primitive.radii, &ImplicitKey::radii),
+                                    turned, weight, frame));
             break;
         case ImplicitShape::kCylinder:
         case ImplicitShape::kSegment: {
             const auto kind = primitive.shape == ImplicitShape::kCylinder ? Element::Kind::kCylinder
                                                                           : Element::Kind::kSegment;
-            for (std::size_t i = 1; i < primitive.points.size(); ++i) {
-                elements.push_back(piece(kind, center + turned * primitive.points[i - 1],
-                                         center + turned * primitive.points[i], core, radius,
-                                         weight, frame));
-                elements.back().last = i + 1 == primitive.points.size();
+            const std::vector<glm::dvec3> points = value(primitive.points, &ImplicitKey::points);
+            for (std::size_t i = 1; i < points.size(); ++i) {
+                elements.push_back(piece(kind, center + turned * points[i - 1],
+                                         center + turned * points[i], core, radius, weight, frame));
+                elements.back().last = i + 1 == points.size();
             }
             break;
         }
     }
 }
 
+namespace {
+
+bool is_reshaped(const ImplicitKey& key) {
+    return key.radii || key.core || key.points || key.rotate;
+}
+
+// The widest that a primitive is at any time: of its keys that give it, else its own.
+struct Widest {
+    double radius = 0, core = 0;
+    glm::dvec3 radii{0};
+    bool turns = false;
+    std::vector<const std::vector<glm::dvec3>*> points;
+};
+Widest widest(const ImplicitPrimitive& primitive) {
+    Widest most;
+    bool radius = false, core = false, radii = false;
+    for (const ImplicitKey& key : primitive.keys) {
+        if (key.radius) most.radius = std::max(most.radius, *key.radius), radius = true;
+        if (key.core) most.core = std::max(most.core, *key.core), core = true;
+        if (key.radii) most.radii = glm::max(most.radii, *key.radii), radii = true;
+        if (key.points) most.points.push_back(&*key.points);
+        most.turns = most.turns || key.rotate.has_value();
+    }
+    if (!radius) most.radius = primitive.radius;
+    if (!core) most.core = primitive.core;
+    if (!radii) most.radii = primitive.radii;
+    if (most.points.empty()) most.points.push_back(&primitive.points);
+    return most;
+}
+
+// Around one that changes its form. All that is interpolated stays between its keys, but for a turn: then all ways
+// count.
+Box box_of_reshaped(const ImplicitPrimitive& primitive) {
+    const Widest most = widest(primitive);
+    const glm::dmat3 turned = turn(primitive.rotate);
+    Box offsets;
+    double farthest = 0;
+    if (primitive.points.empty()) offsets.add(glm::dvec3(0));
+    for (const auto* points : most.points)
+        for (const glm::dvec3& p : *points) {
+            offsets.add(turned * p);
+            farthest = std::max(farthest, glm::length(p));
+        }
+    glm::dvec3 reach(most.radius + most.core);
+    if (primitive.shape == ImplicitShape::kEllipsoid) {
+        const glm::dvec3 axes = most.radius * most.radii;
+        reach = glm::dvec3(0);
+        for (int i = 0; i < 3; ++i) reach += turned[i] * turned[i] * axes[i] * axes[i];
+        reach = glm::sqrt(reach);
+        if (most.turns) reach = glm::dvec3(std::max({axes.x, axes.y, axes.z}));
+    } else if (most.turns) {
+        reach += farthest;
+        offsets = {};
+        offsets.add(glm::dvec3(0));
+    }
+    Box centers;
+    for (const ImplicitKey& key : primitive.keys)
+        if (key.center) centers.add(*key.center);
+    if (centers.empty()) centers.add(primitive.center);
+    Box box;
+    box.add(centers.min + offsets.min, reach);
+    box.add(centers.max + offsets.max, reach);
+    return box;
+}
+
+}  // namespace
+
 Box box_at_all_times(const ImplicitPrimitive& primitive) {
+    if (std::any_of(primitive.keys.begin(), primitive.keys.end(), is_reshaped))
+        return box_of_reshaped(primitive);
     // Interpolation stays between its keys, so the box of every centre with every radius covers all times.
     ImplicitPrimitive one = primitive;
     one.keys.clear();

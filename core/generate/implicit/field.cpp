@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/common.hpp>
 
 #include "core/scene/limits.h"
@@ -103,6 +104,16 @@ AWAN_INLINE void warp(const ImplicitField& f, const Floats& t, Vec& p) {
     for (const PreparedVortex& v : f.vortices) warp_by_vortex(v, p);
 }
 
+// Where the matter is when nothing is squashed that is seen at p.
+AWAN_INLINE Vec unsquashed(const ImplicitField& f, const Vec& p) {
+    const glm::mat3 m(f.unsquash);
+    const glm::vec3 at(f.squash_at);
+    const Floats x = p.x - at.x, y = p.y - at.y, z = p.z - at.z;
+    return {at.x + (m[0].x * x + m[1].x * y + m[2].x * z),
+            at.y + (m[0].y * x + m[1].y * y + m[2].y * z),
+            at.z + (m[0].z * x + m[1].z * y + m[2].z * z)};
+}
+
 // Mackerel: 1 - depth (1 - s_x s_y s_z), s = (1 + sin(2 pi x / wavelength + turbulence t)) / 2 along each axis that has
 // a wavelength.
 AWAN_INLINE Floats ripples(const ImplicitField& f, const Vec& p, const Floats& t) {
@@ -122,14 +133,16 @@ AWAN_INLINE Floats ripples(const ImplicitField& f, const Vec& p, const Floats& t
 // primitives there give m, and
 //   density = (p1 m (p3 + (1 - p3) t) * ripples * base)^p2,    p1 amount, p2 exponent, p3 blend,
 // cut at limits::kMaxImplicitDensity.
+// Also says m and t.
 AWAN_INLINE Floats density(const ImplicitField& f, const std::uint32_t* list, int count,
-                           const Vec& p) {
+                           const Vec& seen, Floats& m, Floats& t) {
+    const Vec p = f.squashed ? unsquashed(f, seen) : seen;
     const Vec n = in_noise_space(f, p);
-    const Floats t = turbulence(f.octaves, n);
+    t = turbulence(f.octaves, n);
     const Vec moved = displaced(f, p, n, t);
     Vec at = moved;
     if (f.warped) warp(f, t, at);
-    const Floats m = macro_density(f.elements.data(), list, count, at);
+    m = macro_density(f.elements.data(), list, count, at);
     Floats x = f.amount * (m * f.blend + (1.0f - f.blend) * t * m);
     if (f.ripple_depth > 0) x *= ripples(f, p, t);
     if (f.has_base) {
@@ -145,6 +158,22 @@ AWAN_INLINE Floats density(const ImplicitField& f, const std::uint32_t* list, in
     return lanes::min(x, all(static_cast<float>(limits::kMaxImplicitDensity)));
 }
 
+// What the user's formula makes of the density d.
+AWAN_INLINE Floats by_formula(const ImplicitField& f, const Vec& p, const Floats& d,
+                              const Floats& m, const Floats& t) {
+    FormulaPlaces at;
+    const auto put = [](float* to, const Floats& x) __attribute__((always_inline)) {
+        std::memcpy(to, &x, sizeof x);
+    };
+    put(at.x, p.x), put(at.y, p.y), put(at.z, p.z);
+    put(at.density, d), put(at.primitives, m), put(at.turbulence, t);
+    float out[lanes::kCount];
+    run_formula(*f.formula, f.elements.data(), at, out);
+    Floats said;
+    std::memcpy(&said, out, sizeof said);
+    return said;
+}
+
 // The densities of `cells` points from `first` on, `step` apart along x; all in the frame.
 AWAN_INLINE void run_row_body(const ImplicitField& f, const std::uint32_t* list, int count,
                               const glm::dvec3& first, double step, int cells, float* out) {
@@ -152,7 +181,9 @@ AWAN_INLINE void run_row_body(const ImplicitField& f, const std::uint32_t* list,
         Vec p{Floats{}, all(static_cast<float>(first.y)), all(static_cast<float>(first.z))};
         for (int lane = 0; lane < lanes::kCount; ++lane)
             p.x[lane] = static_cast<float>(first.x + step * (begin + lane));
-        const Floats d = density(f, list, count, p);
+        Floats m, t;
+        Floats d = density(f, list, count, p, m, t);
+        if (f.formula != nullptr) d = by_formula(f, p, d, m, t);
         for (int lane = 0; lane < std::min(lanes::kCount, cells - begin); ++lane)
             out[begin + lane] = d[lane];
     }
@@ -166,7 +197,7 @@ AWAN_KERNEL(void, run_row,
 
 void row_densities(const ImplicitField& field, const std::vector<std::uint32_t>& list,
                    const CellRow& row, float* out) {
-    if (list.empty()) {
+    if (list.empty() && field.formula == nullptr) {
         std::fill(out, out + row.count, 0.0f);
         return;
     }

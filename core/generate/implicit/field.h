@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <vector>
 
 #include "core/generate/implicit/elements.h"
+#include "core/generate/implicit/formula_field.h"
 #include "core/generate/implicit/noise.h"
 #include "core/scene/implicit.h"
 
@@ -73,6 +76,13 @@ struct ImplicitField {
     float ripple_depth, ripple_turns;
     bool has_base;
     float base, base_inverse;
+
+    // Squash and stretch: matter seen at p is that of squash_at + unsquash (p - squash_at).
+    bool squashed;
+    glm::dvec3 squash_at;
+    glm::dmat3 unsquash;
+    // None: the density is the model's.
+    std::shared_ptr<const PreparedFormula> formula;
 };
 
 // The field at `time`, seconds, with all its octaves.

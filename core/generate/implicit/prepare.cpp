@@ -8,13 +8,25 @@
 #include "core/base/exact_math.h"
 #include "core/generate/implicit/field.h"
 #include "core/generate/implicit/growth.h"
+#include "core/generate/implicit/keys.h"
+#include "core/generate/implicit/procedures.h"
+#include "core/generate/implicit/squash.h"
 #include "core/generate/keyed_random.h"
 
 namespace awan::implicit {
 namespace {
 
 // What is random in a cloud, each with a key of its own.
-enum Purpose : std::uint64_t { kGrowthKey, kTurbulenceKey, kMovingKey, kPathKey };
+enum Purpose : std::uint64_t {
+    kGrowthKey,
+    kTurbulenceKey,
+    kMovingKey,
+    kPathKey,
+    kFormulaKey,
+    kBubblesKey,
+    kBillowsKey,
+    kCellsKey
+};
 
 // An upper bound, and hardly more, of u f(h(u)) over 0 <= u <= 1, where f rises.
 template <typename F>
@@ -80,8 +92,8 @@ void prepare_warps(const ImplicitCloud& cloud, const ImplicitSettings& s, double
                    const Box& macro, ImplicitField& f) {
     const double share =
         cloud.warp_to > cloud.warp_from
-            ? smoothstep((time - cloud.warp_from) / (cloud.warp_to - cloud.warp_from))
-            : 1.0;
+            ? s.warp * smoothstep((time - cloud.warp_from) / (cloud.warp_to - cloud.warp_from))
+            : s.warp;
     const Frame& frame = f.frame;
     f.jet = glm::vec3(s.jet * share);
     f.jet_turbulence = static_cast<float>(s.jet_turbulence * share);
@@ -109,7 +121,7 @@ void prepare_warps(const ImplicitCloud& cloud, const ImplicitSettings& s, double
                !cloud.attractors.empty() || !cloud.vortices.empty();
 }
 
-// How far back along the jet stream a point is taken: from `low` to `high`, along each axis.
+// How far back along the jet stream a point is taken now: from `low` to `high`, along each axis.
 void jet_range(const ImplicitSettings& s, glm::dvec3& low, glm::dvec3& high) {
     const glm::dvec3 most = s.jet + s.jet_turbulence * glm::dvec3(0.2, 0.3, 0.25);
     low = glm::min(glm::min(s.jet, most), glm::dvec3(0));
@@ -117,7 +129,8 @@ void jet_range(const ImplicitSettings& s, glm::dvec3& low, glm::dvec3& high) {
 }
 
 // Where matter of the macrostructure is seen: the steps of density() (field.cpp) backwards.
-Box seen_box(const ImplicitSettings& s, const Box& macro, const ImplicitField& f) {
+Box seen_box(const ImplicitCloud& cloud, const Box& macro, const ImplicitField& f) {
+    const SettingsReach reach = reach_at_all_times(cloud);
     Box box = macro;
     if (box.empty()) return box;
     for (std::size_t i = f.vortices.size(); i-- > 0;)
@@ -125,12 +138,14 @@ Box seen_box(const ImplicitSettings& s, const Box& macro, const ImplicitField& f
     for (std::size_t i = f.attractors.size(); i-- > 0;)
         box = warped_within(box, f.attractors[i].ball, f.attractors[i].most);
     box = widened(box, f.flow.low, f.flow.high);
-    glm::dvec3 low, high;
-    jet_range(s, low, high);
-    box = widened(box, low, high);
-    box = widened(box, glm::dvec3(-s.displacement), glm::dvec3(s.displacement));
-    if (f.has_base)
-        box.min.y = std::max(box.min.y, static_cast<double>(f.base) - 0.25 * s.displacement);
+    box = widened(box, reach.jet_low, reach.jet_high);
+    box = widened(box, glm::dvec3(-reach.displacement), glm::dvec3(reach.displacement));
+    if (f.has_base) {
+        const double base = (reach.base - f.frame.middle.y) / f.frame.unit;
+        box.min.y = std::max(
+            box.min.y, static_cast<double>(static_cast<float>(base)) - 0.25 * reach.displacement);
+    }
+    if (cloud.squash) box = squashed_at_all_times(*cloud.squash, f.squash_at, box);
     return box;
 }
 
@@ -160,7 +175,7 @@ SwirlPath swirl_path(double frame, bool printed) {
 
 void limit_octaves(const ImplicitCloud& cloud, std::uint64_t key, double time, double cell,
                    ImplicitField& field) {
-    const ImplicitSettings s = resolved(cloud);
+    const ImplicitSettings s = settings_at(cloud, time);
     const SwirlPath path = swirl_path(time * cloud.swirl, cloud.printed_swirl);
     const double cells = cell / (s.mean_radius * s.noise_size);
     const auto octaves = [&](Purpose purpose) {
@@ -171,21 +186,90 @@ void limit_octaves(const ImplicitCloud& cloud, std::uint64_t key, double time, d
     field.moving = octaves(kMovingKey);
 }
 
+namespace {
+
+// All that primitives are made of, at one time and in a box around all times.
+class Macrostructure {
+  public:
+    Macrostructure(const ImplicitCloud& cloud, const ImplicitSettings& s, std::uint64_t key)
+        : cloud_(cloud), key_(key), primitives_(s.primitives) {
+        const std::vector<ImplicitPrimitive> driven = primitives_of(cloud.particles);
+        primitives_.insert(primitives_.end(), driven.begin(), driven.end());
+        for (const ImplicitPrimitive& primitive : primitives_) box.add(box_at_all_times(primitive));
+        if (cloud.growth) box.add(growth_box(*cloud.growth, keyed(key, kGrowthKey)));
+        if (cloud.bubbles) box.add(bubbles_box(*cloud.bubbles));
+        if (cloud.billows) {
+            sheet_ = rolled_sheet(cloud.billows->amplitude, cloud.billows->smoothing);
+            box.add(billows_box(*cloud.billows, sheet_));
+        }
+        if (cloud.cells) box.add(cells_box(*cloud.cells));
+    }
+
+    // Units.
+    Box box;
+
+    void add_at(double time, const Frame& frame, std::vector<Element>& elements) const {
+        for (const ImplicitPrimitive& primitive : primitives_)
+            add_elements(primitive, !cloud_.linear_keys, time, frame, elements);
+        if (cloud_.growth)
+            for (const GrownParticle& particle :
+                 grown(*cloud_.growth, keyed(key_, kGrowthKey), time))
+                elements.push_back(element_of(particle, *cloud_.growth, frame));
+        const auto add = [&](const std::vector<Puff>& puffs) {
+            for (const Puff& puff : puffs)
+                elements.push_back(sphere_element(puff.center, puff.radius, puff.weight, frame));
+        };
+        if (cloud_.bubbles) add(bubbles_at(*cloud_.bubbles, keyed(key_, kBubblesKey), time));
+        if (cloud_.billows)
+            add_billows(*cloud_.billows, sheet_, keyed(key_, kBillowsKey), time, frame, elements);
+        if (cloud_.cells) add(cells_at(*cloud_.cells, keyed(key_, kCellsKey), time));
+    }
+
+  private:
+    const ImplicitCloud& cloud_;
+    std::uint64_t key_;
+    std::vector<ImplicitPrimitive> primitives_;
+    std::vector<SheetLine> sheet_;
+};
+
+void prepare_squash(const ImplicitCloud& cloud, double time, ImplicitField& f) {
+    f.unsquash = glm::dmat3(1);
+    if (!cloud.squash) return;
+    const double amount = squash_amount(*cloud.squash, !cloud.linear_keys, time);
+    f.squashed = true;
+    f.squash_at = (cloud.squash->at - f.frame.middle) / f.frame.unit;
+    f.unsquash = stretched_along(cloud.squash->axis, 1 / amount);
+}
+
+// A formula that does not read has been refused by validate().
+void prepare_formula(const ImplicitCloud& cloud, std::uint64_t key, double time, ImplicitField& f) {
+    if (!cloud.formula) return;
+    auto read = parse_formula(*cloud.formula, "");
+    if (!read) return;
+    auto made = std::make_shared<PreparedFormula>();
+    made->formula = *std::move(read);
+    const std::uint64_t own = keyed(key, kFormulaKey);
+    made->octaves = octaves_of(own, kMostOctaves, 0.5, 0, 0, 0, 0);
+    made->time = static_cast<float>(time);
+    made->seed = static_cast<float>(unit_open(static_cast<std::uint32_t>(own >> 32)));
+    made->floor = f.jet_floor;
+    made->slope = f.jet_slope;
+    made->unit = static_cast<float>(f.frame.unit);
+    made->middle = glm::vec3(f.frame.middle);
+    for (std::uint32_t i = 0; i < f.elements.size(); ++i) made->every.push_back(i);
+    f.formula = std::move(made);
+}
+
+}  // namespace
+
 ImplicitField prepare_field(const ImplicitCloud& cloud, std::uint64_t key, double time) {
-    const ImplicitSettings s = resolved(cloud);
-    const std::uint64_t growth_key = keyed(key, kGrowthKey);
+    const ImplicitSettings s = settings_at(cloud, time);
     ImplicitField f{};
-    Box all;
-    for (const ImplicitPrimitive& primitive : s.primitives) all.add(box_at_all_times(primitive));
-    if (cloud.growth) all.add(growth_box(*cloud.growth, growth_key));
+    const Macrostructure macrostructure(cloud, s, key);
+    const Box& all = macrostructure.box;
     f.frame.unit = s.mean_radius;
     if (!all.empty()) f.frame.middle = (all.min + all.max) / 2.0;
-
-    for (const ImplicitPrimitive& primitive : s.primitives)
-        add_elements(primitive, !cloud.linear_keys, time, f.frame, f.elements);
-    if (cloud.growth)
-        for (const GrownParticle& particle : grown(*cloud.growth, growth_key, time))
-            f.elements.push_back(element_of(particle, *cloud.growth, f.frame));
+    macrostructure.add_at(time, f.frame, f.elements);
 
     f.amount = static_cast<float>(s.amount);
     f.exponent = static_cast<float>(s.exponent);
@@ -206,7 +290,9 @@ ImplicitField prepare_field(const ImplicitCloud& cloud, std::uint64_t key, doubl
     f.has_base = s.base.has_value();
     f.base_inverse = 5;
     if (s.base) f.base = static_cast<float>((*s.base - f.frame.middle.y) / f.frame.unit);
-    f.box = seen_box(s, macro, f);
+    prepare_squash(cloud, time, f);
+    prepare_formula(cloud, key, time, f);
+    f.box = seen_box(cloud, macro, f);
     return f;
 }
 
@@ -219,6 +305,7 @@ Box box_of(const ImplicitField& field) {
 std::vector<std::uint32_t> elements_near(const ImplicitField& field, const Box& box) {
     const Frame& frame = field.frame;
     Box at{(box.min - frame.middle) / frame.unit, (box.max - frame.middle) / frame.unit};
+    if (field.squashed) at = mapped(field.unsquash, field.squash_at, at);
     const auto most = static_cast<double>(field.displacement);
     at = widened(at, glm::dvec3(-most), glm::dvec3(most));
     if (field.warped) {

@@ -1,0 +1,239 @@
+// Keys of every parameter, squash and stretch, and particles that are moved elsewhere.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "core/base/deadline.h"
+#include "core/generate/implicit/field.h"
+#include "core/generate/implicit/sampling.h"
+#include "tests/implicit_clouds.h"
+
+namespace awan {
+namespace {
+
+using implicit::box_of;
+using implicit::prepare_field;
+using test::all_over;
+using test::ball;
+using test::bare;
+using test::density;
+using test::printed_cubic;
+using test::skeleton;
+
+ImplicitKey key_at(double time) {
+    ImplicitKey key;
+    key.time = time;
+    return key;
+}
+
+// The integral of the density over all of the cloud.
+double mass_of(const ImplicitCloud& cloud, double time, std::uint64_t resolution = 72) {
+    const implicit::ImplicitField field = prepare_field(cloud, test::kKey, time);
+    LatticeField lattice = implicit::lattice_over(field, resolution);
+    EXPECT_FALSE(implicit::sample(field, 1, Deadline(), lattice));
+    double sum = 0;
+    for (const float value : lattice.values) sum += static_cast<double>(value);
+    return sum * std::pow(lattice.cell, 3);
+}
+
+// The clouds at times between keys are those that were described so.
+void expect_same(const ImplicitCloud& keyed, double time, const ImplicitCloud& plain,
+                 double tolerance = 2e-6) {
+    int inside = 0;
+    all_over({0, 0.5, 0}, 2, 1500, [&](glm::dvec3 p) {
+        const double expected = density(plain, p);
+        EXPECT_NEAR(density(keyed, p, time), expected, tolerance);
+        inside += expected > 0 ? 1 : 0;
+    });
+    EXPECT_GT(inside, 10);
+}
+
+TEST(EveryKey, RadiiOfAnEllipsoid) {
+    ImplicitPrimitive e = ball({0, 0.5, 0}, 1);
+    e.shape = ImplicitShape::kEllipsoid;
+    e.keys = {key_at(0), key_at(2)};
+    e.keys[0].radii = glm::dvec3(1, 1, 1);
+    e.keys[1].radii = glm::dvec3(2, 0.5, 1);
+    ImplicitCloud cloud = bare({e});
+    cloud.linear_keys = true;
+    e.keys.clear();
+    e.radii = {1.5, 0.75, 1};
+    expect_same(cloud, 1, bare({e}));
+    e.radii = {2, 0.5, 1};
+    expect_same(cloud, 7, bare({e}));
+}
+
+TEST(EveryKey, EndsOfACylinderItsCoreAndItsTurn) {
+    ImplicitPrimitive c = skeleton(ImplicitShape::kCylinder, {{-1, 0, 0}, {1, 0, 0}}, 0.6, 0.2);
+    c.keys = {key_at(0), key_at(4)};
+    c.keys[0].points = {{-1, 0, 0}, {1, 0, 0}};
+    c.keys[1].points = {{-2, 0, 0}, {1, 1, 0}};
+    c.keys[0].core = 0.2;
+    c.keys[1].core = 0.6;
+    c.keys[1].rotate = glm::dvec3(0, 0, 90);
+    c.keys[0].rotate = glm::dvec3(0, 0, 0);
+    ImplicitCloud cloud = bare({c});
+    cloud.linear_keys = true;
+    c.keys.clear();
+    c.points = {{-1.25, 0, 0}, {1, 0.25, 0}};
+    c.core = 0.3;
+    c.rotate = {0, 0, 22.5};
+    expect_same(cloud, 1, bare({c}), 5e-6);
+    // Ease-in and ease-out: a quarter of the time is 5/32 of the way.
+    cloud.linear_keys = false;
+    const double t = 0.25 * 0.25 * (3 - 0.5);
+    c.points = {{-1 - t, 0, 0}, {1, t, 0}};
+    c.core = 0.2 + 0.4 * t;
+    c.rotate = {0, 0, 90 * t};
+    expect_same(cloud, 1, bare({c}), 5e-6);
+}
+
+TEST(EveryKey, PointsOfASkeleton) {
+    ImplicitPrimitive s =
+        skeleton(ImplicitShape::kSegment, {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}}, 0.5);
+    s.keys = {key_at(0), key_at(2)};
+    s.keys[0].points = {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}};
+    s.keys[1].points = {{-1, 0, 0}, {0, 2, 0}, {1, 0, 0}};
+    ImplicitCloud cloud = bare({s});
+    cloud.linear_keys = true;
+    s.keys.clear();
+    s.points[1] = {0, 1, 0};
+    expect_same(cloud, 1, bare({s}));
+}
+
+// Nothing of a cloud is outside its box, at no time, whatever its keys change.
+TEST(EveryKey, TheBoxHoldsAllTimes) {
+    ImplicitPrimitive e = ball({0, 0, 0}, 1);
+    e.shape = ImplicitShape::kEllipsoid;
+    e.keys = {key_at(0), key_at(1), key_at(2)};
+    e.keys[0].radii = glm::dvec3(2, 0.3, 1);
+    e.keys[1].radii = glm::dvec3(0.3, 1.5, 1);
+    e.keys[2].rotate = glm::dvec3(40, 200, 90);
+    e.keys[1].center = glm::dvec3(1, 0, 0);
+    ImplicitPrimitive s = skeleton(ImplicitShape::kSegment, {{-1, 0, 0}, {1, 0, 0}}, 0.5);
+    s.keys = {key_at(0), key_at(2)};
+    s.keys[0].points = {{-1, 0, 0}, {1, 2, 0}};
+    s.keys[1].points = {{-1, -3, 0}, {2, 0, 0}};
+    s.keys[1].core = 0.8;
+    for (const bool turned : {false, true}) {
+        if (turned) s.keys[0].rotate = glm::dvec3(0, 0, 120);
+        ImplicitCloud cloud = bare({e, s});
+        cloud.displacement = 0.3;
+        cloud.keys.resize(2);
+        cloud.keys[1].time = 2;
+        cloud.keys[1].displacement = 1;
+        cloud.keys[0].displacement = 0;
+        cloud.keys[1].jet = glm::dvec3(2, 0, 0);
+        cloud.keys[0].jet = glm::dvec3(0, 0, -1);
+        cloud.squash = ImplicitSquash{{0.3, 0, 0}, {0.3, 1, 0.2}, 1, {{0, 0.5}, {1, 2}}};
+        const implicit::Box box = box_of(prepare_field(cloud, test::kKey, 0));
+        int inside = 0;
+        for (const double time : {-1.0, 0.0, 0.4, 1.0, 1.5, 2.0}) {
+            const implicit::ImplicitField field = prepare_field(cloud, test::kKey, time);
+            EXPECT_EQ(box_of(field).min, box.min);
+            EXPECT_EQ(box_of(field).max, box.max);
+            all_over({0, 0, 0}, 9, 4000, [&](glm::dvec3 p) {
+                if (implicit::density_at(field, p) <= 0) return;
+                ++inside;
+                for (int i = 0; i < 3; ++i) {
+                    EXPECT_GE(p[i], box.min[i] - 1e-4);
+                    EXPECT_LE(p[i], box.max[i] + 1e-4);
+                }
+                // And what is near a place is found from it.
+                implicit::Box here;
+                here.add(p);
+                float one = 0;
+                implicit::row_densities(field, implicit::elements_near(field, here), {p, 0, 1},
+                                        &one);
+                EXPECT_NEAR(static_cast<double>(one), implicit::density_at(field, p), 1e-6);
+            });
+        }
+        EXPECT_GT(inside, 50);
+    }
+}
+
+TEST(EveryKey, OfTheCloudItself) {
+    ImplicitCloud cloud = bare({ball({0, 0.5, 0}, 1.5), ball({1, 1, 0}, 1)});
+    cloud.linear_keys = true;
+    ImplicitCloudKey first, last;
+    last.time = 2;
+    first.amount = 1, last.amount = 2;
+    first.exponent = 1, last.exponent = 2;
+    first.blend = 1, last.blend = 0.5;
+    first.displacement = 0, last.displacement = 0.4;
+    last.jet = glm::dvec3(1, 0, 0), first.jet = glm::dvec3(0);
+    first.stretch = 1, last.stretch = 3;
+    first.warp = 0.5, last.warp = 0.5;
+    cloud.keys = {first, last};
+    ImplicitCloud half = cloud;
+    half.keys.clear();
+    half.amount = 1.5, half.exponent = 1.5, half.blend = 0.75, half.displacement = 0.2;
+    half.jet = glm::dvec3(0.25, 0, 0);  // by half
+    half.stretch = 2;
+    half.swirl = cloud.swirl = 0;
+    all_over({0, 0.5, 0}, 2, 500,
+             [&](glm::dvec3 p) { EXPECT_NEAR(density(cloud, p, 1), density(half, p, 1), 1e-5); });
+    cloud.keys[0].base = -1, cloud.keys[1].base = 1;
+    half.base = 0;
+    all_over({0, 0.5, 0}, 2, 500,
+             [&](glm::dvec3 p) { EXPECT_NEAR(density(cloud, p, 1), density(half, p, 1), 1e-5); });
+}
+
+// Squash and stretch keeps the volume, at every time, with all that the cloud has.
+TEST(Squash, KeepsTheMass) {
+    ImplicitCloud cloud = bare({ball({0, 0, 0}, 1), ball({0.8, 0.4, 0}, 0.8)});
+    cloud.displacement = 0.3;
+    cloud.swirl = 0;
+    const double usual = mass_of(cloud, 0);
+    cloud.squash = ImplicitSquash{{0, 0.2, 0}, {0.2, 1, 0}, 1, {{0, 0.5}, {1, 1}, {2, 2.5}}};
+    for (const double time : {0.0, 0.3, 1.0, 1.7, 2.0})
+        EXPECT_NEAR(mass_of(cloud, time), usual, 0.01 * usual) << time;
+    // An ellipsoid whose semi-axes' product stays keeps it too, at its keys.
+    ImplicitPrimitive e = ball({0, 0, 0}, 1);
+    e.shape = ImplicitShape::kEllipsoid;
+    e.keys = {key_at(0), key_at(1)};
+    e.keys[0].radii = glm::dvec3(1);
+    e.keys[1].radii = glm::dvec3(1 / std::sqrt(2.0), 2, 1 / std::sqrt(2.0));
+    const ImplicitCloud stretched = bare({e});
+    // Of a sphere: 4 pi R^3 times the integral of the cubic and a^2 from 0 to 1.
+    const double sphere = 4 * std::numbers::pi * (1. / 3 - 22. / 45 + 17. / 63 - 4. / 81);
+    EXPECT_NEAR(mass_of(stretched, 0), sphere, 0.01 * sphere);
+    EXPECT_NEAR(mass_of(stretched, 1), sphere, 0.01 * sphere);
+}
+
+TEST(Squash, IsLongerAlongItsAxisAndNarrowerAcross) {
+    ImplicitCloud cloud = bare({ball({0, 0, 0}, 1)});
+    cloud.squash = ImplicitSquash{{0, 0, 0}, {0, 2, 0}, 4, {}};
+    for (const double a : {0.2, 0.5, 0.9}) {
+        EXPECT_NEAR(density(cloud, {0, 4 * a, 0}), printed_cubic(a), 1e-6);
+        EXPECT_NEAR(density(cloud, {0.5 * a, 0, 0}), printed_cubic(a), 1e-6);
+        EXPECT_NEAR(density(cloud, {0, 0, 0.5 * a}), printed_cubic(a), 1e-6);
+    }
+    // About its place, which stays.
+    cloud.squash->at = {0, 1, 0};
+    EXPECT_NEAR(density(cloud, {0, -3, 0}), 1, 1e-6);
+}
+
+// A table's particles: spheres where the rows say, between them in between; born from nothing, and at rest after.
+TEST(Table, MovesSpheres) {
+    ImplicitCloud cloud = bare({});
+    cloud.primitives.reset();
+    cloud.linear_keys = true;
+    cloud.particles = {
+        {2, 7, {4, 0, 0}, 1, 1}, {0, 7, {0, 0, 0}, 1, 1}, {1, 3, {0, 3, 0}, 0.5, 0.8}};
+    EXPECT_NEAR(density(cloud, {0, 0, 0}, 0), 1, 1e-6);
+    EXPECT_NEAR(density(cloud, {2, 0, 0}, 1), 1, 1e-6);
+    EXPECT_NEAR(density(cloud, {2.5, 0, 0}, 1), printed_cubic(0.5), 1e-5);
+    EXPECT_NEAR(density(cloud, {4, 0, 0}, 99), 1, 1e-6);  // dormant, not dead
+    // Number 3 is not there at 0, half there at .5, there from 1 on.
+    EXPECT_EQ(density(cloud, {0, 3, 0}, 0), 0);
+    EXPECT_NEAR(density(cloud, {0, 3, 0}, 0.5), 0.4, 1e-6);
+    EXPECT_NEAR(density(cloud, {0, 3, 0}, 1), 0.8, 1e-6);
+    EXPECT_NEAR(density(cloud, {0, 3, 0}, 9), 0.8, 1e-6);
+}
+
+}  // namespace
+}  // namespace awan
