@@ -98,7 +98,8 @@ std::string layers_schema() {
 std::string text_schema(const Field& field) {
     if (std::string_view(field.name) == "rung") return reference("Rung");
     if (std::string_view(field.name) == "layers") return layers_schema();
-    if (std::string_view(field.name) == "texture") return reference("TextureName");
+    if (std::string_view(field.name) == "texture" || std::string_view(field.name) == "map")
+        return reference("TextureName");
     return R"({"type":"string","maxLength":)" + std::to_string(limits::kMaxString) + '}';
 }
 
