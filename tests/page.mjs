@@ -167,11 +167,14 @@ const tests = {
       await switches[switches.length - 1].check();
       await group(page, title).getByLabel(field).fill(String(value));
     }
+    await group(page, "Ground").getByLabel("Hills on it").check();
+    await group(page, "Ground").getByLabel("Hills’ height, number").fill("4");
     await settled(page);
     const { ground, haze, detail, sky: gradient, sun: light } = sent();
     assert.deepEqual(gradient, { model: "gradient", turbidity: 5 }, "in the same air");
     assert.deepEqual(light.color, [1, 1, 1]);
     assert.deepEqual([ground.height, haze.extinction, detail.amount], [-9, 0.02, 0.25]);
+    assert.equal(ground.terrain.height, 4);
     assert.ok(haze.scale_height > 0);
     for (const box of switches) await box.uncheck();
     for (const title of ["Ground", "Haze", "Detail"]) await group(page, title).locator("summary").click();

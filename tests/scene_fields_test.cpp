@@ -108,7 +108,8 @@ const char* const kDocuments[] = {
 "medium": {"albedo": 0.95, "g": 0.7, "phase": "cornette-shanks"},
 "sun": {"elevation": 30, "azimuth": 40, "color": [0.9, 0.8, 0.7], "intensity": 8},
 "sky": {"model": "gradient", "zenith": [0.1, 0.2, 0.3], "horizon": [0.4, 0.5, 0.6], "intensity": 0.9},
-"ground": {"height": -30, "albedo": [0.1, 0.2, 0.3]},
+"ground": {"height": -30, "albedo": [0.1, 0.2, 0.3], "terrain": {"height": 3, "extent": 90, "center": [1, 2, 3],
+           "size": 12, "roughness": 0.3, "level": 0.2, "seed": 4, "rock": [0.2, 0.1, 0.1], "snow": 2}},
 "haze": {"extinction": 0.001, "height": -20, "scale_height": 80, "albedo": [0.9, 0.8, 0.7], "g": 0.5},
 "detail": {"amount": 0.6, "size": 1.25},
 "camera": {"eye": [1, 2, 90], "target": [0, 1, 2], "up": [0.1, 1, 0.05], "fov": 35},
@@ -116,7 +117,7 @@ const char* const kDocuments[] = {
           "precision": "float", "tone": "reinhard"},
 "effects": {"self_shadow": true, "multiple_scattering": false, "view_extinction": true, "sky_light": false,
             "ground_light": true, "ground_shadow": false, "sun_color": true, "aerial_perspective": false,
-            "light_shafts": true, "detail": false, "interior": false, "texture": false},
+            "light_shafts": true, "detail": false, "interior": false, "texture": false, "terrain": true},
 "accuracy": {"error": 0.05}
 })",
     R"({
@@ -127,7 +128,8 @@ const char* const kDocuments[] = {
 "sun": {"direction": [0.3, 0.5, 0.4], "color": "auto", "disc": "off"},
 "medium": {"phase": "mie", "droplet": 11},
 "sky": {"model": "physical", "daylight": "preetham", "turbidity": 3, "intensity": 0.7},
-"ground": {"albedo": 0.4}, "haze": {"extinction": 0.01, "scale_height": 20, "albedo": 0.8},
+"ground": {"albedo": 0.4, "terrain": {"height": 4, "map": "puff"}},
+"haze": {"extinction": 0.01, "scale_height": 20, "albedo": 0.8},
 "image": {"exposure": "auto", "layers": "depth,sun"}, "accuracy": {"time_ms": 200}
 })",
     R"({
@@ -219,7 +221,7 @@ const char* const kPictureOnly[] = {
     "/sun/disc",     "/camera",  "/image",   "/haze",    "/accuracy",       "/look",
     "/sequence",     "/effects", "/display", "/texture", "/clouds/texture", "/clouds/cubes/texture",
     "/cubes/texture"};
-const char* const kLightToo[] = {"/effects/sun_color", "/sequence/clouds"};
+const char* const kLightToo[] = {"/effects/sun_color", "/effects/terrain", "/sequence/clouds"};
 
 bool begins(const std::string& path, const char* with) {
     const std::string beginning = with;

@@ -59,6 +59,38 @@ TEST_F(TextureRoutes, OwnTexturesAreListedAndShown) {
     expect_problem(get("/v1/textures/mine"), 404);
 }
 
+// A square whose luminance rises from left to right, its alpha 1 all over.
+std::string rising() {
+    Image image{16, 16, false, {}};
+    for (int i = 0; i < 16 * 16; ++i) {
+        const float one = static_cast<float>(i % 16) / 15;
+        image.pixels.insert(image.pixels.end(), {one, one, one, 1.0F});
+    }
+    return encode_png(image, {0, Tone::kNeutral}).value();
+}
+
+TEST_F(TextureRoutes, OneThatIsPutIsAHeightMap) {
+    const auto over = [](const std::string& map) {
+        return R"({"cubes":[{"particles":20,"size":[2,1,2],"center":[0,4,0],"radius":0.5}],)"
+               R"("ground":{"terrain":{"height":3,"extent":40,"map":")" +
+               map +
+               R"("}},"camera":{"eye":[0,6,15],"target":[0,1,0]},"image":{"width":24,"height":16},"accuracy":{"rung":"transport-16"}})";
+    };
+    expect_problem(post("/v1/plan", over("slope")), 422, "/ground/terrain/map");
+    const Response put = ask("PUT", "slope", rising());
+    ASSERT_EQ(put.status, 201) << put.body;
+    const Response plan = post("/v1/plan", over("slope"));
+    EXPECT_EQ(plan.status, 200) << plan.body;
+    EXPECT_NE(plan.body.find("the ground has hills"), std::string::npos);
+    const Response first = post("/v1/render", over("slope"));
+    EXPECT_EQ(first.status, 200) << first.body;
+    // Though its alpha, which makes a texture, is the same everywhere, its heights are not.
+    const Response level = post("/v1/render", over("hard"));
+    EXPECT_NE(first.header("ETag"), level.header("ETag"));
+    EXPECT_EQ(post("/v1/render", over(member(put.body, "hash"))).header("ETag"),
+              first.header("ETag"));
+}
+
 TEST_F(TextureRoutes, OneIsPutUsedReplacedAndDeleted) {
     expect_problem(post("/v1/plan", painted("mine")), 422, "/cubes/0/texture");
     const Response put = ask("PUT", "mine", picture(0.5f));

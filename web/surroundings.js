@@ -1,12 +1,16 @@
 // The groups for what surrounds the clouds or is finer than they: ground, haze, detail. Each is "none" or an object.
 
+import * as api from "./api.js";
 import { checkbox, slider } from "./controls.js";
-import { at } from "./document.js";
+import { at, withAt } from "./document.js";
+import { el } from "./dom.js";
 import { fieldAt, standardAt } from "./schema.js";
+import { nameOf } from "./textures.js";
 
 // `fresh`: what it is when it is first switched on. Its fields write whole objects, so that what is required is there.
 // What is there by itself ("auto") is switched off by the word "none".
-function optional(store, { title, pointer, label, fresh = {}, sliders }) {
+// `within`: the scene with the object that this one is in, if it is in one.
+function optional(store, { title, pointer, label, fresh = {}, sliders, within = (scene) => scene }) {
   const now = () => {
     const value = at(store.scene, pointer);
     return value !== null && typeof value === "object" ? value : null;
@@ -19,7 +23,8 @@ function optional(store, { title, pointer, label, fresh = {}, sliders }) {
       label, pointer, get: isOn,
       set: (on) => {
         if (!on) kept = now() ?? kept;
-        store.set(pointer, on ? kept : byItself ? "none" : undefined);
+        if (on && within(store.scene) !== store.scene) store.update((scene) => withAt(within(scene), pointer, kept));
+        else store.set(pointer, on ? kept : byItself ? "none" : undefined);
       },
     }),
     ...sliders.map(({ member, ...spec }) => slider(store, {
@@ -30,7 +35,7 @@ function optional(store, { title, pointer, label, fresh = {}, sliders }) {
         return Array.isArray(value) ? Number(((value[0] + value[1] + value[2]) / 3).toFixed(4)) : value;
       },
       set: (value, options) => store.update(
-        (scene) => ({ ...scene, [pointer.slice(1)]: { ...(now() ?? kept ?? {}), [member]: value } }),
+        (scene) => withAt(within(scene), pointer, { ...(now() ?? kept ?? {}), [member]: value }),
         { key: `${pointer}/${member}`, ...options }),
     })),
   ];
@@ -39,10 +44,51 @@ function optional(store, { title, pointer, label, fresh = {}, sliders }) {
 
 const albedo = { label: "Albedo", member: "albedo", step: 0.01 };
 
-export const groundPanel = (store) => optional(store, {
-  title: "Ground", pointer: "/ground", label: "A level ground", fresh: { height: -6 },
-  sliders: [{ label: "Level", member: "height", min: -50, max: 10, step: 0.1 }, albedo],
-});
+const FRESH_GROUND = { height: -6 };
+
+// Hills are made by seed, or by a picture of the user's.
+export function groundPanel(store) {
+  const ground = optional(store, {
+    title: "Ground", pointer: "/ground", label: "A level ground", fresh: FRESH_GROUND,
+    sliders: [{ label: "Level", member: "height", min: -50, max: 10, step: 0.1 }, albedo],
+  });
+  const pointer = "/ground/terrain";
+  const hills = optional(store, {
+    title: "Hills", pointer, label: "Hills on it", fresh: { height: 5 },
+    within: (scene) => (typeof (at(scene, "/ground") ?? "none") !== "object" ? withAt(scene, "/ground", FRESH_GROUND) : scene),
+    sliders: [
+      { label: "Hills’ height", member: "height", min: 0.1, max: 100, log: true },
+      { label: "Extent", member: "extent", min: 10, max: 1000, log: true },
+      { label: "From hill to hill", member: "size", min: 1, max: 200, log: true },
+      { label: "Roughness", member: "roughness", step: 0.01 },
+      { label: "Below the plain", member: "level", step: 0.01 },
+      { label: "Hills’ seed", member: "seed", min: 0, max: 99, step: 1 },
+    ],
+  });
+  return { ...ground, fields: [...ground.fields, ...hills.fields], tail: [heightMap(store, `${pointer}/map`)] };
+}
+
+// A picture as height map, sent to the service, which has it by name from then on.
+function heightMap(store, pointer) {
+  const input = el("input", { type: "file", accept: "image/*,.exr,.tif,.tiff", hidden: true, "aria-label": "Height map to use" });
+  const button = el("button", { type: "button", onclick: () => input.click() }, "A height map of your own…");
+  input.addEventListener("change", async () => {
+    const [file] = input.files;
+    input.value = "";
+    if (!file) return;
+    try {
+      const { name } = await api.putTexture(nameOf(file), file);
+      store.update((scene) => {
+        const ground = at(scene, "/ground"), given = ground !== null && typeof ground === "object" ? ground : FRESH_GROUND;
+        const hills = given.terrain !== null && typeof given.terrain === "object" ? given.terrain : { height: 5 };
+        return withAt(scene, "/ground", { ...given, terrain: { ...hills, map: name } });
+      });
+    } catch ({ message }) {
+      button.dispatchEvent(new CustomEvent("wrongnumber", { bubbles: true, detail: { pointer, message } }));
+    }
+  });
+  return el("div", {}, button, input);
+}
 
 export const hazePanel = (store) => optional(store, {
   title: "Haze", pointer: "/haze", label: "Hazy air", fresh: { extinction: 0.01, height: -6, scale_height: 10 },

@@ -7,7 +7,7 @@ import { el } from "./dom.js";
 import { fieldAt } from "./schema.js";
 
 // A name as the service takes it, from that of a file.
-const nameOf = (file) => file.name.replace(/\.[^.]*$/, "").replace(/[^A-Za-z0-9._-]+/g, "-").replace(/^[^A-Za-z0-9]+/, "").slice(0, 64) || "texture";
+export const nameOf = (file) => file.name.replace(/\.[^.]*$/, "").replace(/[^A-Za-z0-9._-]+/g, "-").replace(/^[^A-Za-z0-9]+/, "").slice(0, 64) || "texture";
 
 function texture(store) {
   const pointer = "/texture";

@@ -44,18 +44,27 @@ void put_air_behind(const Air& air, const Backdrop* backdrop, Image& image) {
             const double x = i + 0.5, y = j + 0.5;
             const glm::dvec3 d =
                 glm::normalize(picture.corner + x * picture.per_x + y * picture.per_y);
-            const AirBefore before = whole_air(air, d.y, x, y);
+            AirBefore before = whole_air(air, d.y, x, y);
+            double seen = 1 - before.opacity;
+            if (backdrop != nullptr && !backdrop->opacity.empty()) {
+                const std::size_t at =
+                    static_cast<std::size_t>(j) * static_cast<std::size_t>(image.width) +
+                    static_cast<std::size_t>(i);
+                before = {static_cast<double>(backdrop->opacity[at]),
+                          static_cast<double>(backdrop->lost[at])};
+                seen = 1;
+            }
             const double left = 1 - static_cast<double>(pixel[3]), clear = 1 - before.opacity;
             glm::dvec3 light = in_scattering(air, d, before);
-            if (backdrop != nullptr) {
+            if (backdrop != nullptr && image.opaque) {
                 const std::size_t at =
                     3 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(image.width) +
                          static_cast<std::size_t>(i));
                 const float* const rgb = backdrop->rgb.data() + at;
-                for (int c = 0; c < 3; ++c) light[c] += clear * static_cast<double>(rgb[c]);
+                for (int c = 0; c < 3; ++c) light[c] += seen * static_cast<double>(rgb[c]);
             }
             for (int c = 0; c < 3; ++c) pixel[c] += static_cast<float>(left * light[c]);
-            pixel[3] = backdrop != nullptr ? 1.0f : static_cast<float>(1 - left * clear);
+            pixel[3] = image.opaque ? 1.0f : static_cast<float>(1 - left * clear);
         }
 }
 

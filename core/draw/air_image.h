@@ -13,7 +13,8 @@ namespace awan {
 void see_through_air(const Air& air, const View& view, const glm::dvec3& q, Splat& splat);
 
 // Puts what is behind the clouds, seen through the haze, under a picture of clouds alone (premultiplied). backdrop: of
-// the picture's size; alpha becomes 1. Null: nothing is behind; alpha becomes 1 - the transmittance of clouds and haze.
+// the picture's size; alpha becomes 1, if the picture is opaque. Null: nothing is behind. Else
+// alpha becomes 1 - the transmittance of clouds and haze.
 void put_air_behind(const Air& air, const Backdrop* backdrop, Image& image);
 
 }  // namespace awan

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/parallel.h"
+#include "core/draw/hills_backdrop.h"
 #include "core/survey/ground_view.h"
 
 namespace awan {
@@ -22,7 +23,14 @@ bool wants_backdrop(const Scene& scene, const View& view) {
 }
 
 Backdrop make_backdrop(const Scene& scene, const View& view, int width, int height,
-                       const GroundLight& ground, int threads) {
+                       const GroundLight& ground, int threads, const Air* air,
+                       const ReliefLight* hills) {
+    if (ground.relief) {
+        if (hills != nullptr)
+            return hills_backdrop(scene, view, width, height, ground, hills, air, threads);
+        const ReliefLight light = relief_light(scene, ground, threads);
+        return hills_backdrop(scene, view, width, height, ground, &light, air, threads);
+    }
     Backdrop backdrop;
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     backdrop.width = width;
@@ -62,7 +70,8 @@ void lay_under(Image& picture, const Backdrop& backdrop) {
 }
 
 bool matter_below_ground(const Scene& scene, const View& view, const ParticleSet& particles) {
-    return above_ground(scene, view) && reaches_below(particles, scene->ground->height);
+    return above_ground(scene, view) &&
+           (has_terrain(*scene) || reaches_below(particles, scene->ground->height));
 }
 
 }  // namespace awan

@@ -5,9 +5,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 
 #include "core/base/exact_math.h"
 #include "core/base/parallel.h"
+#include "core/draw/hills_backdrop.h"
 #include "core/light/legendre.h"
 #include "core/scene/outside.h"
 #include "core/survey/projection.h"
@@ -59,13 +61,16 @@ double share_within(const std::vector<double>& kept, double angle) {
 class Around {
   public:
     Around(const Scene& scene, const SkyDome& sky, const View& view, const GroundLight& ground,
-           const std::vector<Ring>& rings, bool from_sky, bool from_ground)
+           const std::vector<Ring>& rings, bool from_sky, bool from_ground,
+           const ReliefLight* hills)
         : eye_(view.eye),
           ground_(ground),
           sky_(sky),
           grounded_(scene->ground && view.eye.y > scene->ground->height),
           from_sky_(from_sky),
           from_ground_(from_ground) {
+        if (hills != nullptr && ground.relief && grounded_)
+            hills_.emplace(scene, view, ground, hills);
         double turn = 0;
         for (const Ring& ring : rings) {
             for (int s = 0; s < kSpokes; ++s) {
@@ -87,6 +92,11 @@ class Around {
 
   private:
     glm::dvec3 radiance(const glm::dvec3& d) const {
+        if (hills_) {
+            const double distance = hills_->ahead(d);
+            const bool wanted = std::isinf(distance) ? from_sky_ : from_ground_;
+            return wanted ? hills_->radiance(d, distance) : glm::dvec3(0);
+        }
         if (!grounded_ || !(d.y < 0)) return from_sky_ ? sky_radiance(sky_, d) : glm::dvec3(0);
         if (!from_ground_) return glm::dvec3(0);
         const double distance = (ground_.height - eye_.y) / d.y;
@@ -96,6 +106,7 @@ class Around {
     const GroundLight& ground_;
     const SkyDome& sky_;
     bool grounded_, from_sky_, from_ground_;
+    std::optional<HillsInView> hills_;
     struct Turn {
         glm::dvec3 to;
         double share;
@@ -170,11 +181,11 @@ std::vector<float> means_around(const Around& around, const View& view, int widt
 
 BehindPeak behind_through_peak(const Scene& scene, const View& view, int width, int height,
                                const GroundLight& ground, const Peak& peak, bool from_sky,
-                               bool from_ground, int threads) {
+                               bool from_ground, int threads, const ReliefLight* hills) {
     const SkyDome sky = outside_of(scene).sky;
     const auto behind = [&](double x) {
         const Around around(scene, sky, view, ground, rings_of_peak(scene->medium, peak, x, kRings),
-                            from_sky, from_ground);
+                            from_sky, from_ground, hills);
         return means_around(around, view, width, height, threads);
     };
     return {behind(0), behind(depth_of_most(scene->medium, peak))};

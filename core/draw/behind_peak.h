@@ -34,9 +34,10 @@ struct BehindPeak {
     std::vector<float> often;  // where the most comes through
 };
 
-// from_sky, from_ground: whether the peak brings the light of these; directions without it count as black.
+// hills: how they are lit, if the ground has some. from_sky, from_ground: whether the peak
+// brings the light of these; directions without it count as black.
 BehindPeak behind_through_peak(const Scene& scene, const View& view, int width, int height,
                                const GroundLight& ground, const Peak& peak, bool from_sky,
-                               bool from_ground, int threads);
+                               bool from_ground, int threads, const ReliefLight* hills = nullptr);
 
 }  // namespace awan

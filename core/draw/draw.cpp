@@ -181,13 +181,19 @@ Result<Image> draw_window(const Drawing& drawing, const SplatWindow& window,
 void put_behind(const Scene& scene, const View& view, const GroundLight& ground, const Air* air,
                 EffectTimes& took, Image& image) {
     Backdrop behind;
-    if (image.opaque) behind = make_backdrop(scene, view, image.width, image.height, ground, 1);
+    if (ground.relief && view.eye.y > ground.height) {
+        behind = timed_for(took, Effect::kTerrain, [&] {
+            return make_backdrop(scene, view, image.width, image.height, ground, 1, air);
+        });
+    } else if (image.opaque) {
+        behind = make_backdrop(scene, view, image.width, image.height, ground, 1);
+    }
     if (air == nullptr) {
         lay_under(image, behind);
         return;
     }
     const auto start = Deadline::Clock::now();
-    put_air_behind(*air, image.opaque ? &behind : nullptr, image);
+    put_air_behind(*air, behind.rgb.empty() ? nullptr : &behind, image);
     took.of(Effect::kAerialPerspective) += ms_since(start);
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/base/parallel.h"
 #include "core/draw/behind_peak.h"
+#include "core/draw/hills_backdrop.h"
 #include "core/draw/march_block.h"
 #include "core/draw/march_scene.h"
 #include "core/generate/detail.h"
@@ -162,7 +163,8 @@ std::optional<Air> air_of(const Scene& scene, const View& view, const TransportL
     took.of(Effect::kAerialPerspective) = ms_since(start);
     if (!air || !settings.eye_effects.light_shafts) return air;
     start = Deadline::Clock::now();
-    shade_air(light.sun, threads, *air);
+    // Hills shade the clouds, not the haze.
+    shade_air(light.ground.clouds ? *light.ground.clouds : light.sun, threads, *air);
     took.of(Effect::kLightShafts) = ms_since(start);
     return air;
 }
@@ -273,19 +275,30 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     const bool has_peak = march.peak.share != 0;
     march.sky = gradient_behind(scene);
     Backdrop backdrop;
+    const std::optional<Air> air = air_of(scene, view, light, settings, threads, took);
+    if (air) march.air = &*air;
+    std::optional<ReliefLight> hills;
     if ((behind || has_peak || march.cut) && wants_backdrop(scene, view)) {
-        backdrop = make_backdrop(scene, view, image.width, image.height, light.ground, threads);
+        const auto start = Deadline::Clock::now();
+        const GroundLight& ground = light.ground;
+        // How hills are lit matters where they are seen.
+        if (ground.relief && (behind || has_peak)) hills = relief_light(scene, ground, threads);
+        const ReliefLight* const lit = hills ? &*hills : nullptr;
+        backdrop = ground.relief
+                       ? hills_backdrop(scene, view, image.width, image.height, ground,
+                                        behind ? lit : nullptr, march.air, threads)
+                       : make_backdrop(scene, view, image.width, image.height, ground, threads);
         march.sky.backdrop = &backdrop;
+        if (ground.relief) took.of(Effect::kTerrain) += ms_since(start);
     }
     march.sky.peak = has_peak && ((light.sky && outside_of(scene).sky.shines) ||
                                   (light.ground.into_cloud && wants_backdrop(scene, view)));
     if (march.sky.peak)
-        march.sky.through_peak =
-            behind_through_peak(scene, view, image.width, image.height, light.ground, march.peak,
-                                light.sky, light.ground.into_cloud, threads);
-    const std::optional<Air> air = air_of(scene, view, light, settings, threads, took);
-    if (air) march.air = &*air;
+        march.sky.through_peak = behind_through_peak(
+            scene, view, image.width, image.height, light.ground, march.peak, light.sky,
+            light.ground.into_cloud, threads, hills ? &*hills : nullptr);
 
+    if (auto error = deadline.over()) return *error;
     std::optional<Beside> others;
     if (beside != nullptr) others.emplace(scene, particles, settings, threads, march, lights);
     if (!march_blocks(march, threads, deadline, image,

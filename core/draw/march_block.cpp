@@ -123,11 +123,16 @@ class BlockMarch {
                              static_cast<float>(to_scene(view, frame.up).y),
                              static_cast<float>(to_scene(view, frame.forward).y)};
         const SkyBehind& sky = scene_.sky;
-        simd::Floats backdrop[3], once[3], often[3];
+        simd::Floats backdrop[3], once[3], often[3], opacity, lost;
         BehindPixels behind;
         if (sky.backdrop != nullptr) {
             take_pixels(t, sky.backdrop->rgb, backdrop);
             behind.backdrop = backdrop;
+            if (!sky.backdrop->opacity.empty()) {
+                behind.opacity = &opacity;
+                behind.lost = &lost;
+            }
+            if (!sky.backdrop->quarters_of.empty()) take_hills(t, backdrop, opacity, lost);
         }
         if (sky.peak) {
             take_pixels(t, sky.through_peak.once, once);
@@ -217,9 +222,8 @@ class BlockMarch {
             if (tile.first > tile.last) continue;
             simd::Floats ground;
             for (int lane = 0; lane < simd::kLanes; ++lane)
-                ground[lane] = static_cast<float>(
-                    static_cast<double>(scene_.sky.backdrop->distance[pixel_of(t, lane)]) -
-                    block_.reference);
+                ground[lane] = static_cast<float>(static_cast<double>(ground_before(t, lane)) -
+                                                  block_.reference);
             for (int k = tile.first; k <= tile.last; ++k) {
                 const float from = chunk.from + static_cast<float>(k) * chunk.step;
                 tile.profile[k] *=
@@ -323,6 +327,41 @@ class BlockMarch {
         const int y = std::min(static_cast<int>(place.ray_y(lane)), scene_.height - 1);
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(scene_.width) +
                static_cast<std::size_t>(x);
+    }
+
+    // The quarter of a pixel that a ray finer than pixels is in; null: the pixel is not divided, or the ray stands for
+    // all of it.
+    const BackdropSample* quarter_of(int t, int lane) const {
+        const Backdrop& behind = *scene_.sky.backdrop;
+        const TilePlace& place = room_.places[t];
+        if (behind.quarters_of.empty() || !(place.gap < 1)) return nullptr;
+        const std::uint32_t divided = behind.quarters_of[pixel_of(t, lane)];
+        if (divided == 0) return nullptr;
+        const auto half = [](double at) { return at - std::floor(at) < 0.5 ? 0U : 1U; };
+        return &behind.quarters[divided - 1][2 * half(place.ray_y(lane)) + half(place.ray_x(lane))];
+    }
+
+    float ground_before(int t, int lane) const {
+        const BackdropSample* const quarter = quarter_of(t, lane);
+        return quarter != nullptr ? quarter->distance
+                                  : scene_.sky.backdrop->distance[pixel_of(t, lane)];
+    }
+
+    // What stands behind finer rays, and the haze before all.
+    void take_hills(int t, simd::Floats* backdrop, simd::Floats& opacity,
+                    simd::Floats& lost) const {
+        const Backdrop& behind = *scene_.sky.backdrop;
+        for (int lane = 0; lane < simd::kLanes; ++lane) {
+            const BackdropSample* const quarter = quarter_of(t, lane);
+            if (quarter != nullptr) {
+                for (int c = 0; c < 3; ++c) backdrop[c][lane] = quarter->rgb[c];
+                opacity[lane] = quarter->opacity;
+                lost[lane] = quarter->lost;
+            } else if (!behind.opacity.empty()) {
+                opacity[lane] = behind.opacity[pixel_of(t, lane)];
+                lost[lane] = behind.lost[pixel_of(t, lane)];
+            }
+        }
     }
 
     // Of each of the tile's pixels: r g b.

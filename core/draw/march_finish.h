@@ -102,10 +102,17 @@ AWAN_INLINE void finish_in_air(const MarchScene& scene, const AirTile& air, cons
     // The haze's depth along the whole ray; infinite along a level one.
     const simd::Floats slope = simd::max(simd::abs(behind.up), simd::all(1e-30f));
     const simd::Floats whole = (behind.up < 0.0f ? simd::all(air.down) : simd::all(air.up)) / slope;
-    const simd::Floats whole_clear = simd::exp(-whole);
-    const simd::Floats whole_air = simd::one_minus(whole_clear, simd::min(whole, simd::all(86.0f)));
-    simd::Floats passes{}, through{};
+    simd::Floats whole_clear = simd::exp(-whole);
+    simd::Floats whole_air = simd::one_minus(whole_clear, simd::min(whole, simd::all(86.0f)));
+    simd::Floats lost = air.lost, passes{}, through{};
     if (sky.behind) passes = clear * whole_clear;
+    if (behind.pixels.opacity != nullptr) {
+        // Hills end it.
+        whole_air = *behind.pixels.opacity;
+        whole_clear = 1.0f - whole_air;
+        lost = *behind.pixels.lost;
+        if (sky.behind) passes = clear;
+    }
     if (sky.peak) {
         const simd::Floats dimmed =
             1.0f - simd::min(tile.seen_air / simd::max(opaque, simd::all(1e-30f)), simd::all(1.0f));
@@ -113,7 +120,7 @@ AWAN_INLINE void finish_in_air(const MarchScene& scene, const AirTile& air, cons
     }
     const simd::Floats haze = tile.seen_air + clear * whole_air;
     const simd::Floats lit = rest_of_phase(scene.air->phase, chords) *
-                             simd::max(haze - tile.seen_lost - clear * air.lost, simd::Floats{});
+                             simd::max(haze - tile.seen_lost - clear * lost, simd::Floats{});
     const simd::Floats often = often_scattered(scene, tile.depth);
     simd::Floats zenith{};
     if (behind.pixels.backdrop == nullptr) zenith = zenith_share(behind.up);

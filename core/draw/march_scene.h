@@ -34,6 +34,9 @@ struct BehindPixels {
     // That which the forward peak brings (BehindPeak), r g b; null: none.
     const simd::Floats* once = nullptr;
     const simd::Floats* often = nullptr;
+    // The haze's O and L before `backdrop`, which then is as it comes through that; null: neither.
+    const simd::Floats* opacity = nullptr;
+    const simd::Floats* lost = nullptr;
 };
 
 struct MarchScene {

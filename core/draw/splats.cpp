@@ -16,6 +16,7 @@
 #include "core/shaders/shared.h"
 #include "core/survey/narrow.h"
 #include "core/survey/projection.h"
+#include "core/survey/relief_ray.h"
 
 namespace awan {
 namespace {
@@ -257,14 +258,25 @@ Footprint footprint_of(const ParticleSet& particles, std::size_t i, const View& 
     return own;
 }
 
+namespace {
+
+bool is_hidden(const Relief& relief, const glm::dvec3& eye, const glm::dvec3& place) {
+    const double distance = glm::length(place - eye);
+    return distance > 0 && hills_ahead(relief, eye, (place - eye) / distance) < distance;
+}
+
+}  // namespace
+
 std::vector<std::uint32_t> drawing_order(const Scene& scene, const ParticleSet& particles,
                                          const View& view, const Plan& plan) {
     // A splat cannot end at the ground: of what the ground hides, whole particles are left out.
     const bool cut = scene->ground && view.eye.y > scene->ground->height;
+    const auto relief = cut ? relief_of(*scene, 1) : nullptr;
     std::vector<std::uint64_t> keys;
     keys.reserve(particles.size());
     for (std::size_t i = 0; i < particles.size(); ++i) {
         if (cut && particles.center[i].y < scene->ground->height) continue;
+        if (relief && is_hidden(*relief, view.eye, particles.center[i])) continue;
         const glm::dvec3 p = particles.center[i] - view.eye;
         const glm::dvec3 q(glm::dot(p, view.right), glm::dot(p, view.up),
                            glm::dot(p, view.forward));

@@ -16,6 +16,7 @@
 #include "core/scene/outside.h"
 #include "core/survey/haze_depth.h"
 #include "core/survey/projection.h"
+#include "core/survey/relief_ray.h"
 
 namespace awan {
 namespace {
@@ -196,14 +197,15 @@ void add(Image& image, int x, int y, const glm::dvec3& radiance) {
 }
 
 // The mean share of the disc's light that comes through.
-double mean_passing(const Passing& passing, const Disc& disc, bool grounded) {
+template <typename Hidden>
+double mean_passing(const Passing& passing, const Disc& disc, const Hidden& hidden) {
     constexpr int kSide = 64;
     double sum = 0, all = 0;
     for (int i = 0; i < kSide * kSide; ++i) {
         const double x = 2 * (i % kSide + 0.5) / kSide - 1, y = 2 * (i / kSide + 0.5) / kSide - 1;
         const double light = profile(x, y);
         all += light;
-        if (light > 0 && !(grounded && disc.direction(x, y).y < 0)) sum += light * passing.at(x, y);
+        if (light > 0 && !hidden(disc.direction(x, y))) sum += light * passing.at(x, y);
     }
     return sum / all;
 }
@@ -247,6 +249,12 @@ void add_sun_disc(const Scene& scene, const View& view, const ParticleSet& parti
     const double per_radian = image.height / (2 * view.tan_half_fov) / (ahead * ahead);
     const double radius_px = kRadius * per_radian;
     const bool grounded = scene->ground && view.eye.y > scene->ground->height;
+    const auto relief = grounded ? relief_of(*scene, threads) : nullptr;
+    // By the ground or by hills on it.
+    const auto hidden = [&](const glm::dvec3& d) {
+        return (grounded && d.y < 0) ||
+               (relief && std::isfinite(hills_ahead(*relief, view.eye, d)));
+    };
     const Passing passing = passing_through(scene, view, particles, disc, haze, radius_px, threads);
     const bool glare = scene->image.format != ImageFormat::kExr;
     const glm::dvec3 radiance = (glare ? 1 - kGlareShare : 1.0) /
@@ -266,7 +274,7 @@ void add_sun_disc(const Scene& scene, const View& view, const ParticleSet& parti
             for (int i = 0; i < sub * sub; ++i) {
                 const glm::dvec3 d =
                     pixels.direction(x + (i % sub + 0.5) / sub, y + (i / sub + 0.5) / sub);
-                if (grounded && d.y < 0) continue;
+                if (hidden(d)) continue;
                 const double u = glm::dot(d, disc.u) * per_radius,
                              v = glm::dot(d, disc.v) * per_radius;
                 const double light = profile(u, v);
@@ -275,7 +283,7 @@ void add_sun_disc(const Scene& scene, const View& view, const ParticleSet& parti
             if (sum > 0) add(image, x, y, sum / (sub * sub) * radiance);
         }
     if (!glare) return;
-    const double through = mean_passing(passing, disc, grounded);
+    const double through = mean_passing(passing, disc, hidden);
     if (through > 0) add_glare(pixels, disc, through * outside.sun, threads, image);
 }
 

@@ -127,15 +127,27 @@ Result<GreyPicture> read_picture(std::string_view bytes, const Deadline& deadlin
     into.close();
 
     std::string said;
-    constexpr std::size_t kMost = sizeof(PictureHead) + limits::kMaxTexturePixels;
+    constexpr std::size_t kMost =
+        sizeof(PictureHead) + limits::kMaxTexturePixels + 2 * kPictureHeights * kPictureHeights;
     if (const Status over = read_all(from.get(), kMost, deadline, said)) return *over;
     PictureHead head;
     if (said.size() >= sizeof head) std::memcpy(&head, said.data(), sizeof head);
     const std::string_view rest = std::string_view(said).substr(std::min(sizeof head, said.size()));
-    const bool is_read =
-        head.outcome == PictureOutcome::kRead && head.width > 0 && head.height > 0 &&
-        rest.size() == static_cast<std::size_t>(head.width) * static_cast<std::size_t>(head.height);
-    if (is_read) return GreyPicture{head.width, head.height, {rest.begin(), rest.end()}};
+    const auto area = [](std::int32_t across, std::int32_t down, std::int32_t most) {
+        const bool possible = across > 0 && down > 0 && across <= most && down <= most;
+        return possible ? static_cast<std::size_t>(across) * static_cast<std::size_t>(down) : 0;
+    };
+    constexpr auto kSide = static_cast<std::int32_t>(limits::kMaxTexturePictureSide);
+    const std::size_t pixels = area(head.width, head.height, kSide),
+                      heights = area(head.across, head.down, kPictureHeights);
+    if (head.outcome == PictureOutcome::kRead && pixels > 0 && heights > 0 &&
+        rest.size() == pixels + 2 * heights) {
+        GreyPicture picture{head.width, head.height, {}, head.across, head.down, {}};
+        picture.values.assign(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(pixels));
+        picture.luminance.resize(heights);
+        std::memcpy(picture.luminance.data(), rest.data() + pixels, 2 * heights);
+        return picture;
+    }
     if (head.outcome == PictureOutcome::kTooLarge)
         return Error{ErrorCode::kTooLarge, "", std::string(rest)};
     if (head.outcome == PictureOutcome::kNoMemory && is_limited()) return out_of_memory();

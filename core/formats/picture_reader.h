@@ -1,6 +1,7 @@
 // Pictures of users, read by a program of its own (picture_program.h).
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -9,10 +10,13 @@
 
 namespace awan {
 
-// A byte a pixel, row by row from the top left: its alpha, or where it has none its luminance.
+// A byte a pixel, row by row from the top left: its alpha, or where it has none its luminance. And its luminance alone,
+// brought down to across x down pixels, at most kPictureHeights either way (picture_program.h); 65535 white.
 struct GreyPicture {
     int width = 0, height = 0;
     std::vector<unsigned char> values;
+    int across = 0, down = 0;
+    std::vector<std::uint16_t> luminance;
 };
 
 // The first picture of `bytes`. Errors: kInvalidScene (no picture, a broken one, one that takes more than

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/formats/picture_program.h"
 #include "core/formats/picture_reader.h"
 #include "core/scene/limits.h"
 
@@ -43,6 +44,13 @@ std::vector<std::uint8_t> as_texture(const GreyPicture& picture) {
     return depth;
 }
 
+HeightMap height_map_of(const GreyPicture& picture) {
+    static_assert(kHeightMapSide == kPictureHeights);
+    HeightMap map{picture.across, picture.down, picture.luminance, {}};
+    map.hash = height_map_hash(map);
+    return map;
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const Texture>> read_texture(std::string name, std::string_view bytes,
@@ -68,8 +76,8 @@ Result<std::shared_ptr<const Texture>> read_texture(std::string name, std::strin
         return refused(ErrorCode::kInvalidScene,
                        "there is nothing in it: its alpha (or luminance) is 0 everywhere");
     std::string hash = texture_hash(depth);
-    return std::make_shared<const Texture>(
-        Texture{std::move(name), std::move(hash), std::move(depth)});
+    return std::make_shared<const Texture>(Texture{
+        std::move(name), std::move(hash), std::move(depth), false, height_map_of(*picture)});
 }
 
 }  // namespace awan

@@ -11,6 +11,8 @@ namespace {
 constexpr int kMostCells = 32;  // along a side of the cloud that light is gathered from
 // Of the ground's irradiance: a weaker bounce is not followed.
 constexpr double kLeastBounce = 2e-3;
+// Of the highest hills: where, besides the level ground, the cloud's light on them is gathered.
+constexpr double kHeights[] = {0.33, 0.67, 1};
 constexpr double kMostRatio = 0.95;  // of one bounce to the one before
 
 // What a band of the ground's light takes of a colour: its luminance, or one channel of it.
@@ -72,11 +74,19 @@ void add(LightBand& to, const LightBand& from, double times) {
             to.moments[i][m] += static_cast<float>(times) * from.moments[i][m];
 }
 
-// What a cloud sends down to the ground, less what it hides of `sky` (null: nothing).
+// What a cloud sends down to the ground, less what it hides of `sky` (null: nothing). With hills on it, `above` is that
+// at the heights of these.
 GroundChange sent_down(const GroundExchange& exchange, std::span<const LightBand> bands,
-                       const BeamSource& beam, const SkyDome* sky) {
+                       const BeamSource& beam, const SkyDome* sky,
+                       std::vector<GroundLight::ChangeAbove>* above = nullptr) {
     const CloudAbove cloud = coarser(cloud_above(exchange.cloud, bands, beam), kMostCells);
     GroundChange change = nodes_under(cloud, exchange.ground.height);
+    if (above != nullptr && exchange.ground.relief)
+        for (const double share : kHeights) {
+            const double y = exchange.ground.height + share * exchange.ground.relief->highest;
+            above->push_back({y, change});
+            gather(cloud, sky, y, exchange.threads, above->back().change);
+        }
     gather(cloud, sky, exchange.ground.height, exchange.threads, change);
     return change;
 }
@@ -168,10 +178,12 @@ Result<GroundAndCloud> ground_and_cloud(const GroundExchange& exchange,
     GroundLight ground = exchange.ground;
     const auto finished = [&] {
         result.change = std::move(ground.change);
+        result.above = std::move(ground.above);
         return std::move(result);
     };
     if (exchange.shadow)
-        ground.change = sent_down(exchange, exchange.bands, exchange.beam, &exchange.sky);
+        ground.change =
+            sent_down(exchange, exchange.bands, exchange.beam, &exchange.sky, &ground.above);
     if (!exchange.into_cloud || ground.albedo == glm::dvec3(0)) return finished();
     const std::vector<Part> parts = parts_of(ground, exchange.cloud, exchange.colored);
     if (parts.empty()) return finished();
@@ -179,12 +191,17 @@ Result<GroundAndCloud> ground_and_cloud(const GroundExchange& exchange,
     auto first = bounce(exchange, ground, parts, solve);
     if (!first.ok()) return first.error();
     result.into_cloud = std::move(first->bands);
-    if (exchange.shadow) add(ground.change, first->back.change, glm::dvec3(1));
+    // What comes back down is weak, and hills at any height have it alike.
+    const auto add_down = [&](const GroundChange& from, const glm::dvec3& times) {
+        add(ground.change, from, times);
+        for (GroundLight::ChangeAbove& one : ground.above) add(one.change, from, times);
+    };
+    if (exchange.shadow) add_down(first->back.change, glm::dvec3(1));
     if (exchange.shadow && goes_on(ground, *first)) {
         auto second = bounce(exchange, first->back, parts, solve);
         if (!second.ok()) return second.error();
         const glm::dvec3 series = series_of(*first, *second);
-        add(ground.change, second->back.change, series);
+        add_down(second->back.change, series);
         for (std::size_t p = 0; p < parts.size(); ++p)
             add(result.into_cloud[p], second->bands[p],
                 parts[p].channel < 0 ? luminance(series * parts[p].color)

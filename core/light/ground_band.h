@@ -53,8 +53,9 @@ struct GroundExchange {
 };
 
 struct GroundAndCloud {
-    GroundChange change;                // what the cloud sends down, less what it hides of the sky
-    std::vector<LightBand> into_cloud;  // the ground's light in the cloud
+    GroundChange change;  // what the cloud sends down, less what it hides of the sky
+    std::vector<GroundLight::ChangeAbove> above;  // the same at the heights of hills
+    std::vector<LightBand> into_cloud;            // the ground's light in the cloud
 };
 
 // In grey matter the ground's light is one band, of the colour that the cloud's middle sees; its luminance is right

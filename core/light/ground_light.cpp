@@ -212,8 +212,28 @@ glm::dvec3 change_at(const GroundChange& change, double x, double z) {
 }
 
 std::size_t GroundLight::bytes() const {
-    return (shadow.share.capacity() + ahead.share.capacity()) * sizeof(float) +
-           change.irradiance.capacity() * sizeof(change.irradiance[0]);
+    std::size_t all = (shadow.share.capacity() + ahead.share.capacity()) * sizeof(float) +
+                      change.irradiance.capacity() * sizeof(change.irradiance[0]);
+    for (const ChangeAbove& one : above)
+        all += one.change.irradiance.capacity() * sizeof(one.change.irradiance[0]);
+    if (clouds) all += clouds->depth.capacity() * sizeof(float);
+    if (relief) all += relief->bytes();
+    return all;
+}
+
+glm::dvec3 change_above(const GroundLight& ground, const glm::dvec3& place) {
+    double low = ground.height;
+    const GroundChange* below = &ground.change;
+    for (const GroundLight::ChangeAbove& one : ground.above) {
+        if (place.y < one.y) {
+            const double t = std::clamp((place.y - low) / (one.y - low), 0.0, 1.0);
+            return (1 - t) * change_at(*below, place.x, place.z) +
+                   t * change_at(one.change, place.x, place.z);
+        }
+        low = one.y;
+        below = &one.change;
+    }
+    return change_at(*below, place.x, place.z);
 }
 
 glm::dvec3 irradiance_at(const GroundLight& ground, double x, double z) {
@@ -248,6 +268,8 @@ GroundLight bare_ground(const SceneDraft& scene) {
     ground.present = true;
     ground.height = scene.ground->height;
     ground.albedo = scene.ground->albedo;
+    ground.relief = relief_of(scene, 1);
+    if (ground.relief) ground.albedo = ground.relief->mean_albedo;
     const Outside outside = outside_of(scene);
     ground.sun = std::max(outside.to_sun.y, 0.0) * outside.sun;
     ground.sky = means_of(outside.sky).irradiance_up;
@@ -257,6 +279,10 @@ GroundLight bare_ground(const SceneDraft& scene) {
 void cast_shadow(const SunDepth& sun, double albedo, double peak_share, double turning, int threads,
                  GroundLight& ground) {
     if (sun.depth.empty() || !(-sun.w.y > kLowestShadow) || ground.sun == glm::dvec3(0)) return;
+    if (ground.relief) {
+        if (!ground.clouds) ground.clouds = std::make_shared<const SunDepth>(sun);
+        ground.clouds_shade = true;
+    }
     const SunBox box = sun_box(sun, ground.height);
     ground.shadow =
         raster_of(box, kSunRadius, threads, [](double depth) { return exact::expm1(-depth); });

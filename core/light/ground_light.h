@@ -1,12 +1,16 @@
 // Light on the ground: an infinite level Lambertian plane (Scene's `ground`), under the sun, the sky and the cloud.
+// Where there are hills on it (its `terrain`), this plane of their mean albedo stands for them in what the ground
+// sends up to the cloud; what is seen of the hills themselves is lit in core/light/relief_light.h.
 #pragma once
 
 #include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <vector>
 
 #include "core/generate/particle_set.h"
+#include "core/generate/relief.h"
 #include "core/scene/outside.h"
 
 namespace awan {
@@ -54,8 +58,23 @@ struct GroundLight {
     SunRaster shadow, ahead;
     GroundChange change;
 
+    // Null: it is level, and nothing below holds.
+    std::shared_ptr<const Relief> relief;
+    // The clouds' depth for sunlight, without the shadows of hills; null: no cloud. And whether they shade the hills.
+    std::shared_ptr<const SunDepth> clouds;
+    bool clouds_shade = false;
+    // The same as `change` at greater heights (y), rising.
+    struct ChangeAbove {
+        double y;
+        GroundChange change;
+    };
+    std::vector<ChangeAbove> above;
+
     std::size_t bytes() const;  // memory it holds beside its own size
 };
+
+// What the cloud adds at a place above the ground's own height, linear between the heights at which it is known.
+glm::dvec3 change_above(const GroundLight& ground, const glm::dvec3& place);
 
 // r g b, >= 0.
 glm::dvec3 irradiance_at(const GroundLight& ground, double x, double z);
@@ -76,8 +95,8 @@ GroundLight bare_ground(const SceneDraft& scene);
 //     shadow = mean of exp(-depth) - 1 over lines towards the sun's disc,
 // and, where the forward peak is split off (f = peak_share > 0, core/light/delta_m.h),
 //     ahead = mean of exp(-(1 - albedo f) depth) - exp(-depth) over lines within the peak's width.
-// Leaves both as they are where the sun is below kLowestShadow. turning: as peak_turning (core/light/delta_m.h);
-// of no account where there is no peak.
+// Leaves both as they are where the sun is below kLowestShadow. With hills, it keeps `sun` for them.
+// turning: as peak_turning (core/light/delta_m.h); of no account where there is no peak.
 void cast_shadow(const SunDepth& sun, double albedo, double peak_share, double turning, int threads,
                  GroundLight& ground);
 inline constexpr double kLowestShadow = 0.01;  // sine of the elevation

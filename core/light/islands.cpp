@@ -10,6 +10,7 @@
 #include "core/base/parallel.h"
 #include "core/generate/gaussian.h"
 #include "core/light/island_sun.h"
+#include "core/light/relief_light.h"
 #include "core/light/sun_depth.h"
 #include "core/light/surroundings.h"
 #include "core/light/transport_part.h"
@@ -138,6 +139,9 @@ Result<LightIsland> light_of_island(const IslandScene& all, std::size_t self,
         before && before->light.asked.sun_cells == cells.sun_cells
             ? before->light.sun
             : timed_for(took, Effect::kSelfShadow, [&] { return sun_depth_in(prism, with); });
+    if (const auto relief = relief_of(*all.scene, 1);
+        relief && !(before && before->light.asked.sun_cells == cells.sun_cells))
+        shade_by_hills(*relief, 1, sun);
     LightPart part{own, with, std::move(sun), box.depth};
     part.surroundings = surroundings_of(all.scene, all.neighbours, self, all.whole);
     part.whole = &all.whole;

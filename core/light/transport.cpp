@@ -10,6 +10,7 @@
 #include "core/light/islands.h"
 #include "core/light/nested_grids.h"
 #include "core/light/part_matter.h"
+#include "core/light/relief_light.h"
 #include "core/light/shine.h"
 #include "core/light/transport_part.h"
 #include "core/scene/outside.h"
@@ -17,6 +18,8 @@
 namespace awan {
 namespace {
 
+// Of the clouds' shadows on hills, along their longest side: their edges are seen from near by.
+constexpr int kCellsOverHills = 160;
 // Of a solve without the sun, times the sun's: the sky's light is a fifth of all, and smooth.
 constexpr double kSkyTolerance = 4;
 // Of the grid that rung `single` has for colours: cells along its longest side, and the most work to fill it.
@@ -40,6 +43,7 @@ struct PartSolve {
     bool colored = !part.all.color.empty();
     // A part of a scene has the ground's light from the solve of the whole.
     bool own_ground() const { return over_ground && part.whole == nullptr; }
+    const SunDepth& clouds_alone() const { return part.open_sun ? *part.open_sun : part.sun; }
     bool shades_ground() const { return own_ground() && settings.ground_shadow; }
 
     PartGrid grid{};
@@ -154,7 +158,7 @@ Status add_own_ground(const PartSolve& solve, TransportLight& light) {
     const auto start = Deadline::Clock::now();
     const ScatteringSplit& split = solve.split;
     if (solve.shades_ground())
-        cast_shadow(solve.part.sun, split.albedo, split.peak_share,
+        cast_shadow(solve.clouds_alone(), split.albedo, split.peak_share,
                     peak_turning(solve.scene->medium), solve.threads, light.ground);
     const auto side = static_cast<float>(shortest(solve.grid.lattice.cell));
     std::vector<float> depth(solve.grid.extinction);
@@ -190,6 +194,7 @@ Status add_own_ground(const PartSolve& solve, TransportLight& light) {
     auto exchanged = ground_and_cloud(exchange, lit_from_below);
     if (!exchanged.ok()) return exchanged.error();
     light.ground.change = std::move(exchanged->change);
+    light.ground.above = std::move(exchanged->above);
     for (LightBand& band : exchanged->into_cloud) light.bands.push_back(std::move(band));
     if (solve.shades_ground())
         light.took.of(Effect::kGroundShadow) +=
@@ -202,7 +207,7 @@ TransportLight without_grid(const PartSolve& solve, TransportLight light) {
     const Medium& medium = solve.scene->medium;
     if (solve.shades_ground()) {
         const auto start = Deadline::Clock::now();
-        cast_shadow(solve.part.sun, medium.albedo, 0, 0, solve.threads, light.ground);
+        cast_shadow(solve.clouds_alone(), medium.albedo, 0, 0, solve.threads, light.ground);
         light.took.of(Effect::kGroundShadow) = ms_since(start);
     }
     if (solve.colored) take_colors(solve, light);
@@ -291,6 +296,15 @@ Result<TransportLight> solve_grid(PartSolve solve) {
     TransportLight light;
     light.sky = solve.settings.sky;
     if (solve.part.whole == nullptr) light.ground = bare_ground(*solve.scene);
+    if (light.ground.relief) {
+        const TransportLight* const before = solve.coarser;
+        light.ground.albedo =
+            before != nullptr && before->ground.relief
+                ? before->ground.albedo
+                : level_albedo(relief_light(solve.scene, light.ground, solve.threads),
+                               light.ground);
+    }
+    light.ground.clouds = solve.part.open_sun;
     light.ground.into_cloud = solve.own_ground() && solve.settings.ground;
     if (solve.settings.cells == 0) return without_grid(solve, std::move(light));
 
@@ -350,8 +364,19 @@ Result<TransportLight> light_of_whole(const Scene& scene, const ParticleSet& par
                                  particles, sun_direction(scene->sun),
                                  sun_cells_in(particles.detail.get(), settings.sun_cells), threads);
                          });
-    auto light = light_of_part(scene, {particles, particles, std::move(sun), deepest, {}, nullptr},
-                               settings, coarser, threads, deadline);
+    const auto relief = relief_of(*scene, threads);
+    std::shared_ptr<const SunDepth> open;
+    if (relief) {
+        open = coarser && coarser->ground.clouds
+                   ? coarser->ground.clouds
+                   : std::make_shared<const SunDepth>(
+                         sun_depth(particles, sun_direction(scene->sun), kCellsOverHills, threads));
+        if (!(coarser && coarser->asked.sun_cells == settings.sun_cells))
+            shade_by_hills(*relief, threads, sun);
+    }
+    auto light = light_of_part(
+        scene, {particles, particles, std::move(sun), deepest, {}, nullptr, std::move(open)},
+        settings, coarser, threads, deadline);
     if (light.ok()) {
         light->took.add(took);
         light->asked = {settings.cells, settings.sun_cells};

@@ -20,6 +20,8 @@ struct LightPart {
     Surroundings surroundings{};  // empty: the open sky
     // The solve of the whole scene, of which this is a part: the part's bands come in its order. Null: this is all.
     const TransportLight* whole = nullptr;
+    // Where hills shade `sun`: the same without them. Null: nothing but matter does.
+    std::shared_ptr<const SunDepth> open_sun{};
 };
 
 // As transport_light; settings.islands is not looked at.

@@ -175,6 +175,17 @@ Criterion texture(const Scene& scene) {
                 (used == 1 ? " texture" : " textures")};
 }
 
+// With or without clouds. Hills may stand anywhere in the picture and light anything, so that they are always followed.
+Criterion terrain(const Scene& scene, const Survey& survey) {
+    if (!scene->ground || !scene->ground->terrain) return {false, 0, "the scene has no terrain"};
+    if (!(scene->ground->terrain->height > 0)) return {false, 0, "the terrain has a height of 0"};
+    std::array<char, 100> text{};
+    const int length =
+        std::snprintf(text.data(), text.size(), "the ground has hills, in %.2g of the picture",
+                      survey.ground.hills);
+    return {true, survey.ground.hills, {text.data(), static_cast<std::size_t>(length)}};
+}
+
 Criterion of_matter(Effect effect, const Scene& scene, const Survey& survey, const Lights& lights) {
     const bool lit = lights.sun_shines || lights.sky_shines;
     switch (effect) {
@@ -239,6 +250,8 @@ std::array<Criterion, kEffectCount> criteria(const Scene& scene, const Survey& s
         Criterion& one = all[static_cast<std::size_t>(i)];
         if (effect == Effect::kAerialPerspective || effect == Effect::kLightShafts)
             one = haze(effect, scene, survey, lights);  // seen with and without clouds
+        else if (effect == Effect::kTerrain)
+            one = terrain(scene, survey);
         else if (empty)
             one = {false, 0, "there is no matter in the scene"};
         else

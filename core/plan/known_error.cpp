@@ -24,6 +24,9 @@ constexpr double kDetailError = 0.0325, kDeepDetailError = 0.26, kDeep = 800,
                  kBacklitDetailError = 0.05;
 // Of what is far below a pixel, times its share of the matter (Survey::sub_pixel).
 constexpr double kSubPixelError = 0.01;
+// Of the ground's light where hills stand and a level ground sends it up in their stead, times its share of all
+// (terrain_truth_test).
+constexpr double kHillsError = 0.3;
 
 }  // namespace
 
@@ -45,6 +48,8 @@ double known_error(const Scene& scene, const Survey& survey, bool detailed) {
                                  (kDetailError + kDeepDetailError * std::min(depth / kDeep, 1.0) +
                                   kBacklitDetailError * into_sun * into_sun));
     }
+    if (has_terrain(*scene))
+        known = exact::hypot(known, kHillsError * survey.ground.light / (1 + survey.ground.light));
     return exact::hypot(known, kSubPixelError * survey.sub_pixel);
 }
 

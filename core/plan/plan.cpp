@@ -54,6 +54,14 @@ void leave_out_missing_textures(Plan& plan, const Scene& scene) {
     texture.reason += ": there is none to draw";
 }
 
+// There must be hills, even where they are asked for.
+void leave_out_missing_terrain(Plan& plan, const Scene& scene) {
+    EffectDecision& terrain = plan.of(Effect::kTerrain);
+    if (!terrain.on || has_terrain(*scene)) return;
+    terrain.on = false;
+    terrain.reason += ": there is none to draw";
+}
+
 // Shadows are seen in haze that is drawn.
 void join_shafts_to_haze(Plan& plan) {
     EffectDecision& shafts = plan.of(Effect::kLightShafts);
@@ -342,6 +350,7 @@ Plan plan(const Scene& scene, const Survey& survey, int threads, const MachineSp
     }
     leave_out_unseen_detail(plan, scene, survey);
     leave_out_missing_textures(plan, scene);
+    leave_out_missing_terrain(plan, scene);
     join_scattering_to_shadow(plan, scene);
     join_shafts_to_haze(plan);
     choose_rung(scene, survey, threads, speed, plan);

@@ -24,8 +24,9 @@ enum class Effect {
     kDetail,
     kInterior,
     kTexture,
+    kTerrain,
 };
-inline constexpr int kEffectCount = static_cast<int>(Effect::kTexture) + 1;
+inline constexpr int kEffectCount = static_cast<int>(Effect::kTerrain) + 1;
 
 enum class Switch { kAuto, kOn, kOff };
 using Effects = std::array<Switch, kEffectCount>;
@@ -46,6 +47,11 @@ constexpr Field effect_field(const char* name, const char* says) {
             a};
 }
 
+constexpr Field later(Field field) {
+    field.traceless = true;
+    return field;
+}
+
 inline constexpr Field kEffectFields[] = {
     effect_field<Effect::kSelfShadow>("self_shadow", "Matter before it dims the sun."),
     effect_field<Effect::kMultipleScattering>("multiple_scattering",
@@ -63,6 +69,7 @@ inline constexpr Field kEffectFields[] = {
     effect_field<Effect::kInterior>("interior", "The eye is within the cloud."),
     effect_field<Effect::kTexture>(
         "texture", "Particles of a texture are drawn as billboards that are painted with it."),
+    later(effect_field<Effect::kTerrain>("terrain", "The ground has its hills.")),
 };
 static_assert(std::size(kEffectFields) == kEffectCount);
 

@@ -170,6 +170,12 @@ void add_field(Hasher& hash, const Field& field, const void* object, const Inste
     const bool idle = field.idle != nullptr && field.idle(object);
     const bool used = value != nullptr && !idle &&
                       !(field.access.unused != nullptr && *field.access.unused(object));
+    if (field.traceless) {
+        if (!used || (field.access.holds == Holds::kSwitch &&
+                      *static_cast<const Switch*>(value) == Switch::kAuto))
+            return;
+        hash.text(field.name);
+    }
     hash.integer(used);
     if (used) add_value(hash, field, value, instead);
 }
@@ -269,6 +275,9 @@ Instead settled(const SceneDraft& scene) {
     instead.leave_out(scene.billboards);
     for (const Cloud& cloud : scene.clouds) settle_cloud(instead, scene, cloud);
     settle_lights(instead, scene);
+    // By whatever name it comes, a height map is what it shows.
+    if (scene.ground && scene.ground->terrain && scene.ground->terrain->map)
+        instead.put(scene.ground->terrain->map, map_hash(scene));
     return instead;
 }
 
@@ -326,7 +335,8 @@ std::string light_fingerprint(const Scene& scene) {
     }
     instead.leave_out(scene->sequence);
     for (const Switch& effect : scene->effects)
-        if (!(&effect == &scene->effects[static_cast<std::size_t>(Effect::kSunColor)] &&
+        if (!((&effect == &scene->effects[static_cast<std::size_t>(Effect::kSunColor)] ||
+               &effect == &scene->effects[static_cast<std::size_t>(Effect::kTerrain)]) &&
               effect == Switch::kOff))
             instead.leave_out(effect);
     return digest(*scene, instead);

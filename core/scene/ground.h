@@ -1,14 +1,17 @@
-// The ground of a scene: a level, matt plane without end, seen from above only.
+// The ground of a scene: a level, matt plane without end, seen from above only, and the hills on it.
 #pragma once
 
 #include "core/scene/limits.h"
 #include "core/scene/table.h"
+#include "core/scene/terrain.h"
 
 namespace awan {
 
 struct Ground {
     double height = 0;
     glm::dvec3 albedo{0.2};
+    // None: it is level.
+    std::optional<Terrain> terrain{};
 };
 
 inline constexpr Field kGroundFields[] = {
@@ -22,12 +25,17 @@ inline constexpr Field kGroundFields[] = {
                             .range = from_to(0, 1),
                             .one_for_all = true,
                             .says = "Share of light that it sends back."}),
+    field<&Ground::terrain>({.name = "terrain",
+                             .wanted = "an object",
+                             .says = "Hills on it; left out: none.",
+                             .otherwise = "level",
+                             .traceless = true}),
 };
 static_assert(covers<Ground>(kGroundFields));
 
 inline constexpr Table kGroundTable{
     .name = "Ground",
-    .says = "A level, matt plane without end, seen from above only.",
+    .says = "A level, matt plane without end, seen from above only, and hills on it.",
     .fields = kGroundFields,
     .standard = standard_of<Ground>};
 template <>

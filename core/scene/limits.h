@@ -44,6 +44,9 @@ inline constexpr double kMaxAngle = 1e6;
 // from.
 inline constexpr double kMinUpSine = 1e-6;
 
+// Share of a terrain's heights that is below the level ground. With more there is next to nothing left above it.
+inline constexpr double kMaxTerrainLevel = 0.95;
+
 // --- Matter
 
 // Extinction, 1/unit. Together with kMaxRadius: an optical depth of 1e12.

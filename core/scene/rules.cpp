@@ -236,6 +236,16 @@ Status check_clouds(const SceneDraft& draft) {
     return std::nullopt;
 }
 
+Status check_terrain(const SceneDraft& draft) {
+    if (!draft.ground || !draft.ground->terrain || !draft.ground->terrain->map || !map_hash(draft).empty())
+        return std::nullopt;
+    std::string known;
+    for (const auto& given : draft.textures) known += given->name + ", ";
+    for (const OwnTexture& own : kOwnTextures) known += std::string(own.name) + ", ";
+    return invalid("/ground/terrain/map", "must be the name or the hash of a picture (" + known +
+                                              "or one that is uploaded)");
+}
+
 Status check_sun(const Sun& sun) {
     if (sun.direction && *sun.direction == glm::dvec3(0))
         return invalid("/sun/direction", "must point somewhere: it is [0, 0, 0]");
@@ -321,6 +331,7 @@ Status check_accuracy(const Accuracy& accuracy) {
 
 Status check_rules(const SceneDraft& draft) {
     if (Status wrong = check_clouds(draft)) return wrong;
+    if (Status wrong = check_terrain(draft)) return wrong;
     if (Status wrong = check_sun(draft.sun)) return wrong;
     if (Status wrong = check_camera(draft.camera)) return wrong;
     if (Status wrong = check_image(draft.image)) return wrong;

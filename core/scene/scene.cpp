@@ -116,7 +116,9 @@ constexpr Field kSceneFields[] = {
     field<&SceneDraft::ground>({.name = "ground",
                                 .wanted = R"(an object or "none")",
                                 .absent = "none",
-                                .says = "A level, matt plane without end, seen from above only."}),
+                                .says =
+                                    "A level, matt plane without end, seen from above only, and "
+                                    "hills on it."}),
     field<&SceneDraft::haze>({.name = "haze",
                               .wanted = R"(an object or "none")",
                               .absent = "none",
@@ -169,6 +171,7 @@ constexpr Field kSceneFields[] = {
                  "effects and detail are settled for all; a render is still of one time, `time`."}),
     outside_document<&SceneDraft::textures>(
         "files beside the document; what is used of them is told apart by its hash"),
+    outside_document<&SceneDraft::relief>("follows from `ground`, and is kept to be made once"),
 };
 static_assert(covers<SceneDraft>(kSceneFields));
 

@@ -72,6 +72,8 @@ struct SceneDraft {
     std::optional<Sequence> sequence;
     // Textures that came beside the document.
     GivenTextures textures;
+    // Of a scene with terrain, once it is validated.
+    std::shared_ptr<ReliefSlot> relief;
 };
 
 // In scene.cpp.

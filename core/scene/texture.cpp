@@ -41,6 +41,44 @@ std::string texture_hash(const std::vector<std::uint8_t>& depth) {
     return text;
 }
 
+std::string height_map_hash(const HeightMap& map) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(8 + 2 * map.heights.size());
+    for (const int side : {map.across, map.down})
+        for (int shift = 0; shift < 32; shift += 8)
+            bytes.push_back(static_cast<std::uint8_t>(static_cast<unsigned>(side) >> shift & 255U));
+    for (const std::uint16_t height : map.heights) {
+        bytes.push_back(static_cast<std::uint8_t>(height & 255U));
+        bytes.push_back(static_cast<std::uint8_t>(height >> 8U));
+    }
+    return texture_hash(bytes);
+}
+
+std::shared_ptr<const Texture> map_of(const SceneDraft& scene) {
+    if (!scene.ground || !scene.ground->terrain || !scene.ground->terrain->map) return nullptr;
+    const std::string& name = *scene.ground->terrain->map;
+    for (const auto& given : scene.textures)
+        if ((name == given->name || name == given->hash || name == given->heights.hash) &&
+            !given->heights.heights.empty())
+            return given;
+    return nullptr;
+}
+
+std::string_view map_hash(const SceneDraft& scene) {
+    if (const auto map = map_of(scene)) return map->heights.hash;
+    if (!scene.ground || !scene.ground->terrain || !scene.ground->terrain->map) return {};
+    for (const OwnTexture& own : kOwnTextures)
+        if (*scene.ground->terrain->map == own.name || *scene.ground->terrain->map == own.hash)
+            return own.hash;
+    return {};
+}
+
+bool has_terrain(const SceneDraft& scene) {
+    return scene.ground && scene.ground->terrain && scene.ground->terrain->height > 0 &&
+           scene.look == Look::kPhysical &&
+           scene.effects[static_cast<std::size_t>(Effect::kTerrain)] != Switch::kOff;
+}
+
 Status check_texture_name(std::string_view name) {
     const auto wrong = [](const char* message) {
         return Error{ErrorCode::kInvalidScene, "", message};

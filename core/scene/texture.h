@@ -20,6 +20,19 @@ struct SceneDraft;
 // Points along a texture's side. A billboard is a few hundred pixels at most, and its edge is soft.
 inline constexpr int kTextureSide = 128;
 
+// A picture's luminance, whatever its alpha: 65535 white, row by row from the top left. `across` and `down` are at most
+// kHeightMapSide, in the picture's proportions.
+struct HeightMap {
+    int across = 0, down = 0;
+    std::vector<std::uint16_t> heights;
+    // 32 hex digits of all that.
+    std::string hash;
+};
+inline constexpr int kHeightMapSide = 512;
+
+// 32 hex digits, of a height map's numbers.
+std::string height_map_hash(const HeightMap& map);
+
 // A picture of a puff of matter.
 struct Texture {
     std::string name;
@@ -30,6 +43,8 @@ struct Texture {
     std::vector<std::uint8_t> depth;
     // It has an up and a down: billboards turn it a little, others all round.
     bool upright = false;
+    // The same picture as a height map; of pictures that came beside a document.
+    HeightMap heights{};
 };
 using GivenTextures = std::vector<std::shared_ptr<const Texture>>;
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/scene/check_ranges.h"
+#include "core/scene/fingerprint.h"
 #include "core/scene/outside.h"
 #include "core/scene/rules.h"
 
@@ -31,6 +32,16 @@ Result<Scene> validate(SceneDraft draft) {
         medium.droplets = nullptr;
     else if (!medium.droplets || medium.droplets->diameter != medium.droplet)
         medium.droplets = std::make_shared<const DropletPhase>(droplet_phase(medium.droplet));
+    if (!has_terrain(draft)) {
+        draft.relief = nullptr;
+    } else {
+        std::string key =
+            fingerprint_of(table_of<Ground>(), &*draft.ground) + std::string(map_hash(draft));
+        if (!draft.relief || draft.relief->key != key) {
+            draft.relief = std::make_shared<ReliefSlot>();
+            draft.relief->key = std::move(key);
+        }
+    }
     auto air = air_of(draft);
     return Scene(std::move(draft), std::move(air));
 }

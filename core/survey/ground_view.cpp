@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 #include "core/base/exact_math.h"
@@ -11,6 +12,7 @@
 #include "core/scene/outside.h"
 #include "core/survey/gauss.h"
 #include "core/survey/raster_ray.h"
+#include "core/survey/relief_ray.h"
 #include "core/survey/volume.h"
 
 namespace awan {
@@ -48,7 +50,8 @@ bool reaches_below(const ParticleSet& particles, double height) {
     return false;
 }
 
-GroundView ground_view(const Scene& scene, const ParticleSet& particles, const Survey& survey) {
+GroundView ground_view(const Scene& scene, const ParticleSet& particles, const Survey& survey,
+                       int threads) {
     GroundView ground;
     if (!scene->ground || !(survey.bounds.max.y > scene->ground->height)) return ground;
     const double height = scene->ground->height;
@@ -68,17 +71,23 @@ GroundView ground_view(const Scene& scene, const ParticleSet& particles, const S
     const bool by_sun = direct > 0;
     const glm::dvec3 towards = by_sun ? outside.to_sun : glm::dvec3(0, 1, 0);
     const double share = direct + open > 0 ? (by_sun ? direct / (direct + open) : 1.0) : 0.0;
-    int met = 0;
+    const auto relief = relief_of(*scene, threads);
+    int met = 0, hills = 0;
     for (int j = 0; j < kDown; ++j)
         for (int i = 0; i < kAcross; ++i) {
             const glm::dvec3 d = raster_ray(view, kAcross, kDown, i, j);
-            if (!(d.y < 0)) continue;
+            const double t = relief    ? ground_ahead(*relief, view.eye, d)
+                             : d.y < 0 ? (height - view.eye.y) / d.y
+                                       : std::numeric_limits<double>::infinity();
+            if (std::isinf(t)) continue;
             ++met;
-            const glm::dvec3 p = view.eye + (height - view.eye.y) / d.y * d;
+            if (relief && view.eye.y + t * d.y > height + 1e-3 * relief->highest) ++hills;
+            const glm::dvec3 p = view.eye + t * d;
             const double depth = depth_through(survey.volume, p, towards);
             ground.shade = std::max(ground.shade, share * -exact::expm1(-depth));
         }
     ground.seen = static_cast<double>(met) / (kAcross * kDown);
+    ground.hills = static_cast<double>(hills) / (kAcross * kDown);
     return ground;
 }
 

@@ -10,6 +10,7 @@ bool reaches_below(const ParticleSet& particles, double height);
 
 // On 24 x 18 rays; depths towards the sun (the zenith, where no sun is up) by steps through survey.volume, within
 // some 5% of it or .05. Below 1 ms. Preconditions: survey has its bounds, view and volume.
-GroundView ground_view(const Scene& scene, const ParticleSet& particles, const Survey& survey);
+GroundView ground_view(const Scene& scene, const ParticleSet& particles, const Survey& survey,
+                       int threads);
 
 }  // namespace awan

@@ -10,6 +10,7 @@
 #include "core/survey/haze_depth.h"
 #include "core/survey/outside_light.h"
 #include "core/survey/raster_ray.h"
+#include "core/survey/relief_ray.h"
 #include "core/survey/volume.h"
 
 namespace awan {
@@ -82,11 +83,17 @@ struct RayFigures {
     double pixel = 0, taken = 0, to_clouds = 0, behind = 0;
 };
 
-RayFigures look_along(const Haze& haze, double ground, const Lights& lights, const Survey& survey,
+// Where the haze ends on a ray.
+double end_of(const Relief* relief, double ground, const View& view, const glm::dvec3& d) {
+    if (!(view.eye.y > ground)) return kInfinity;
+    if (relief != nullptr) return ground_ahead(*relief, view.eye, d);
+    return d.y < 0 ? (view.eye.y - ground) / -d.y : kInfinity;
+}
+
+RayFigures look_along(const Haze& haze, double end, const Lights& lights, const Survey& survey,
                       const glm::dvec3& d) {
     const View& view = survey.view;
     const DensityVolume& volume = survey.volume;
-    const double end = d.y < 0 && view.eye.y > ground ? (view.eye.y - ground) / -d.y : kInfinity;
     const HazeRay ray(haze, view.eye.y, d.y);
     const double p = henyey_greenstein(haze.g, glm::dot(d, lights.to_sun));
     const double albedo = luminance(haze.albedo);
@@ -136,19 +143,19 @@ HazeFigures haze_figures(const Scene& scene, const Survey& survey) {
                               ? scene->ground->height
                               : -kInfinity;
     const View& view = survey.view;
+    const auto relief = relief_of(*scene, 1);
     double pixels = 0, taken = 0;
     const bool matter = !survey.volume.extinction.empty();
     for (int j = 0; j < kRaysDown; ++j)
         for (int i = 0; i < kRaysAcross; ++i) {
             const glm::dvec3 d = raster_ray(view, kRaysAcross, kRaysDown, i, j);
+            const double end = end_of(relief.get(), ground, view, d);
             if (!matter) {
-                const double end =
-                    d.y < 0 && view.eye.y > ground ? (view.eye.y - ground) / -d.y : kInfinity;
                 figures.depth_behind = std::max(figures.depth_behind,
                                                 HazeRay(*scene->haze, view.eye.y, d.y).depth(end));
                 continue;
             }
-            const RayFigures ray = look_along(*scene->haze, ground, lights, survey, d);
+            const RayFigures ray = look_along(*scene->haze, end, lights, survey, d);
             figures.depth_to_clouds = std::max(figures.depth_to_clouds, ray.to_clouds);
             figures.depth_behind = std::max(figures.depth_behind, ray.behind);
             pixels += ray.pixel;

@@ -106,6 +106,8 @@ Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int thre
     survey.bounds = bounds_of(unmerged(particles));
     survey.view = resolve_view(scene->camera, scene->image, survey.bounds);
     survey.sun_cosine = sun_cosine(scene, survey);
+    // On all threads, before anybody asks for it on one.
+    relief_of(*scene, threads);
     if (particles.size() == 0) {
         survey.haze = haze_figures(scene, survey);
         return survey;
@@ -141,7 +143,7 @@ Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int thre
         survey.max_extinction = std::max(survey.max_extinction, static_cast<double>(cell));
     survey.detail.extinction = typical_extinction(survey.volume);
     survey.haze = haze_figures(scene, survey);
-    survey.ground = ground_view(scene, particles, survey);
+    survey.ground = ground_view(scene, particles, survey, threads);
     if (auto error = deadline.over()) return *error;
     return survey;
 }

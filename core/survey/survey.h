@@ -43,6 +43,8 @@ struct GroundView {
     double light = 0;
     // Whether some of the cloud lies below it.
     bool matter_below = false;
+    // Share of the picture's rays on which hills stand.
+    double hills = 0;
 };
 
 // No depth of HazeFigures is above it; level rays may have an infinite one.

@@ -170,7 +170,13 @@ bool add_ground(PixelPaths& all, const Sight& sight, const Behind& behind, Pixel
     const Picture& picture = all.picture();
     if (!(std::max(sight.through[0], sight.through[1]) > kDark)) return true;
     glm::dvec3 place = sight.eye + sight.ground * sight.direction;
-    place.y = picture.setting.ground_height;
+    if (picture.setting.relief) {
+        const Matter& m = picture.matter;
+        place =
+            (above_ground(*picture.setting.relief, m.origin + m.cell * place) - m.origin) / m.cell;
+    } else {
+        place.y = picture.setting.ground_height;
+    }
     return each_path(
         behind.key, behind.paths,
         [&](PathRandom& random, double, std::uint32_t half, std::uint64_t walk_key) {

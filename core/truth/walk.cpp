@@ -18,6 +18,8 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
+// An optical depth that nothing comes through.
+constexpr float kDark = 1e4F;
 constexpr double kSunDisc = 0.2665 * pi / 180;  // angular radius
 // Scatterings of a wave between two looks at the time.
 constexpr std::uint32_t kLook = 32;
@@ -120,6 +122,7 @@ class Walks {
             w_.in_matter[i] = -1;
             w_.path.places().set(i, m_, q);
             w_.path.depth[i] = static_cast<float>(depth_to_sun_at(m_, w_.path.places().at(i)));
+            if (is_in_hills_shadow(w_.path.places().at(i))) w_.path.depth[i] += kDark;
         }
     }
 
@@ -130,9 +133,27 @@ class Walks {
         w_.on_ground[i] = q;
     }
 
+    // In scene units and axes.
+    glm::dvec3 scene_place(const glm::dvec3& q) const {
+        return m_.origin + m_.cell * ((q - m_.shift) * m_.axes);
+    }
+
+    // Whether hills keep the sun from there.
+    bool is_in_hills_shadow(const glm::dvec3& q) const {
+        return s_.relief && hills_before(*s_.relief, scene_place(q), s_.to_sun);
+    }
+
+    // Matter in the shadow of hills is as good as behind much of it.
+    void shade_by_hills(WaveFlights& of, std::span<const std::uint32_t> which) {
+        if (!s_.relief || !lanes_.sun_shines) return;
+        for (const std::uint32_t i : which)
+            if (of.met[i] != 0 && is_in_hills_shadow(of.places().at(i))) of.depth[i] += kDark;
+    }
+
     // Cells to the ground ahead, as ground_ahead.
     double ground_from(const glm::dvec3& q, const glm::dvec3& d) const {
         if (!s_.has_ground) return kFar;
+        if (s_.relief) return ground_ahead(*s_.relief, scene_place(q), d * m_.axes) / m_.cell;
         const double down = -glm::dot(up_, d), above = glm::dot(up_, q) - ground_height_;
         return down > 0 && above > 0 ? above / down : kFar;
     }
@@ -173,6 +194,7 @@ class Walks {
                 }
             fly_all(m_, flights(w_.branch, direction, s_.has_ground ? w_.ground.data() : nullptr),
                     which);
+            shade_by_hills(w_.branch, which);
             if (lanes_.colored) tint(w_.branch);
             follow_branches(lanes_, left, w_);
         }
@@ -190,7 +212,7 @@ class Walks {
         }
         fly_all(m_, flights(apart_, apart_.direction, nullptr), which);
         for (const std::uint32_t i : which)
-            if (apart_.met[i] == 0)
+            if (apart_.met[i] == 0 && !is_in_hills_shadow(from.places().at(i)))
                 for (int a = 0; a < 3; ++a) w_.sunlight[a][i] += light[a][i];
     }
 
@@ -213,12 +235,13 @@ class Walks {
         }
     }
 
-    // Puts a flight from the ground to where it comes into the matter's box. False: it does not.
-    bool enters(std::size_t i, const glm::dvec3& d, WaveFlights& of) {
+    // Puts a flight from the ground to where it comes into the matter's box, not farther than `until`. False: it does
+    // not.
+    bool enters(std::size_t i, const glm::dvec3& d, WaveFlights& of, double until = kFar) {
         if (m_.empty) return false;
         const glm::dvec3& q = w_.on_ground[i];
         const BrickWalk box(m_, q, d, 0, kFar);
-        if (!box.inside()) return false;
+        if (!box.inside() || box.enter() > until) return false;
         of.places().set(i, m_, q + box.enter() * d);
         of.turn_to(i, d);
         return true;
@@ -234,6 +257,22 @@ class Walks {
             if (d.y > 0) return m_.axes * d;
         }
         return to_sun_;
+    }
+
+    // Of the ground where path i stands: albedo, and unit normal in the lattice's axes.
+    glm::dvec3 normal_here(std::size_t i) const {
+        if (!s_.relief) return up_;
+        const glm::dvec3 p = scene_place(w_.on_ground[i]);
+        return m_.axes * normal_at(*s_.relief->relief, p.x, p.z);
+    }
+    glm::dvec3 albedo_here(std::size_t i) const {
+        if (!s_.relief) return s_.ground_albedo;
+        const glm::dvec3 p = scene_place(w_.on_ground[i]);
+        return albedo_at(*s_.relief->relief, p.x, p.z, normal_at(*s_.relief->relief, p.x, p.z));
+    }
+
+    glm::dvec3 off_ground(std::size_t i, PathRandom& random) const {
+        return s_.relief ? scattered_off(normal_here(i), random) : off_ground(random);
     }
 
     glm::dvec3 off_ground(PathRandom& random) const {
@@ -271,7 +310,10 @@ class Walks {
             const glm::dvec3 d = light.direction(i);
             apart_.met[i] = 0;
             apart_.turn_to(i, d);
-            if (enters(i, d, apart_)) which_[count++] = i;
+            if (s_.relief && std::isfinite(ground_from(w_.on_ground[i], d)))
+                apart_.met[i] = 1;
+            else if (enters(i, d, apart_))
+                which_[count++] = i;
         }
         fly_all(m_, flights(apart_, apart_.direction, nullptr), {which_.data(), count});
         for (const std::uint32_t i : from)
@@ -287,6 +329,10 @@ class Walks {
         glm::dvec3 value(std::size_t i) const {
             const glm::dvec3 weight = w.three(w.w_.weight, i);
             const Setting& s = w.s_;
+            if (s.relief) {
+                const double cosine = glm::dot(w.normal_here(i), w.apart_.along(i));
+                return weight * (std::max(cosine, 0.0) / pi) * s.sun_irradiance;
+            }
             return weight * (s.to_sun.y / pi) * s.sun_irradiance;
         }
     };
@@ -294,7 +340,7 @@ class Walks {
         Walks& w;
         glm::dvec3 direction(std::size_t i) const {
             PathRandom random = w.random_of(i);
-            return w.off_ground(random);
+            return w.off_ground(i, random);
         }
         glm::dvec3 value(std::size_t i) const {
             return w.three(w.w_.weight, i) * w.sky_from(w.apart_.along(i));
@@ -309,7 +355,7 @@ class Walks {
         if (standing_.empty()) return;
         for (const std::uint32_t i : standing_) {
             before_[i] = three(w_.weight, i);
-            set_weight(i, before_[i] * s_.ground_albedo);
+            set_weight(i, before_[i] * albedo_here(i));
         }
         if (lanes_.sun_shines && s_.to_sun.y > 0) look_up(standing_, SunOnGround{*this});
         if (s_.dome.shines && s_.sky == SkySampling::kNextEvent)
@@ -319,7 +365,7 @@ class Walks {
             glm::dvec3 weight = three(w_.weight, i);
             w_.gone[i] = survives(i, before_[i], weight, random) ? 0 : -1;
             set_weight(i, weight);
-            w_.path.turn_to(i, off_ground(random));
+            w_.path.turn_to(i, off_ground(i, random));
         }
     }
 
@@ -332,14 +378,29 @@ class Walks {
             w_.path.met[i] = 0;
             w_.ground[i] = std::numeric_limits<float>::infinity();
             if (w_.in_matter[i] == 0) {
-                if (!enters(i, d, w_.path)) continue;
+                double until = kFar;
+                if (s_.relief) {
+                    until = ground_from(w_.on_ground[i], d);
+                    w_.ground[i] = static_cast<float>(until);
+                    stands_next_[i] = w_.on_ground[i] + (std::isinf(until) ? 0 : until) * d;
+                }
+                const bool flies = enters(i, d, w_.path, until);
+                if (!flies) continue;
+                // From where it comes into the box.
+                if (s_.relief && std::isfinite(until))
+                    w_.ground[i] =
+                        static_cast<float>(glm::length(stands_next_[i] - w_.path.places().at(i)));
             } else if (s_.has_ground) {
-                w_.ground[i] = static_cast<float>(ground_from(w_.path.places().at(i), d));
+                const double until = ground_from(w_.path.places().at(i), d);
+                w_.ground[i] = static_cast<float>(until);
+                if (s_.relief)
+                    stands_next_[i] = w_.path.places().at(i) + (std::isinf(until) ? 0 : until) * d;
             }
             which_[count++] = static_cast<std::uint32_t>(i);
         }
         fly_all(m_, flights(w_.path, w_.path.direction, s_.has_ground ? w_.ground.data() : nullptr),
                 {which_.data(), count});
+        shade_by_hills(w_.path, {which_.data(), count});
     }
 
     // After its flight: whether the path is over.
@@ -353,6 +414,9 @@ class Walks {
             if (s_.dome.shines && s_.sky == SkySampling::kEscape)
                 w_.other_light[i] += weight * sky_from(w_.path.along(i));
             return true;
+        } else if (s_.relief) {
+            const glm::dvec3 p = above_ground(*s_.relief, scene_place(stands_next_[i]));
+            stand_on_ground(i, m_.axes * ((p - m_.origin) / m_.cell) + m_.shift);
         } else {
             glm::dvec3 q =
                 w_.path.places().at(i) + static_cast<double>(w_.ground[i]) * w_.path.along(i);
@@ -405,6 +469,7 @@ class Walks {
         move(w_.gone);
         move(w_.other_light);
         move(w_.on_ground);
+        move(stands_next_);
         move(w_.events);
         move(w_.start);
     }
@@ -427,47 +492,11 @@ class Walks {
     OfWave<std::uint32_t> which_{};
     std::vector<std::uint32_t> standing_;
     OfWave<glm::dvec3> before_{};
+    // With hills: where on the ground paths end that do not meet matter before.
+    OfWave<glm::dvec3> stands_next_{};
 };
 
 }  // namespace
-
-glm::dvec3 sky_radiance(const Setting& setting, const glm::dvec3& direction) {
-    const SkyDome& dome = setting.dome;
-    if (!dome.shines) return glm::dvec3(0);
-    if (dome.physical) return physical_radiance(dome, direction);
-    const double up = std::max(direction.y, 0.0);
-    const double share = 1.09 * up * up / (up * up + 0.09);
-    return (1 - share) * dome.horizon + share * dome.zenith;
-}
-
-int worthwhile_from_sun(double g) {
-    const double size = std::abs(g);
-    return size < 0.4 ? 0 : size < 0.6 ? 2 : size < 0.8 ? 4 : size < 0.9 ? 7 : 12;
-}
-
-Setting setting_of(const Scene& scene, const Matter& matter, const TruthOptions& options) {
-    Setting s;
-    s.matter = &matter;
-    s.phase = phase_law(scene->medium);
-    s.albedo = scene->medium.albedo;
-    const Outside outside = outside_of(scene);
-    s.to_sun = outside.to_sun;
-    s.sun_irradiance = outside.sun;
-    s.dome = outside.sky;
-    const glm::dvec3 aside = std::abs(s.to_sun.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    s.sun_u = glm::normalize(glm::cross(s.to_sun, aside));
-    s.sun_v = glm::cross(s.to_sun, s.sun_u);
-    s.sky = options.sky;
-    if (scene->ground) {
-        s.has_ground = true;
-        s.ground_height = (scene->ground->height - matter.origin.y) / matter.cell;
-        s.ground_albedo = scene->ground->albedo;
-    }
-    s.max_orders = options.max_orders == 0 ? kMaxOrders : std::min(options.max_orders, kMaxOrders);
-    // Droplets' peak is steeper than any other.
-    s.from_sun = s.phase.droplets ? kMaxFromSun : worthwhile_from_sun(s.phase.g);
-    return s;
-}
 
 bool walk(const Setting& setting, std::span<const Start> starts, std::span<Brought> brought,
           Tally& tally, const std::function<bool()>& over) {

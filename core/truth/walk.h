@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "core/scene/outside.h"
@@ -11,6 +12,7 @@
 #include "core/truth/path_random.h"
 #include "core/truth/path_tracer.h"
 #include "core/truth/phase_law.h"
+#include "core/truth/relief_walk.h"
 
 namespace awan::truth {
 
@@ -27,6 +29,8 @@ struct Setting {
     bool has_ground = false;
     double ground_height = 0;  // cells
     glm::dvec3 ground_albedo{0};
+    // Of a ground with hills; else none.
+    std::optional<ReliefWalk> relief;
     std::uint32_t max_orders = kMaxOrders;  // 1..kMaxOrders
     // Directions drawn from the sun's side, at most (walk.cpp); 0..kMaxFromSun. Changes the noise only.
     int from_sun = 0;
@@ -52,6 +56,10 @@ glm::dvec3 sky_radiance(const Setting& setting, const glm::dvec3& direction);
 
 // t of the ground ahead, infinite when there is none: it is there from above only.
 inline double ground_ahead(const Setting& setting, const glm::dvec3& o, const glm::dvec3& d) {
+    if (setting.relief) {
+        const Matter& m = *setting.matter;
+        return ground_ahead(*setting.relief, m.origin + m.cell * o, d) / m.cell;
+    }
     if (!setting.has_ground || !(d.y < 0) || o.y <= setting.ground_height)
         return std::numeric_limits<double>::infinity();
     return (setting.ground_height - o.y) / d.y;

@@ -125,7 +125,8 @@ std::string text_schema(const Field& field) {
     if (std::string_view(field.name) == "rung") return reference("Rung");
     if (std::string_view(field.name) == "layers") return layers_schema();
     if (std::string_view(field.name) == "textures") return textures_schema();
-    if (std::string_view(field.name) == "texture") return reference("TextureName");
+    if (std::string_view(field.name) == "texture" || std::string_view(field.name) == "map")
+        return reference("TextureName");
     if (std::string_view(field.name) == "formula") return formula_schema(field);
     return R"({"type":"string","maxLength":)" + std::to_string(most_bytes(field)) + '}';
 }

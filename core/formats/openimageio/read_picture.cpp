@@ -5,6 +5,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <string_view>
@@ -70,8 +72,84 @@ std::unique_ptr<OIIO::ImageInput> open_picture(OIIO::ImageSpec& spec) {
     return nullptr;
 }
 
+// The luminance of a picture whose alpha does not count, by rows as they come, as means over areas.
+class Heights {
+  public:
+    Heights(int width, int height)
+        : width_(width), height_(height), across_(side(width)), down_(side(height)) {
+        sums_.resize(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_));
+    }
+    int across() const { return across_; }
+    int down() const { return down_; }
+    // A pixel is shared out among those of the map that it lies in, along either side.
+    void add_row(int y, const std::vector<float>& row) {
+        for (int j = first(y, height_, down_); j < down_; ++j) {
+            const double down_share = overlap(y, height_, j, down_);
+            if (!(down_share > 0)) break;
+            for (int x = 0; x < width_; ++x)
+                for (int i = first(x, width_, across_); i < across_; ++i) {
+                    const double share = overlap(x, width_, i, across_);
+                    if (!(share > 0)) break;
+                    sums_[static_cast<std::size_t>(j) * static_cast<std::size_t>(across_) +
+                          static_cast<std::size_t>(i)] +=
+                        share * down_share * static_cast<double>(row[static_cast<std::size_t>(x)]);
+                }
+        }
+    }
+    std::vector<std::uint16_t> numbers() const {
+        std::vector<std::uint16_t> all;
+        for (const double sum : sums_)
+            all.push_back(static_cast<std::uint16_t>(std::clamp(sum, 0.0, 65535.0) + 0.5));
+        return all;
+    }
+
+  private:
+    int side(int own) const {
+        const int longer = std::max(width_, height_);
+        if (longer <= awan::kPictureHeights) return own;
+        return std::max(
+            1, static_cast<int>(static_cast<long long>(own) * awan::kPictureHeights / longer));
+    }
+    static int first(int pixel, int pixels, int parts) {
+        return static_cast<int>(static_cast<long long>(pixel) * parts / pixels);
+    }
+    // Share of part `part` of all that pixel `pixel` covers.
+    static double overlap(int pixel, int pixels, int part, int parts) {
+        const double ratio = static_cast<double>(parts) / pixels;
+        return std::min((pixel + 1) * ratio, part + 1.0) - std::max(pixel * ratio, 1.0 * part);
+    }
+
+    int width_, height_, across_, down_;
+    std::vector<double> sums_;
+};
+
+// Once more, its colours in 16 bits. False: it cannot be read so.
+bool read_heights(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, Heights& heights) {
+    const int count = spec.nchannels < 3 ? 1 : 3;
+    const auto width = static_cast<std::size_t>(spec.width);
+    std::vector<std::uint16_t> pixels(width * static_cast<std::size_t>(spec.height) *
+                                      static_cast<std::size_t>(count));
+    if (!input.read_image(0, 0, 0, count, OIIO::TypeDesc::UINT16, pixels.data())) {
+        input.geterror();
+        return false;
+    }
+    std::vector<float> row(width);
+    const std::uint16_t* from = pixels.data();
+    for (int y = 0; y < spec.height; ++y) {
+        for (float& one : row) {
+            one = count == 1 ? static_cast<float>(from[0])
+                             : 0.2126F * static_cast<float>(from[0]) +
+                                   0.7152F * static_cast<float>(from[1]) +
+                                   0.0722F * static_cast<float>(from[2]);
+            from += count;
+        }
+        heights.add_row(y, row);
+    }
+    return true;
+}
+
 // Null, or what is wrong with it.
-const char* read(int& width, int& height, std::vector<unsigned char>& values) {
+const char* read(awan::PictureHead& head, std::vector<unsigned char>& values) {
     OIIO::attribute("exr_threads", -1);
     OIIO::attribute("threads", 1);
     OIIO::ImageSpec spec;
@@ -105,8 +183,16 @@ const char* read(int& width, int& height, std::vector<unsigned char>& values) {
                 (2126 * values[3 * i] + 7152 * values[3 * i + 1] + 722 * values[3 * i + 2]) /
                 10000);
     values.resize(pixels);
-    width = spec.width;
-    height = spec.height;
+    values.shrink_to_fit();
+    Heights heights(spec.width, spec.height);
+    if (!read_heights(*input, spec, heights)) return "it is broken, or ends too soon";
+    const std::vector<std::uint16_t> numbers = heights.numbers();
+    const auto* const bytes = reinterpret_cast<const unsigned char*>(numbers.data());
+    values.insert(values.end(), bytes, bytes + 2 * numbers.size());
+    head.width = spec.width;
+    head.height = spec.height;
+    head.across = heights.across();
+    head.down = heights.down();
     return nullptr;
 }
 
@@ -118,7 +204,7 @@ int main() {
     std::vector<unsigned char> values;
     const char* wrong = nullptr;
     try {
-        wrong = read(head.width, head.height, values);
+        wrong = read(head, values);
     } catch (const std::bad_alloc&) {
         head.outcome = awan::PictureOutcome::kNoMemory;
         wrong = "it takes more memory to read than it may";
