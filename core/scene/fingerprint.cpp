@@ -190,7 +190,7 @@ void leave_out_if_all(Instead& instead, const std::vector<T>& values, const T& s
         instead.leave_out(values);
 }
 
-void settle_model(Instead& instead, const Cloud& cloud) {
+void settle_model(Instead& instead, const SceneDraft& scene, const Cloud& cloud) {
     if (cloud.implicit)
         instead.put(cloud.implicit,
                     std::shared_ptr<const ImplicitCloud>(
@@ -209,6 +209,13 @@ void settle_model(Instead& instead, const Cloud& cloud) {
         all->ratio_max = ratios.high;
         all->shift_min = shifts.low;
         all->shift_max = shifts.high;
+        if (all->bump && all->bump->texture) {
+            const std::string_view hash = find_texture(scene, *all->bump->texture);
+            if (hash.empty())
+                all->bump->texture.reset();
+            else
+                all->bump->texture = std::string(hash);
+        }
         instead.put(cloud.spheres, std::shared_ptr<const SpheresCloud>(std::move(all)));
     }
 }
@@ -235,7 +242,7 @@ void settle_textures(Instead& instead, const SceneDraft& scene, const Cloud& clo
 void settle_cloud(Instead& instead, const SceneDraft& scene, const Cloud& cloud) {
     leave_out_if_all(instead, cloud.ready.densities, 1.0f);
     leave_out_if_all(instead, cloud.ready.colors, glm::vec3(1.0f));
-    settle_model(instead, cloud);
+    settle_model(instead, scene, cloud);
     // Where it stands is what tells two times apart.
     instead.put(cloud.velocity, clouds_time(scene) * cloud.velocity);
     instead.put(cloud.fill, fill_of(scene, cloud));

@@ -175,7 +175,12 @@ Status check_cloud(const SceneDraft& draft, std::size_t k, Totals& totals) {
         if (described[i] != (cloud.model == kOf[i]))
             return invalid(at, "must have the description of its model and no other");
     if (cloud.automaton) return check_rules(*cloud.automaton, at + "/automaton");
-    if (cloud.spheres) return check_rules(*cloud.spheres, at + "/spheres");
+    if (cloud.spheres) {
+        if (const auto& bump = cloud.spheres->bump)
+            if (Status wrong = check_texture(draft, bump->texture, at + "/spheres/bump"))
+                return wrong;
+        return check_rules(*cloud.spheres, at + "/spheres");
+    }
     if (cloud.implicit) return check_rules(*cloud.implicit, at + "/implicit");
     if (cloud.ellipsoids) return check_rules(*cloud.ellipsoids, at + "/ellipsoids");
     const double density = density_of(draft, cloud).value_or(kDefaultDensity);

@@ -83,6 +83,35 @@ Status check_span(const Span& span, const std::string& pointer_to_low) {
                                        ", not " + to_text(span.low));
 }
 
+Status check_leaves(const SpheresCloud& cloud, const std::string& at) {
+    std::uint64_t leaves = 1, most = 0;
+    for (; leaves <= limits::kMaxSphereLeaves / cloud.parts; ++most) leaves *= cloud.parts;
+    if (cloud.levels <= most) return std::nullopt;
+    return invalid(at + "/levels", "makes more than " + std::to_string(limits::kMaxSphereLeaves) +
+                                       " spheres; of " + std::to_string(cloud.parts) +
+                                       " parts each there may be " + std::to_string(most) +
+                                       " levels");
+}
+
+Status check_poses(const SpheresCloud& cloud, const std::string& at) {
+    for (std::size_t i = 0; i < cloud.poses.size(); ++i) {
+        const std::string here = at + "/poses/" + std::to_string(i);
+        const SpheresPose& pose = cloud.poses[i];
+        if (i > 0 && !(pose.time > cloud.poses[i - 1].time))
+            return invalid(here + "/time", "must be later than that of the pose before, " +
+                                               to_text(cloud.poses[i - 1].time));
+        for (int axis = 0; axis < 3; ++axis) {
+            const double side = cloud.size[axis] * pose.scale[axis];
+            if (side < limits::kMinSpheresSide || side > limits::kMaxSpheresSide)
+                return invalid(here + "/scale/" + std::to_string(axis),
+                               "times the cloud's side must be from " +
+                                   to_text(limits::kMinSpheresSide) + " to " +
+                                   to_text(limits::kMaxSpheresSide) + ", not " + to_text(side));
+        }
+    }
+    return std::nullopt;
+}
+
 // --- implicit
 
 Status check_shape(const ImplicitPrimitive& p, const std::string& at) {
@@ -190,7 +219,9 @@ Status check_rules(const AutomatonCloud& cloud, const std::string& at) {
 
 Status check_rules(const SpheresCloud& cloud, const std::string& at) {
     if (Status wrong = check_span(ratios_of(cloud), at + "/ratio_min")) return wrong;
-    return check_span(shifts_of(cloud), at + "/shift_min");
+    if (Status wrong = check_span(shifts_of(cloud), at + "/shift_min")) return wrong;
+    if (Status wrong = check_leaves(cloud, at)) return wrong;
+    return check_poses(cloud, at);
 }
 
 Status check_rules(const ImplicitCloud& cloud, const std::string& at) {
