@@ -22,8 +22,8 @@ constexpr double kUpperSpheres = 2500;
 // And those that light is followed to: six levels of five parts.
 constexpr double kLitSpheres = 17000;
 
-// A ray meets parts * E(I_j^2) times as many spheres at each level. Where that runs away (large ratios), the levels that
-// would make it more than this are not told apart: they are cloud everywhere.
+// A ray meets parts * E(I_j^2) times as many spheres at each level. Where that runs away (large ratios), the levels
+// that would make it more than this are not told apart: they are cloud everywhere.
 constexpr double kMostHits = 1000;
 
 int told_apart(const SphereTree& tree) {

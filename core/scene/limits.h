@@ -123,7 +123,7 @@ inline constexpr std::uint64_t kMaxTextureTerms = 8;
 // The lowest frequency of the texture, radians/unit: from a wave as long as the space to one below the finest cell.
 inline constexpr double kMinTextureFrequency = 1e-6, kMaxTextureFrequency = 1e6;
 // The amplitude of a sine that is given by hand, a factor: only what amplitudes are to each other counts.
-inline constexpr double kMaxSineAmplitude = 100;
+inline constexpr double kMinSineAmplitude = 1e-6, kMaxSineAmplitude = 100;
 // T0 of the texture, dimensionless. By then the texture is flat within 2%.
 inline constexpr double kMaxTextureOffset = 100;
 // Thresholds of translucence, of T, which is from 0 to 1. A good way beyond either end, so that a cloud may be all or

@@ -185,12 +185,40 @@ Status check_flow(const ImplicitFlow& flow, const std::string& at) {
 
 // --- ellipsoids
 
+Status check_quadric(const Quadric& quadric, const std::string& at) {
+    const auto shape = shape_of(quadric);
+    if (!shape)
+        return invalid(at,
+                       "is no ellipsoid: its part of second degree must be positive definite, "
+                       "and some point must lie within");
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(shape->radii[axis] >= limits::kMinEllipsoidRadius &&
+              shape->radii[axis] <= limits::kMaxEllipsoidRadius))
+            return invalid(at, "must have semi-axes from " + to_text(limits::kMinEllipsoidRadius) +
+                                   " to " + to_text(limits::kMaxEllipsoidRadius) + ", not " +
+                                   to_text(shape->radii[axis]));
+        if (!(std::abs(shape->center[axis]) <= limits::kMaxEllipsoidCoordinate))
+            return invalid(at, "must have its middle within " +
+                                   to_text(limits::kMaxEllipsoidCoordinate) + " of the origin");
+    }
+    return std::nullopt;
+}
+
+Status check_limits(double least, double most, const std::string& at) {
+    if (least <= most) return std::nullopt;
+    return invalid(at + "/translucence_min", "must be at most translucence_max, " + to_text(most) +
+                                                 ", not " + to_text(least));
+}
+
 // All lists together, named at the one that goes over.
 Status check_counts(const EllipsoidsCloud& cloud, const std::string& at) {
     const std::string most = "a cloud may have at most " + std::to_string(limits::kMaxEllipsoids) +
                              " ellipsoids in all, this makes it more";
     if (cloud.ellipsoids.size() > limits::kMaxEllipsoids) return invalid(at + "/ellipsoids", most);
     std::uint64_t count = cloud.ellipsoids.size();
+    if (cloud.quadrics.size() > limits::kMaxEllipsoids - count)
+        return invalid(at + "/quadrics", most);
+    count += cloud.quadrics.size();
     for (std::size_t i = 0; i < cloud.formations.size(); ++i) {
         if (cloud.formations[i].count > limits::kMaxEllipsoids - count)
             return invalid(at + "/formations/" + std::to_string(i) + "/count", most);
@@ -240,9 +268,17 @@ Status check_rules(const ImplicitCloud& cloud, const std::string& at) {
 }
 
 Status check_rules(const EllipsoidsCloud& cloud, const std::string& at) {
-    if (cloud.plane)
+    if (cloud.plane) {
         if (Status wrong =
                 in_range(cloud.plane->thickness, 0, cloud.plane->extent, at + "/plane/thickness"))
+            return wrong;
+        if (Status wrong = check_limits(cloud.plane->least, cloud.plane->most, at + "/plane"))
+            return wrong;
+    }
+    if (Status wrong = check_limits(cloud.translucence.least, cloud.translucence.most, at))
+        return wrong;
+    for (std::size_t i = 0; i < cloud.quadrics.size(); ++i)
+        if (Status wrong = check_quadric(cloud.quadrics[i], at + "/quadrics/" + std::to_string(i)))
             return wrong;
     return check_counts(cloud, at);
 }
