@@ -173,8 +173,8 @@ TEST(SpheresJson, RefusesWhatCannotBe) {
     wrong(R"("turning": -1)", "/turning", {"3600"});
     wrong(R"("poses": [{}])", "/poses/0", {"time"});
     wrong(R"("poses": [{"time": 1}, {"time": 1}])", "/poses/1/time", {"later"});
-    wrong(R"("poses": [{"time": 1, "scale": 0}])", "/poses/0/scale/0", {"1e-06"});
-    wrong(R"("poses": [{"time": 1, "scale": [1, 1e6, 1]}])", "/poses/0/scale/1", {"side"});
+    wrong(R"("poses": [{"time": 1, "scale": 0}])", "/poses/0/scale/0", {"0.001"});
+    wrong(R"("poses": [{"time": 1, "scale": [1, 900, 1]}], "size": [1, 1e4, 1])", "/poses/0/scale/1", {"side"});
     wrong(R"("bump": {"texture": "nothing"})", "/bump/texture", {"puff", "uploaded"});
     wrong(R"("bump": {"height": 2})", "/bump/height", {"1"});
     wrong(R"("bump": {"repeat": 0})", "/bump/repeat", {"1", "64"});

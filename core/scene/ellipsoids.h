@@ -477,14 +477,16 @@ struct Quadric {
 };
 
 inline constexpr Range kQuadricRange = within(limits::kMaxQuadric);
+// Of an ellipsoid they are all of one sign, and its equation may be multiplied by -1.
+inline constexpr Range kQuadricSquare = from_to(limits::kMinQuadricSquare, limits::kMaxQuadric);
 
 inline constexpr Field kQuadricFields[] = {
     field<&Quadric::q1>(
-        {.name = "q1", .wanted = "a number", .range = kQuadricRange, .says = "Of X^2."}),
+        {.name = "q1", .wanted = "a number > 0", .range = kQuadricSquare, .says = "Of X^2."}),
     field<&Quadric::q2>(
-        {.name = "q2", .wanted = "a number", .range = kQuadricRange, .says = "Of Y^2."}),
+        {.name = "q2", .wanted = "a number > 0", .range = kQuadricSquare, .says = "Of Y^2."}),
     field<&Quadric::q3>(
-        {.name = "q3", .wanted = "a number", .range = kQuadricRange, .says = "Of Z^2."}),
+        {.name = "q3", .wanted = "a number > 0", .range = kQuadricSquare, .says = "Of Z^2."}),
     field<&Quadric::q4>(
         {.name = "q4", .wanted = "a number", .range = kQuadricRange, .says = "Of XY."}),
     field<&Quadric::q5>(

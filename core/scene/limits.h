@@ -144,7 +144,7 @@ inline constexpr double kMaxRadiusVariation = 0.9;
 // How far a link of a formation goes from touching (0) to the same centre (1): overlapping, yet not all in one place.
 inline constexpr double kMinLink = 0.05, kMaxLink = 0.95;
 // Coefficients of a quadric, a1 x^2 + ... = 0: only what they are to each other counts.
-inline constexpr double kMaxQuadric = 1e15;
+inline constexpr double kMaxQuadric = 1e15, kMinQuadricSquare = 1e-12;
 // Patterns over one sky plane. Each costs a pixel, or a cell, a texture of its own.
 inline constexpr std::uint64_t kMaxPlanePatterns = 16;
 // Sides of the sky plane, scene units. With kMaxPlaneResolution a particle stays within kMinRadius and kMaxRadius.
@@ -222,6 +222,8 @@ inline constexpr double kMaxSphereRatio = 1, kLeastUpperRatio = 0.01;
 inline constexpr double kMaxSphereTurning = 3'600;
 // Poses of one cloud: a minute of motion capture.
 inline constexpr std::uint64_t kMaxSpheresPoses = 1'000;
+// Times the sides of the cloud: from a thousandth to a thousand times.
+inline constexpr double kMinPoseScale = 1e-3, kMaxPoseScale = 1e3;
 // The relief of a sphere: its height in radii, the waves that it is the sum of, and how often one goes round.
 inline constexpr double kMaxBumpHeight = 1;
 inline constexpr std::uint64_t kMaxBumpWaves = 16;

@@ -111,7 +111,7 @@ inline constexpr Field kSpheresPoseFields[] = {
          .says = "Along the axis that it turns about, as long as the angle."}),
     field<&SpheresPose::scale>({.name = "scale",
                                 .wanted = "a number > 0, or [x, y, z]: three",
-                                .range = from_to(limits::kMinScale, limits::kMaxScale),
+                                .range = from_to(limits::kMinPoseScale, limits::kMaxPoseScale),
                                 .one_for_all = true,
                                 .says = "Times the cloud's sides."}),
 };
