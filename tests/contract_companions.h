@@ -19,6 +19,20 @@ struct Companion {
     void (*put_beside)(json& document, json& object);
 };
 
+// A ball beside one coefficient of a quadric, which that makes a little longer or moves.
+template <char kWhich>
+void round_beside(json&, json& quadric) {
+    const double given = quadric.at(std::string("q") + kWhich).get<double>();
+    const double size = kWhich >= '1' && kWhich <= '3' ? given : std::max(std::abs(given), 1.0);
+    for (const char* const square : {"q1", "q2", "q3"}) quadric[square] = size;
+    if (kWhich == '0')
+        quadric["q7"] = 4 * size > 1e15 ? 1e15 : 4 * size;
+    else
+        quadric["q0"] = -size;
+    if (kWhich == '0' && given > 0)
+        for (const char* const square : {"q1", "q2", "q3"}) quadric[square] = size / 8;
+}
+
 inline bool belongs(const char* row_object, const char* row_property, const std::string& object,
                     const std::string& property) {
     return object.ends_with(row_object) && property == row_property;
@@ -174,11 +188,27 @@ inline const Companion kCompanions[] = {
      [](json&, json& automaton) { automaton["steps"] = 100'000; }},
     // --- spheres
     {"Spheres", "ratio_min", "ratio_min <= ratio_max",
-     [](json&, json& spheres) { spheres["ratio_max"] = 0.9; }},
+     [](json&, json& spheres) { spheres["ratio_max"] = 1; }},
     {"Spheres", "ratio_max", "ratio_min <= ratio_max",
-     [](json&, json& spheres) { spheres["ratio_min"] = 0.05; }},
+     [](json&, json& spheres) { spheres["ratio_min"] = 0; }},
     {"Spheres", "shift_max", "shift_min <= shift_max",
      [](json&, json& spheres) { spheres["shift_min"] = 0; }},
+    {"Spheres", "poses", "poses are in rising order of time",
+     [](json&, json& spheres) {
+         int time = 0;
+         for (json& pose : spheres["poses"]) pose["time"] = ++time;
+     }},
+    // --- ellipsoids: the other coefficients so large that it is one
+    {"EllipsoidsQuadric", "q1", "is an ellipsoid", round_beside<'1'>},
+    {"EllipsoidsQuadric", "q2", "is an ellipsoid", round_beside<'2'>},
+    {"EllipsoidsQuadric", "q3", "is an ellipsoid", round_beside<'3'>},
+    {"EllipsoidsQuadric", "q4", "is an ellipsoid", round_beside<'4'>},
+    {"EllipsoidsQuadric", "q5", "is an ellipsoid", round_beside<'5'>},
+    {"EllipsoidsQuadric", "q6", "is an ellipsoid", round_beside<'6'>},
+    {"EllipsoidsQuadric", "q7", "is an ellipsoid", round_beside<'7'>},
+    {"EllipsoidsQuadric", "q8", "is an ellipsoid", round_beside<'8'>},
+    {"EllipsoidsQuadric", "q9", "is an ellipsoid", round_beside<'9'>},
+    {"EllipsoidsQuadric", "q0", "is an ellipsoid", round_beside<'0'>},
     // --- implicit
     {"ImplicitPrimitive", "shape", "cylinders and segments have points",
      [](json&, json& primitive) {

@@ -125,7 +125,8 @@ TEST(Ellipsoids, UnitSpaceIsItsOwnInverse) {
         PlacedEllipsoid one;
         one.center = dice.any_vector(100);
         one.radii = {dice.between(0.1, 5), dice.between(0.1, 5), dice.between(0.1, 5)};
-        one.turn = exact::sincos_degrees(dice.between(-400, 400));
+        one.axes = ellipsoids::turned_axes(dice.between(-400, 400), dice.between(-400, 400),
+                                           dice.between(-400, 400));
         const glm::dvec3 u = dice.on_sphere();
         const glm::dvec3 p = one.from_unit(u);
         EXPECT_LT(glm::length(one.to_unit(p) - u), 1e-12 * (1 + glm::length(one.center) / 0.1));

@@ -56,7 +56,8 @@ PlacedEllipsoid random_one(Dice& dice) {
     PlacedEllipsoid one;
     one.center = {dice.between(-2, 2), dice.between(-2, 2), dice.between(-2, 2)};
     one.radii = {dice.between(0.2, 2), dice.between(0.2, 2), dice.between(0.2, 2)};
-    one.turn = exact::sincos_degrees(dice.between(-180, 180));
+    one.axes = ellipsoids::turned_axes(dice.between(-180, 180), dice.between(-180, 180),
+                                       dice.between(-180, 180));
     return one;
 }
 

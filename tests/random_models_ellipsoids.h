@@ -24,6 +24,10 @@ inline SineTexture random_texture(Dice& dice, double usual) {
     texture.frequency_z = dice.chance(0.5) ? texture.frequency_x : frequency();
     texture.offset =
         dice.chance(0.2) ? dice.either({0, limits::kMaxTextureOffset}) : dice.between(0, 3);
+    if (dice.chance(0.2))
+        for (int i = dice.below(8); i >= 0; --i)
+            texture.sines.push_back({dice.log_between(1e-3, 100), frequency(), frequency(),
+                                     dice.any(360), dice.any(360)});
     return texture;
 }
 
@@ -77,7 +81,10 @@ inline Cloud random_ellipsoids(Dice& dice, const Whereabouts& where) {
                      dice.chance(0.2) ? dice.either({0, 1}) : dice.uniform(),
                      dice.chance(0.2) ? dice.either({1, limits::kMaxShininess})
                                       : dice.log_between(1, limits::kMaxShininess)};
-    model.translucence = {random_threshold(dice), random_threshold(dice), random_range(dice)};
+    model.translucence = {random_threshold(dice), random_threshold(dice), random_range(dice),
+                          dice.chance(0.8) ? 0 : dice.between(0, 0.5),
+                          dice.chance(0.8) ? 1 : dice.between(0.5, 1)};
+    if (dice.chance(0.3)) model.join = dice.chance(0.3) ? 1 : dice.uniform();
     if (dice.chance(0.3)) {
         SkyPlane& plane = model.plane.emplace();
         plane.altitude = size * dice.between(-2, 2);
@@ -90,6 +97,14 @@ inline Cloud random_ellipsoids(Dice& dice, const Whereabouts& where) {
         plane.density = dice.chance(0.2) ? 0 : dice.log_between(1e-3, 100);
         plane.resolution = 8 + static_cast<std::uint64_t>(dice.below(16));
         plane.texture = random_texture(dice, 5 / size);
+        if (dice.chance(0.3)) plane.horizon = plane.extent;
+        if (dice.chance(0.2)) plane.least = 0.25, plane.most = 0.75;
+        for (int i = dice.chance(0.3) ? dice.below(4) : 0; i > 0; --i)
+            plane.patterns.push_back({size * dice.between(-2, 2), size * dice.between(-2, 2),
+                                      std::max(plane.extent / 4, limits::kMinPlaneExtent),
+                                      std::max(plane.extent / 3, limits::kMinPlaneExtent),
+                                      dice.uniform(), random_threshold(dice), random_range(dice),
+                                      random_texture(dice, 5 / size)});
     }
     for (int i = dice.below(3); i > 0; --i) {
         Formation& one = model.formations.emplace_back();
@@ -103,15 +118,26 @@ inline Cloud random_ellipsoids(Dice& dice, const Whereabouts& where) {
                                     : dice.between(limits::kMinLink, limits::kMaxLink);
         one.heading = dice.any(limits::kMaxAngle);
         one.spread = dice.chance(0.2) ? dice.either({0, 180}) : dice.between(0, 180);
+        if (dice.chance(0.3)) one.tilt = dice.between(0, 90);
     }
     for (int i = dice.below(6); i > 0; --i) {
         Ellipsoid& one = model.ellipsoids.emplace_back();
         one.center = random_place(dice, size);
         one.radii = random_radii(dice, size);
         one.rotate_y = dice.any(limits::kMaxAngle);
+        if (dice.chance(0.3)) one.rotate_x = dice.any(360), one.rotate_z = dice.any(360);
         if (dice.chance(0.2)) one.threshold = random_threshold(dice);
         if (dice.chance(0.2)) one.threshold_edge = random_threshold(dice);
         if (dice.chance(0.2)) one.range = random_range(dice);
+    }
+    for (int i = dice.chance(0.3) ? dice.below(3) : 0; i > 0; --i) {
+        // A ball, sheared so little that it stays an ellipsoid.
+        const double r = random_radius(dice, size);
+        Quadric& one = model.quadrics.emplace_back();
+        one.q4 = dice.between(-0.5, 0.5);
+        one.q5 = dice.between(-0.5, 0.5);
+        one.q6 = dice.between(-0.5, 0.5);
+        one.q0 = -std::clamp(r * r, 1e-4, 1e4);
     }
     if (dice.chance(0.5)) model.drift = dice.any_vector(limits::kMaxVelocity);
     model.density = dice.chance(0.1) ? 0 : dice.log_between(1e-3, 100);

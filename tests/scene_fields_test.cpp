@@ -52,6 +52,10 @@ const char* const kDocuments[] = {
   {"model": "spheres", "spheres": {
      "kind": "cumulus", "levels": 4, "size": [12, 6, 9], "visual_range": 30, "ratio_min": 0.3,
      "ratio_max": 0.6, "shift_min": 0.7, "shift_max": 0.95, "scaling": "every", "growth": "down",
+     "parts": 6, "places": "dome", "ratio_law": "falling", "shift_law": "ends", "turning": 7,
+     "poses": [{"time": 1, "shift": [1, 2, 3], "turn": [4, 5, 6], "scale": [2, 3, 4]}],
+     "bump": {"height": 0.2, "texture": "puff", "repeat": 3,
+              "waves": [{"amplitude": 0.5, "around": 3, "down": 1.5, "phase": 0.25}]},
      "morph": {"seed": 9, "duration": 8, "steps": 6}}},
   {"model": "implicit", "implicit": {
      "preset": "cirrus", "interpolation": "linear", "base": -3, "amount": 0.8, "exponent": 1.2, "blend": 0.4,
@@ -90,14 +94,16 @@ const char* const kDocuments[] = {
                    {"time": 3, "id": 2, "center": [3, 2, 1], "radius": 5, "weight": 0.75}]}},
   {"model": "ellipsoids", "ellipsoids": {
      "texture": {"form": "printed", "terms": 5, "frequency_x": 0.3, "frequency_z": 0.4, "offset": 0.9},
+     "join": 0.5, "translucence_min": 0.1, "translucence_max": 0.9,
+     "quadrics": [{"q1": 1, "q2": 2, "q3": 3, "q4": 0.1, "q5": 0.2, "q6": 0.3, "q7": 0.4, "q8": 0.5, "q9": 0.6, "q0": -4}],
      "shading": {"specular": 0.2, "texture": 0.3, "ambient": 0.4, "shininess": 9},
      "threshold": 0.1, "threshold_edge": 0.6, "range": 0.4,
      "plane": {"altitude": 50, "extent": 300, "thickness": 3, "threshold": 0.2, "range": 0.5, "density": 0.8,
-               "resolution": 60,
+               "resolution": 60, "horizon": 200, "translucence_min": 0.1, "translucence_max": 0.9,
                "texture": {"form": "clean", "terms": 6, "frequency_x": 0.05, "frequency_z": 0.07, "offset": 0.8}},
      "formations": [{"kind": "combined", "count": 6, "center": [1, 2, 3], "radii": [5, 2, 4], "variation": 0.3,
-                     "link": 0.4, "heading": 30, "spread": 50}],
-     "ellipsoids": [{"center": [3, 2, 1], "radii": [6, 3, 5], "rotate_y": 20, "threshold": 0.15,
+                     "link": 0.4, "heading": 30, "spread": 50, "tilt": 5}],
+     "ellipsoids": [{"center": [3, 2, 1], "radii": [6, 3, 5], "rotate_y": 20, "rotate_x": 5, "rotate_z": 6, "threshold": 0.15,
                      "threshold_edge": 0.7, "range": 0.3}],
      "drift": [0.4, 0.1, 0.2], "density": 0.9, "resolution": 30}}
 ],

@@ -132,8 +132,9 @@ TEST(SpheresAlways, RandomCloudsAreSound) {
         ASSERT_LE(made->size(), most_particles(cloud)) << seed;
         ASSERT_GT(made->size(), 0u) << seed;
         // Everything lies in the root sphere; .36 of a leaf's radius is its s, so that 2 s does not.
-        const SphereTree tree(*cloud.spheres, 1, 0, 0);
-        const double reach = 1.5 * tree.root().sphere.radius * cloud.scale;
+        const SphereTree tree(*cloud.spheres, 1, 0, draft.time);
+        const spheres::Sphere& root = tree.root().sphere;
+        const double reach = (glm::length(root.center) + 1.5 * root.radius) * cloud.scale;
         for (std::size_t i = 0; i < made->size(); ++i) {
             ASSERT_LE(glm::length(made->center[i] - cloud.translate),
                       reach + 1e-15 * limits::kMaxCoordinate)

@@ -42,7 +42,11 @@ TEST(SpheresJson, EveryFieldArrivesWhereItBelongs) {
     const SceneDraft draft = draft_of(spheres_with(
         R"("kind": "cirrus", "levels": 4, "size": [1, 2, 3], "visual_range": 5, "ratio_min": 0.1,
            "ratio_max": 0.2, "shift_min": 0.3, "shift_max": 0.4, "scaling": "every",
-           "growth": "down",
+           "growth": "down", "parts": 7, "places": "dome", "ratio_law": "falling",
+           "shift_law": "ends", "turning": 6,
+           "poses": [{"time": 1}, {"time": 2.5, "shift": [1, 2, 3], "turn": [4, 5, 6], "scale": 2}],
+           "bump": {"height": 0.2, "texture": "puff", "repeat": 3,
+                    "waves": [{"amplitude": -0.5, "around": 3, "down": 1.5, "phase": 0.25}]},
            "morph": {"seed": 18446744073709551615, "duration": 7, "steps": 8})"));
     const SpheresCloud& cloud = *draft.clouds[0].spheres;
     EXPECT_EQ(cloud.kind, SpheresKind::kCirrus);
@@ -55,6 +59,26 @@ TEST(SpheresJson, EveryFieldArrivesWhereItBelongs) {
     EXPECT_EQ(cloud.shift_max, 0.4);
     EXPECT_EQ(cloud.scaling, SpheresScaling::kEvery);
     EXPECT_EQ(cloud.growth, SpheresGrowth::kDown);
+    EXPECT_EQ(cloud.parts, 7u);
+    EXPECT_EQ(cloud.places, SpheresPlaces::kDome);
+    EXPECT_EQ(cloud.ratio_law, SpheresLaw::kFalling);
+    EXPECT_EQ(cloud.shift_law, SpheresLaw::kEnds);
+    EXPECT_EQ(cloud.turning, 6);
+    ASSERT_EQ(cloud.poses.size(), 2u);
+    EXPECT_EQ(cloud.poses[0].scale, glm::dvec3(1));
+    EXPECT_EQ(cloud.poses[1].time, 2.5);
+    EXPECT_EQ(cloud.poses[1].shift, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(cloud.poses[1].turn, glm::dvec3(4, 5, 6));
+    EXPECT_EQ(cloud.poses[1].scale, glm::dvec3(2));
+    ASSERT_TRUE(cloud.bump);
+    EXPECT_EQ(cloud.bump->height, 0.2);
+    EXPECT_EQ(cloud.bump->texture, "puff");
+    EXPECT_EQ(cloud.bump->repeat, 3u);
+    ASSERT_EQ(cloud.bump->waves.size(), 1u);
+    EXPECT_EQ(cloud.bump->waves[0].amplitude, -0.5);
+    EXPECT_EQ(cloud.bump->waves[0].around, 3u);
+    EXPECT_EQ(cloud.bump->waves[0].down, 1.5);
+    EXPECT_EQ(cloud.bump->waves[0].phase, 0.25);
     ASSERT_TRUE(cloud.morph);
     EXPECT_EQ(cloud.morph->seed, UINT64_MAX);
     EXPECT_EQ(cloud.morph->duration, 7);
@@ -100,7 +124,22 @@ TEST(SpheresJson, EveryFigureShowsInTheFingerprint) {
                                    R"("morph": {"seed": 18446744073709551615})",
                                    R"("morph": {"seed": 18446744073709551614})",
                                    R"("morph": {"duration": 3})",
-                                   R"("morph": {"steps": 3})"};
+                                   R"("morph": {"steps": 3})",
+                                   R"("parts": 6)",
+                                   R"("places": "turned")",
+                                   R"("places": "row")",
+                                   R"("ratio_law": "middle")",
+                                   R"("shift_law": "middle")",
+                                   R"("turning": 1)",
+                                   R"("poses": [{"time": 0}])",
+                                   R"("poses": [{"time": 0, "turn": [0, 1, 0]}])",
+                                   R"("poses": [{"time": 0, "scale": 2}])",
+                                   R"("bump": {})",
+                                   R"("bump": {"height": 0.1})",
+                                   R"("bump": {"texture": "puff"})",
+                                   R"("bump": {"texture": "torn"})",
+                                   R"("bump": {"waves": [{}]})",
+                                   R"("bump": {"waves": [{"down": 1}]})"};
     for (const char* const change : changes) {
         EXPECT_TRUE(prints.insert(print(change)).second) << change;
     }
@@ -122,8 +161,24 @@ TEST(SpheresJson, RefusesWhatCannotBe) {
     wrong(R"("size": 3)", "/size", {"three numbers"});
     wrong(R"("visual_range": 0)", "/visual_range", {"4e-06", "1e+09"});
     wrong(R"("visual_range": -4)", "/visual_range", {"-4"});
-    wrong(R"("ratio_min": 0)", "/ratio_min", {"0.05", "0.9"});
-    wrong(R"("ratio_max": 1)", "/ratio_max", {"0.05", "0.9"});
+    wrong(R"("ratio_min": -0.1)", "/ratio_min", {"from 0 to 1"});
+    wrong(R"("ratio_max": 1.1)", "/ratio_max", {"0.01", "1"});
+    wrong(R"("ratio_min": 0, "ratio_max": 0)", "/ratio_max", {"0.01"});
+    wrong(R"("parts": 1)", "/parts", {"2", "12"});
+    wrong(R"("parts": 13)", "/parts", {"2", "12"});
+    wrong(R"("parts": 12, "levels": 7)", "/levels", {"9765625", "12 parts", "6 levels"});
+    wrong(R"("parts": 6, "levels": 9)", "/levels", {"8 levels"});
+    wrong(R"("places": "star")", "/places", {"cross", "dome"});
+    wrong(R"("ratio_law": "bell")", "/ratio_law", {"uniform", "middle"});
+    wrong(R"("turning": -1)", "/turning", {"3600"});
+    wrong(R"("poses": [{}])", "/poses/0", {"time"});
+    wrong(R"("poses": [{"time": 1}, {"time": 1}])", "/poses/1/time", {"later"});
+    wrong(R"("poses": [{"time": 1, "scale": 0}])", "/poses/0/scale/0", {"0.001"});
+    wrong(R"("poses": [{"time": 1, "scale": [1, 900, 1]}], "size": [1, 1e4, 1])", "/poses/0/scale/1", {"side"});
+    wrong(R"("bump": {"texture": "nothing"})", "/bump/texture", {"puff", "uploaded"});
+    wrong(R"("bump": {"height": 2})", "/bump/height", {"1"});
+    wrong(R"("bump": {"repeat": 0})", "/bump/repeat", {"1", "64"});
+    wrong(R"("bump": {"waves": [{"around": 65}]})", "/bump/waves/0/around", {"64"});
     wrong(R"("ratio_min": 0.8)", "/ratio_min", {"upper end", "0.76"});
     wrong(R"("shift_max": 1.5)", "/shift_max", {"from 0 to 1"});
     wrong(R"("shift_max": 0.5)", "/shift_min", {"upper end"});
@@ -162,7 +217,8 @@ TEST(SpheresJson, TheLimitsThemselvesAreAllowed) {
     for (const char* const members :
          {R"("levels": 0)", R"("levels": 10)", R"("size": [1e-5, 1e-5, 1e-5])",
           R"("size": [1e6, 1e-5, 1e6])", R"("visual_range": 4e-6)", R"("visual_range": 1e9)",
-          R"("ratio_min": 0.05, "ratio_max": 0.05)", R"("ratio_min": 0.9, "ratio_max": 0.9)",
+          R"("ratio_min": 0, "ratio_max": 1)", R"("ratio_min": 1, "ratio_max": 1)", R"("parts": 2)",
+          R"("parts": 12, "levels": 6)", R"("parts": 5, "levels": 10)",
           R"("shift_min": 0, "shift_max": 0)", R"("shift_min": 1, "shift_max": 1)",
           R"("morph": {"duration": 1e-3, "steps": 100000})"}) {
         EXPECT_TRUE(read(spheres_with(members)).ok()) << members;

@@ -290,7 +290,7 @@ TEST(SpheresLook, RandomCloudsAreSane) {
 TEST(SpheresLook, TheDeepestTreesOfTheLargestSpheresEnd) {
     SpheresCloud spheres;
     spheres.levels = 10;
-    for (const double ratio : {0.05, 0.9})
+    for (const double ratio : {0.05, 0.9, 1.0})
         for (const double density : {1e-6, 1e6}) {
             spheres.ratio_min = spheres.ratio_max = ratio;
             SceneDraft draft = look_of(spheres, 32, 24);

@@ -9,23 +9,25 @@ import { fieldAt } from "./schema.js";
 // A name as the service takes it, from that of a file.
 export const nameOf = (file) => file.name.replace(/\.[^.]*$/, "").replace(/[^A-Za-z0-9._-]+/g, "-").replace(/^[^A-Za-z0-9]+/, "").slice(0, 64) || "texture";
 
-function texture(store) {
-  const pointer = "/texture";
+// One of Awan's own, or whatever name the document has.
+export function textureChoice(store, { label, pointer, none }) {
   const choice = select(store, {
-    label: "Texture of all", pointer: () => pointer, none: "none: particles",
-    choices: fieldAt(pointer).examples.map((name) => [name, name]),
-    get: () => at(store.scene, pointer), set: (name) => store.set(pointer, name || undefined),
+    label, pointer, none,
+    choices: fieldAt(pointer()).examples.map((name) => [name, name]),
+    get: () => at(store.scene, pointer()), set: (name) => store.set(pointer(), name || undefined),
   });
   const list = choice.element.querySelector("select");
   return {
     element: choice.element,
     refresh() {
-      const name = at(store.scene, pointer);
+      const name = at(store.scene, pointer());
       if (typeof name === "string" && ![...list.options].some(({ value }) => value === name)) list.append(el("option", { value: name }, name));
       choice.refresh();
     },
   };
 }
+
+const texture = (store) => textureChoice(store, { label: "Texture of all", pointer: () => "/texture", none: "none: particles" });
 
 function upload(store) {
   const input = el("input", { type: "file", accept: "image/*,.exr,.tif,.tiff", hidden: true, "aria-label": "Texture to use" });

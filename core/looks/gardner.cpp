@@ -17,7 +17,10 @@ namespace {
 
 using ellipsoids::blur_along;
 using ellipsoids::blur_of_blob;
+using ellipsoids::limited;
 using ellipsoids::opacity;
+using ellipsoids::parts_of;
+using ellipsoids::PlaneParts;
 using ellipsoids::texture_at;
 using ellipsoids::TextureValue;
 using ellipsoids::threshold_at;
@@ -65,7 +68,33 @@ void lay_behind(const Picture& picture, double opaque, const SineShading& shadin
     veil.through *= 1 - opaque;
 }
 
-void shade_ellipsoid(const Picture& picture, const Surface& surface, const glm::dvec3& direction,
+// The normal of a wall, and those of walls near by that cut through it or nearly so (EllipsoidsCloud::join): each
+// counts by its limb curve, so that none comes or goes at once. As printed a wall has its own, and there is a crease
+// where one comes out of another.
+glm::dvec3 shading_normal(const Picture& picture, const Surface& surface,
+                          const std::vector<Surface>& surfaces) {
+    const auto& all = picture.frame.ellipsoids;
+    const SeenEllipsoid& one = all[surface.index];
+    const SeenCloud& cloud = picture.frame.clouds[one.cloud];
+    const glm::dvec3 own = normal_of(one.sphere, surface.hit);
+    const double join = cloud.model->join;
+    if (!(join > 0)) return own;
+    glm::dvec3 sum = surface.hit.limb * own;
+    for (const Surface& other : surfaces) {
+        if (other.index >= all.size() || other.index == surface.index) continue;
+        const SeenEllipsoid& near = all[other.index];
+        if (near.cloud != one.cloud) continue;
+        const double width = join * cloud.motion.scale *
+                             std::min(one.placed.mean_radius(), near.placed.mean_radius());
+        const double share = joined_share(surface.distance, other.distance, width);
+        if (share > 0) sum += share * other.hit.limb * normal_of(near.sphere, other.hit);
+    }
+    const double length = glm::length(sum);
+    return length > 0 ? sum / length : own;
+}
+
+void shade_ellipsoid(const Picture& picture, const Surface& surface,
+                     const std::vector<Surface>& surfaces, const glm::dvec3& direction,
                      Veil& veil) {
     const SeenEllipsoid& one = picture.frame.ellipsoids[surface.index];
     const SeenCloud& cloud = picture.frame.clouds[one.cloud];
@@ -75,14 +104,20 @@ void shade_ellipsoid(const Picture& picture, const Surface& surface, const glm::
                                           blur_of_blob(cloud.in_space, true, sigma));
     const Translucence& translucence = one.placed.translucence;
     const double opaque =
-        opacity(value, threshold_at(translucence, surface.hit.limb), translucence.range);
+        limited(opacity(value, threshold_at(translucence, surface.hit.limb), translucence.range),
+                translucence.least, translucence.most);
     if (!(opaque > 0)) return;
-    const glm::dvec3 normal = glm::normalize(glm::transpose(one.sphere.to_unit) * surface.hit.at);
+    const glm::dvec3 normal = shading_normal(picture, surface, surfaces);
     const SineShading& shading = cloud.model->shading;
     const double i =
         intensity(shading, diffuse(normal, picture.to_sun),
                   specular(normal, picture.to_sun, -direction, shading.shininess), value.mean);
     lay_behind(picture, opaque, shading, i, veil);
+}
+
+// The share of the plane that is left at that distance along the ground (SkyPlane::horizon).
+double left_of_horizon(double distance, double horizon) {
+    return std::clamp(2 - 2 * distance / horizon, 0.0, 1.0);
 }
 
 void shade_plane(const Picture& picture, const SeenCloud& cloud, double distance,
@@ -100,20 +135,23 @@ void shade_plane(const Picture& picture, const SeenCloud& cloud, double distance
     const double sigma = kHalfPixel * distance * picture.pixel_angle / motion.scale;
     const glm::dvec3 along = away * (sigma / std::max(std::abs(direction.y), 1e-15));
     const glm::dvec3 across = glm::dvec3(-away.z, 0, away.x) * sigma;
-    const TextureFunction& texture = cloud.on_plane;
-    const auto blur = [&](bool along_z) {
-        return blur_along(texture, along_z, along) + blur_along(texture, along_z, across);
+    const auto seen = [&](const TextureFunction& texture) {
+        const auto blur = [&](bool along_z) {
+            return blur_along(texture, along_z, along) + blur_along(texture, along_z, across);
+        };
+        return texture_at(texture, at, blur(false), blur(true));
     };
-    const TextureValue value = texture_at(texture, at, blur(false), blur(true));
     const SkyPlane& plane = *cloud.model->plane;
-    const double opaque = opacity(value, plane.threshold, plane.range);
+    const PlaneParts parts = parts_of(plane, cloud.on_plane, at, seen);
+    double opaque = parts.opacity(0, plane.least, plane.most);
+    if (plane.horizon) opaque *= left_of_horizon(distance * level / motion.scale, *plane.horizon);
     if (!(opaque > 0)) return;
     // Lit from above even where it is seen from below: it is thin.
     const glm::dvec3 normal(0, 1, 0);
     const SineShading& shading = cloud.model->shading;
     const double i =
         intensity(shading, diffuse(normal, picture.to_sun),
-                  specular(normal, picture.to_sun, -direction, shading.shininess), value.mean);
+                  specular(normal, picture.to_sun, -direction, shading.shininess), parts.texture());
     lay_behind(picture, opaque, shading, i, veil);
 }
 
@@ -140,7 +178,7 @@ Veil seen_along(const Picture& picture, const glm::dvec3& direction,
     for (const Surface& surface : surfaces) {
         if (picture.ground && eye_y + surface.distance * direction.y < *picture.ground) break;
         if (surface.index < frame.ellipsoids.size()) {
-            shade_ellipsoid(picture, surface, direction, veil);
+            shade_ellipsoid(picture, surface, surfaces, direction, veil);
         } else {
             shade_plane(picture, frame.clouds[surface.index - frame.ellipsoids.size()],
                         surface.distance, direction, veil);

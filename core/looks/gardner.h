@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/generate/ellipsoids/formations.h"
+#include "core/generate/ellipsoids/plane.h"
 #include "core/generate/ellipsoids/texture.h"
 #include "core/generate/motion.h"
 #include "core/scene/scene.h"
@@ -16,6 +17,7 @@
 namespace awan::gardner {
 
 using ellipsoids::PlacedEllipsoid;
+using ellipsoids::PlaneTexture;
 using ellipsoids::TextureFunction;
 
 // --- Formulas of Gardner 1985
@@ -55,6 +57,13 @@ struct SphereHit {
 // which has no largest value.
 std::optional<SphereHit> hit(const UnitSphere& sphere, const glm::dvec3& direction);
 
+// The normal of the wall that a ray meets, away from the centre. Unit, in the scene's axes.
+glm::dvec3 normal_of(const UnitSphere& sphere, const SphereHit& hit);
+
+// How much a wall at `own` (distance along the ray) is shaded as one with another at `other`, 0..1: 1 where they cut
+// through each other, and less the further apart they are, up to `width`.
+double joined_share(double own, double other, double width);
+
 // Gardner's f(x, z) = a1 x^2 + a2 z^2 + a3 xz + a4 x + a5 z + a6 for directions forward + x right + z up, scaled so
 // that its value at its centre is 1; zero on the silhouette. None where the conic is no ellipse.
 struct LimbCurve {
@@ -85,7 +94,8 @@ struct SeenEllipsoid {
 struct SeenCloud {
     const EllipsoidsCloud* model = nullptr;
     Motion motion{};
-    TextureFunction in_space, on_plane;
+    TextureFunction in_space;
+    PlaneTexture on_plane;
     // Scene units; none where the cloud has no plane.
     std::optional<double> plane_height;
 };

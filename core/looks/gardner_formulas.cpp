@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "core/base/exact_math.h"
 #include "core/looks/gardner.h"
@@ -40,6 +41,14 @@ std::optional<SphereHit> hit(const UnitSphere& sphere, const glm::dvec3& directi
     const glm::dvec3 nearest = glm::cross(d, across) / squared;
     const glm::dvec3 at = nearest + (distance < middle ? -half : half) * d;
     return SphereHit{distance, at / glm::length(at), limb};
+}
+
+glm::dvec3 normal_of(const UnitSphere& sphere, const SphereHit& hit) {
+    return glm::normalize(glm::transpose(sphere.to_unit) * hit.at);
+}
+
+double joined_share(double own, double other, double width) {
+    return width > 0 ? std::max(1 - std::abs(own - other) / width, 0.0) : 0.0;
 }
 
 std::optional<LimbCurve> limb_on_picture(const UnitSphere& sphere, const View& view) {

@@ -23,9 +23,7 @@ UnitSphere sphere_of(const PlacedEllipsoid& one, const Motion& motion, const glm
         const glm::dvec3 local = glm::dvec3(e.x * motion.turn.cos - e.z * motion.turn.sin, e.y,
                                             e.z * motion.turn.cos + e.x * motion.turn.sin) /
                                  motion.scale;
-        sphere.to_unit[axis] = glm::dvec3(local.x * one.turn.cos - local.z * one.turn.sin, local.y,
-                                          local.z * one.turn.cos + local.x * one.turn.sin) /
-                               one.radii;
+        sphere.to_unit[axis] = one.direction_to_unit(local);
     }
     sphere.eye = one.to_unit(motion.back(eye));
     return sphere;
@@ -119,7 +117,11 @@ Frame frame_of(const Scene& scene, const View& view, bool textures) {
         const glm::dvec3 shift = clouds_time(*scene) * model.drift;
         if (textures) seen.in_space = ready(model.texture, true, shift, made);
         if (model.plane) {
-            if (textures) seen.on_plane = ready(model.plane->texture, false, shift, made);
+            if (textures) {
+                seen.on_plane.own = ready(model.plane->texture, false, shift, made);
+                for (const PlanePattern& pattern : model.plane->patterns)
+                    seen.on_plane.patterns.push_back(ready(pattern.texture, false, shift, made));
+            }
             seen.plane_height = seen.motion.translate.y + cloud.scale * model.plane->altitude;
         }
         frame.clouds.push_back(seen);

@@ -73,8 +73,9 @@ double ostroushko_look_ms(const Scene& scene, const View& view, int threads) {
         const double across =
             2 * radius / std::max(distance, radius) / (2 * view.tan_half_fov) * scene->image.height;
         covered += 0.3 * across * across;
-        // Of the five a level, as many as are larger than a pixel. 2.6 is the dimension of the default cumulus.
-        spheres += std::min(exact::pow(5.0, static_cast<double>(cloud.spheres->levels)),
+        // Of the parts of each level, as many as are larger than a pixel. 2.6 is the dimension of the default cumulus.
+        spheres += std::min(exact::pow(static_cast<double>(cloud.spheres->parts),
+                                       static_cast<double>(cloud.spheres->levels)),
                             exact::pow(across, 2.6));
     }
     return (kSky * pixels + kCovered * std::min(covered, pixels) + kSpheres * std::sqrt(spheres)) /

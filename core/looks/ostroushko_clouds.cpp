@@ -16,19 +16,29 @@ using spheres::ClusterMoments;
 using spheres::extinction_of;
 using spheres::SphereNode;
 
-// 781 spheres. Their shadows are as soft as those of light that has been scattered on.
-constexpr int kUpperLevels = 4;
+// The upper levels have so many spheres in the lowest of them, at most: four levels of five parts. Their shadows are
+// as soft as those of light that has been scattered on.
+constexpr double kUpperSpheres = 2500;
+// And those that light is followed to: six levels of five parts.
+constexpr double kLitSpheres = 17000;
 
-// A ray meets 5 E(I_j^2) times as many spheres at each level. Where that runs away (large ratios), the levels that
-// would make it more than this are not told apart: they are cloud everywhere.
+// A ray meets parts * E(I_j^2) times as many spheres at each level. Where that runs away (large ratios), the levels
+// that would make it more than this are not told apart: they are cloud everywhere.
 constexpr double kMostHits = 1000;
 
 int told_apart(const SphereTree& tree) {
-    const Span ratios = tree.ratios();
-    const double low = ratios.low, high = ratios.high;
-    const double more = 5 * (low * low + low * high + high * high) / 3;
+    const double more = tree.met();
     int levels = 0;
     for (double hits = more; levels < tree.levels() && hits <= kMostHits; hits *= more) ++levels;
+    return levels;
+}
+
+// How many levels have at most so many spheres.
+int levels_within(const SphereTree& tree, double most) {
+    int levels = 0;
+    for (double count = tree.parts(); levels < tree.levels() && count <= most;
+         count *= tree.parts())
+        ++levels;
     return levels;
 }
 
@@ -59,14 +69,17 @@ LookCloud look_cloud(const Scene& scene, std::size_t k, const glm::dvec3& eye) {
         0,
         {},
         {},
-        0};
+        0,
+        0,
+        relief_of(*scene, spheres)};
     made.levels = told_apart(made.tree);
     // A cluster's mass over that of a sphere of its own extinction; the mean depth is in proportion.
     for (const ClusterMoments& moments : cluster_moments(made.tree))
         made.thinning.push_back(moments.mass);
     made.thinning.push_back(made.thinning.back() *
                             (made.thinning.size() > 1 ? made.thinning[1] : 1));
-    made.upper_levels = std::min(made.tree.levels(), kUpperLevels);
+    made.upper_levels = levels_within(made.tree, kUpperSpheres);
+    made.lit_level = levels_within(made.tree, kLitSpheres);
     made.upper = upper_spheres(made.tree, made.upper_levels);
     return made;
 }
@@ -74,7 +87,7 @@ LookCloud look_cloud(const Scene& scene, std::size_t k, const glm::dvec3& eye) {
 // The share of light that is left after sphere `index` of `level` and what lies below it.
 double through_upper(const LookCloud& cloud, std::size_t index, int level, const glm::dvec3& from,
                      const glm::dvec3& direction, double sigma) {
-    constexpr double kDark = 1e-3;
+    constexpr double kDark = 1e-9;
     const Sphere& sphere = cloud.upper[index];
     SphereHit hit;
     if (!meets(sphere.center - from, sphere.radius, direction, hit)) return 1;
@@ -83,7 +96,9 @@ double through_upper(const LookCloud& cloud, std::size_t index, int level, const
         return through(hit, sphere.radius, sigma * cloud.thinning[below]);
     }
     double left = 1;
-    for (std::size_t child = 5 * index + 1; child <= 5 * index + 5 && left > kDark; ++child)
+    const auto parts = static_cast<std::size_t>(cloud.tree.parts());
+    for (std::size_t child = parts * index + 1; child <= parts * (index + 1) && left > kDark;
+         ++child)
         left *= through_upper(cloud, child, level + 1, from, direction, sigma);
     return left;
 }
@@ -121,7 +136,9 @@ double light_through(const std::vector<LookCloud>& clouds, const glm::dvec3& poi
         left *= through_upper(cloud, 0, 0, from, turned_back(cloud, towards),
                               softened * cloud.sigma * cloud.motion.scale);
     }
-    return left;
+    // What is scattered again and again comes through by far more than what is not: 1 / (1 + 3/4 depth) of it, by two
+    // streams (Chandrasekhar 1950).
+    return 1 / (1 - 0.75 * exact::log(std::max(left, 1e-300)));
 }
 
 }  // namespace awan::looks

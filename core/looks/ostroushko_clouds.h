@@ -8,6 +8,7 @@
 
 #include "core/generate/motion.h"
 #include "core/generate/spheres/subdivision.h"
+#include "core/looks/ostroushko_relief.h"
 #include "core/scene/outside.h"
 #include "core/survey/survey.h"
 
@@ -55,9 +56,13 @@ struct LookCloud {
     int levels;
     // Element n: the share of a sphere's depth that is left where the leaves n levels below stand for it.
     std::vector<double> thinning;
-    // The upper levels, down to `upper_levels`; the children of sphere i are 5 i + 1 .. 5 i + 5.
+    // The upper levels, down to `upper_levels`; the children of sphere i are n i + 1 .. n i + n, n the tree's parts.
     std::vector<Sphere> upper;
     int upper_levels;
+    // The last level at which light is followed to the spheres. Those below have what reaches their ancestor there,
+    // since shadows are no finer.
+    int lit_level;
+    Relief relief;
 };
 
 // The clouds of a scene, seen from an eye (scene units).
@@ -67,8 +72,8 @@ std::vector<LookCloud> look_clouds(const Scene& scene, const glm::dvec3& eye);
 glm::dvec3 turned(const LookCloud& cloud, const glm::dvec3& v);
 glm::dvec3 turned_back(const LookCloud& cloud, const glm::dvec3& v);
 
-// The share of light from a direction (unit) that comes through all clouds to a point, by the upper levels only. Both
-// in the scene's axes, the point relative to the eye. softened: multiplies all depths.
+// The share of light from a direction (unit) that comes through all clouds to a point, scattered on by them, by the
+// upper levels only. Both in the scene's axes, the point relative to the eye. softened: multiplies all depths.
 double light_through(const std::vector<LookCloud>& clouds, const glm::dvec3& point,
                      const glm::dvec3& towards, double softened);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <numbers>
 
 #include "core/base/exact_math.h"
@@ -16,8 +17,6 @@ namespace {
 constexpr int kWaves = 3;
 // Their largest frequency along each axis, radians over the radius.
 constexpr double kSteepest = 4;
-// The height of a wave, in radii.
-constexpr double kBump = 0.06;
 
 // 16 of the bits as a number in -1..1.
 double part(std::uint64_t bits, int from) {
@@ -43,17 +42,25 @@ LookLight look_light(const Scene& scene) {
     return light;
 }
 
-glm::dvec3 bumped(const glm::dvec3& normal, std::uint64_t key) {
+glm::dvec3 bumped(const glm::dvec3& normal, std::uint64_t key, double height) {
     glm::dvec3 slope(0);
     for (std::uint64_t i = 0; i < kWaves; ++i) {
         const std::uint64_t bits = keyed(key, i);
         const glm::dvec3 wave =
             kSteepest * glm::dvec3(part(bits, 0), part(bits, 16), part(bits, 32));
         const double phase = std::numbers::pi * part(bits, 48);
-        slope += kBump * exact::seeded_sin(glm::dot(wave, normal) + phase) * wave;
+        slope += height * exact::seeded_sin(glm::dot(wave, normal) + phase) * wave;
     }
     slope -= glm::dot(slope, normal) * normal;
     return glm::normalize(normal - slope);
+}
+
+glm::dvec3 bumped(const LookCloud& cloud, const glm::dvec3& normal, std::uint64_t key) {
+    const Relief& relief = cloud.relief;
+    if (!relief.given()) return bumped(normal, key, relief.bump.height);
+    const glm::dmat3& rotation = cloud.tree.rotation();
+    const glm::dvec3 own = glm::transpose(rotation) * turned_back(cloud, normal);
+    return turned(cloud, rotation * turned_normal(relief, own, key));
 }
 
 Reaching reaching(const std::vector<LookCloud>& clouds, const LookLight& light,

@@ -23,8 +23,12 @@ LookLight look_light(const Scene& scene);
 
 // The bump-mapped normal, n' = f(u, v, n) of Ostroushko et al. 2010 (4), by Blinn 1978: the normal is turned by the
 // slope of a relief on the sphere. The place u, v is given by the unit vector n; the relief is waves whose phases
-// belong to the sphere (key). n, n': unit.
-glm::dvec3 bumped(const glm::dvec3& normal, std::uint64_t key);
+// belong to the sphere (key). height: in radii. n, n': unit.
+glm::dvec3 bumped(const glm::dvec3& normal, std::uint64_t key,
+                  double height = SpheresBump{}.height);
+
+// The same by the cloud's own relief, where the user gives one, which turns as the cloud does.
+glm::dvec3 bumped(const LookCloud& cloud, const glm::dvec3& normal, std::uint64_t key);
 
 // How much light reaches a sphere.
 struct Reaching {

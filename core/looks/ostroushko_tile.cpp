@@ -20,6 +20,7 @@ constexpr std::uint32_t kNowhere = UINT32_MAX;
 struct Gathering {
     const LookScene& scene;
     const LookCloud& cloud;
+    std::uint32_t index;
     // In the cloud's coordinates.
     Cone cone;
     ConeSpheres& found;
@@ -33,7 +34,7 @@ struct Gathering {
         const double near = std::max(glm::length(v) - r, 0.0);
         const bool leaf =
             level == cloud.levels || 2 * r < near * scene.pixel_angle * scene.finest_pixels;
-        if (place == kNowhere && (leaf || level == kLitLevel)) {
+        if (place == kNowhere && (leaf || level == cloud.lit_level)) {
             place = static_cast<std::uint32_t>(found.places.size());
             found.places.push_back({from_eye(v), false, {}});
         }
@@ -45,7 +46,8 @@ struct Gathering {
         const double scale = cloud.motion.scale;
         const auto below = static_cast<std::size_t>(cloud.tree.levels() - level);
         found.spheres.push_back({from_eye(v), scale * r, scale * near,
-                                 cloud.sigma * cloud.thinning[below], mix_bits(node.key), place});
+                                 cloud.sigma * cloud.thinning[below], mix_bits(node.key), index,
+                                 place});
     }
 };
 
@@ -105,8 +107,9 @@ class Tracer {
         const glm::dvec3 outward = meeting.hit.enter * ray - sphere.center;
         const double length = glm::length(outward);
         const glm::dvec3 normal = length > 0 ? outward / length : -ray;
-        traced.radiance +=
-            traced.left * (1 - kept) * shade(scene_.light, place.share, bumped(normal, sphere.key));
+        traced.radiance += traced.left * (1 - kept) *
+                           shade(scene_.light, place.share,
+                                 bumped(scene_.clouds[sphere.cloud], normal, sphere.key));
         traced.left *= kept;
     }
 
@@ -192,10 +195,11 @@ glm::dvec3 ray_of(const LookScene& scene, int x, int y) {
 
 ConeSpheres spheres_in_cone(const LookScene& scene, const Cone& cone) {
     ConeSpheres found;
-    for (const LookCloud& cloud : scene.clouds) {
+    for (std::uint32_t k = 0; k < scene.clouds.size(); ++k) {
+        const LookCloud& cloud = scene.clouds[k];
         if (!(cloud.sigma > 0)) continue;
         const Gathering gathering{
-            scene, cloud, {turned_back(cloud, cone.axis), cone.sine, cone.cosine}, found};
+            scene, cloud, k, {turned_back(cloud, cone.axis), cone.sine, cone.cosine}, found};
         gathering.visit(cloud.tree.root(), 0, kNowhere);
     }
     struct Place {

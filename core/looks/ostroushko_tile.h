@@ -40,13 +40,13 @@ struct LookSphere {
     // Extinction in it, 1/unit: that of its leaves spread over it.
     double sigma;
     std::uint64_t key;
+    // The index of its cloud.
+    std::uint32_t cloud;
     // The index of its LitPlace.
     std::uint32_t place;
 };
 
-// The last level at which light is followed to the spheres. Those below have what reaches their ancestor there, since
-// shadows are no finer (kUpperLevels).
-inline constexpr int kLitLevel = 6;
+// Where light is followed to (LookCloud::lit_level).
 struct LitPlace {
     // In the coordinates of LookSphere::center.
     glm::dvec3 point;

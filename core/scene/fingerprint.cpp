@@ -220,6 +220,13 @@ void settle_model(Instead& instead, const SceneDraft& scene, const Cloud& cloud)
         all->ratio_max = ratios.high;
         all->shift_min = shifts.low;
         all->shift_max = shifts.high;
+        if (all->bump && all->bump->texture) {
+            const std::string_view hash = find_texture(scene, *all->bump->texture);
+            if (hash.empty())
+                all->bump->texture.reset();
+            else
+                all->bump->texture = std::string(hash);
+        }
         instead.put(cloud.spheres, std::shared_ptr<const SpheresCloud>(std::move(all)));
     }
 }

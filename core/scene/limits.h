@@ -146,6 +146,8 @@ inline constexpr int kMaxFormulaNames = 24, kMaxFormulaOctaves = 48, kMaxFormula
 inline constexpr std::uint64_t kMaxTextureTerms = 8;
 // The lowest frequency of the texture, radians/unit: from a wave as long as the space to one below the finest cell.
 inline constexpr double kMinTextureFrequency = 1e-6, kMaxTextureFrequency = 1e6;
+// The amplitude of a sine that is given by hand, a factor: only what amplitudes are to each other counts.
+inline constexpr double kMinSineAmplitude = 1e-6, kMaxSineAmplitude = 100;
 // T0 of the texture, dimensionless. By then the texture is flat within 2%.
 inline constexpr double kMaxTextureOffset = 100;
 // Thresholds of translucence, of T, which is from 0 to 1. A good way beyond either end, so that a cloud may be all or
@@ -165,6 +167,10 @@ inline constexpr double kMaxEllipsoidCoordinate = 1e6;
 inline constexpr double kMaxRadiusVariation = 0.9;
 // How far a link of a formation goes from touching (0) to the same centre (1): overlapping, yet not all in one place.
 inline constexpr double kMinLink = 0.05, kMaxLink = 0.95;
+// Coefficients of a quadric, a1 x^2 + ... = 0: only what they are to each other counts.
+inline constexpr double kMaxQuadric = 1e15, kMinQuadricSquare = 1e-12;
+// Patterns over one sky plane. Each costs a pixel, or a cell, a texture of its own.
+inline constexpr std::uint64_t kMaxPlanePatterns = 16;
 // Sides of the sky plane, scene units. With kMaxPlaneResolution a particle stays within kMinRadius and kMaxRadius.
 inline constexpr double kMinPlaneExtent = 1e-2, kMaxPlaneExtent = 1e6;
 // Cells along the longest side of the lattice. 160^3 are 4.1 million, just within kMaxParticles; under 8 no shape is
@@ -239,8 +245,22 @@ inline constexpr double kMinSpheresSide = 1e-5, kMaxSpheresSide = 1e6;
 // The meteorological visual range in the cloud, scene units. The least is ln 50 / kMaxDensity, rounded up, so that
 // every extinction stays allowed.
 inline constexpr double kMinVisualRange = 4e-6, kMaxVisualRange = 1e9;
-// The ratio of a child's radius to its parent's. At 0 there is no child; at 1 all five are their parent.
-inline constexpr double kMinSphereRatio = 0.05, kMaxSphereRatio = 0.9;
+// Parts that a sphere is divided into, and spheres of the last level in all.
+inline constexpr std::uint64_t kMinSphereParts = 2, kMaxSphereParts = 12;
+inline constexpr std::uint64_t kMaxSphereLeaves = 9'765'625;
+// The ratio of a child's radius to its parent's: at 0 there is no child, at 1 it is its parent. The upper end of a
+// range is not so low that nothing is left.
+inline constexpr double kMaxSphereRatio = 1, kLeastUpperRatio = 0.01;
+// |degrees a second| that the parts of a sphere turn: ten times round.
+inline constexpr double kMaxSphereTurning = 3'600;
+// Poses of one cloud: a minute of motion capture.
+inline constexpr std::uint64_t kMaxSpheresPoses = 1'000;
+// Times the sides of the cloud: from a thousandth to a thousand times.
+inline constexpr double kMinPoseScale = 1e-3, kMaxPoseScale = 1e3;
+// The relief of a sphere: its height in radii, the waves that it is the sum of, and how often one goes round.
+inline constexpr double kMaxBumpHeight = 1;
+inline constexpr std::uint64_t kMaxBumpWaves = 16;
+inline constexpr std::uint64_t kMaxBumpFrequency = 64;
 // Seconds of one morph. Less is a cut.
 inline constexpr double kMinMorphDuration = 1e-3;
 // Morphs of one cloud, one after the other: one a frame of the longest sequence.

@@ -187,7 +187,12 @@ Status check_cloud(const SceneDraft& draft, std::size_t k, Totals& totals) {
                                   "must name textures, with commas between");
         return check_rules(*cloud.automaton, at + "/automaton");
     }
-    if (cloud.spheres) return check_rules(*cloud.spheres, at + "/spheres");
+    if (cloud.spheres) {
+        if (const auto& bump = cloud.spheres->bump)
+            if (Status wrong = check_texture(draft, bump->texture, at + "/spheres/bump"))
+                return wrong;
+        return check_rules(*cloud.spheres, at + "/spheres");
+    }
     if (cloud.implicit) return check_rules(*cloud.implicit, at + "/implicit");
     if (cloud.ellipsoids) return check_rules(*cloud.ellipsoids, at + "/ellipsoids");
     const double density = density_of(draft, cloud).value_or(kDefaultDensity);

@@ -106,6 +106,35 @@ Status check_span(const Span& span, const std::string& pointer_to_low) {
                                        ", not " + to_text(span.low));
 }
 
+Status check_leaves(const SpheresCloud& cloud, const std::string& at) {
+    std::uint64_t leaves = 1, most = 0;
+    for (; leaves <= limits::kMaxSphereLeaves / cloud.parts; ++most) leaves *= cloud.parts;
+    if (cloud.levels <= most) return std::nullopt;
+    return invalid(at + "/levels", "makes more than " + std::to_string(limits::kMaxSphereLeaves) +
+                                       " spheres; of " + std::to_string(cloud.parts) +
+                                       " parts each there may be " + std::to_string(most) +
+                                       " levels");
+}
+
+Status check_poses(const SpheresCloud& cloud, const std::string& at) {
+    for (std::size_t i = 0; i < cloud.poses.size(); ++i) {
+        const std::string here = at + "/poses/" + std::to_string(i);
+        const SpheresPose& pose = cloud.poses[i];
+        if (i > 0 && !(pose.time > cloud.poses[i - 1].time))
+            return invalid(here + "/time", "must be later than that of the pose before, " +
+                                               to_text(cloud.poses[i - 1].time));
+        for (int axis = 0; axis < 3; ++axis) {
+            const double side = cloud.size[axis] * pose.scale[axis];
+            if (side < limits::kMinSpheresSide || side > limits::kMaxSpheresSide)
+                return invalid(here + "/scale/" + std::to_string(axis),
+                               "times the cloud's side must be from " +
+                                   to_text(limits::kMinSpheresSide) + " to " +
+                                   to_text(limits::kMaxSpheresSide) + ", not " + to_text(side));
+        }
+    }
+    return std::nullopt;
+}
+
 // --- implicit
 
 Status check_shape(const ImplicitPrimitive& p, const std::string& at) {
@@ -237,12 +266,40 @@ Status check_particles(const std::vector<ImplicitParticle>& table, const std::st
 
 // --- ellipsoids
 
+Status check_quadric(const Quadric& quadric, const std::string& at) {
+    const auto shape = shape_of(quadric);
+    if (!shape)
+        return invalid(at,
+                       "is no ellipsoid: its part of second degree must be positive definite, "
+                       "and some point must lie within");
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(shape->radii[axis] >= limits::kMinEllipsoidRadius &&
+              shape->radii[axis] <= limits::kMaxEllipsoidRadius))
+            return invalid(at, "must have semi-axes from " + to_text(limits::kMinEllipsoidRadius) +
+                                   " to " + to_text(limits::kMaxEllipsoidRadius) + ", not " +
+                                   to_text(shape->radii[axis]));
+        if (!(std::abs(shape->center[axis]) <= limits::kMaxEllipsoidCoordinate))
+            return invalid(at, "must have its middle within " +
+                                   to_text(limits::kMaxEllipsoidCoordinate) + " of the origin");
+    }
+    return std::nullopt;
+}
+
+Status check_limits(double least, double most, const std::string& at) {
+    if (least <= most) return std::nullopt;
+    return invalid(at + "/translucence_min", "must be at most translucence_max, " + to_text(most) +
+                                                 ", not " + to_text(least));
+}
+
 // All lists together, named at the one that goes over.
 Status check_counts(const EllipsoidsCloud& cloud, const std::string& at) {
     const std::string most = "a cloud may have at most " + std::to_string(limits::kMaxEllipsoids) +
                              " ellipsoids in all, this makes it more";
     if (cloud.ellipsoids.size() > limits::kMaxEllipsoids) return invalid(at + "/ellipsoids", most);
     std::uint64_t count = cloud.ellipsoids.size();
+    if (cloud.quadrics.size() > limits::kMaxEllipsoids - count)
+        return invalid(at + "/quadrics", most);
+    count += cloud.quadrics.size();
     for (std::size_t i = 0; i < cloud.formations.size(); ++i) {
         if (cloud.formations[i].count > limits::kMaxEllipsoids - count)
             return invalid(at + "/formations/" + std::to_string(i) + "/count", most);
@@ -278,7 +335,9 @@ Status check_rules(const AutomatonCloud& cloud, const std::string& at) {
 
 Status check_rules(const SpheresCloud& cloud, const std::string& at) {
     if (Status wrong = check_span(ratios_of(cloud), at + "/ratio_min")) return wrong;
-    return check_span(shifts_of(cloud), at + "/shift_min");
+    if (Status wrong = check_span(shifts_of(cloud), at + "/shift_min")) return wrong;
+    if (Status wrong = check_leaves(cloud, at)) return wrong;
+    return check_poses(cloud, at);
 }
 
 Status check_rules(const ImplicitCloud& cloud, const std::string& at) {
@@ -307,9 +366,17 @@ Status check_rules(const ImplicitCloud& cloud, const std::string& at) {
 }
 
 Status check_rules(const EllipsoidsCloud& cloud, const std::string& at) {
-    if (cloud.plane)
+    if (cloud.plane) {
         if (Status wrong =
                 in_range(cloud.plane->thickness, 0, cloud.plane->extent, at + "/plane/thickness"))
+            return wrong;
+        if (Status wrong = check_limits(cloud.plane->least, cloud.plane->most, at + "/plane"))
+            return wrong;
+    }
+    if (Status wrong = check_limits(cloud.translucence.least, cloud.translucence.most, at))
+        return wrong;
+    for (std::size_t i = 0; i < cloud.quadrics.size(); ++i)
+        if (Status wrong = check_quadric(cloud.quadrics[i], at + "/quadrics/" + std::to_string(i)))
             return wrong;
     return check_counts(cloud, at);
 }

@@ -23,7 +23,7 @@ Span shifts_of(const SpheresCloud& cloud) {
 std::uint64_t most_particles(const SpheresCloud& cloud) {
     std::uint64_t leaves = 1;
     for (std::uint64_t k = 0; k < cloud.levels && leaves < limits::kMaxSpheresParticles; ++k)
-        leaves *= 5;
+        leaves *= cloud.parts;
     return std::min(leaves, limits::kMaxSpheresParticles);
 }
 

@@ -77,15 +77,15 @@ Result<ModelParticles> make_particles(const EllipsoidsCloud& cloud, const ModelR
     const glm::dvec3 shift = request.time * cloud.drift;
     if (!ellipsoids.empty()) {
         const TextureFunction texture = texture_function(cloud.texture, true, shift);
-        const LatticeField opacity =
-            opacity_of(ellipsoids, cloud.resolution, texture, request.threads, deadline);
+        const LatticeField opacity = opacity_of(ellipsoids, cloud.join, cloud.resolution, texture,
+                                                request.threads, deadline);
         if (auto error = deadline.over()) return *error;
         made.particles = particles_of(opacity, cloud.density, request.threads);
-        made.error = sampling_error(opacity, made.particles, cloud.density, ellipsoids, texture,
-                                    request.threads, deadline);
+        made.error = sampling_error(opacity, made.particles, cloud.density, ellipsoids, cloud.join,
+                                    texture, request.threads, deadline);
     }
     if (cloud.plane) {
-        const TextureFunction texture = texture_function(cloud.plane->texture, false, shift);
+        const PlaneTexture texture = plane_texture(*cloud.plane, shift);
         const LatticeField opacity = opacity_of(*cloud.plane, texture, request.threads, deadline);
         if (auto error = deadline.over()) return *error;
         const ReadyParticles particles =

@@ -16,13 +16,21 @@ struct Draws {
         return unit_open(static_cast<std::uint32_t>(keyed(key, purpose) >> 32));
     }
 };
-enum Purpose : std::uint64_t { kSizeX, kSizeY, kSizeZ, kParent, kTurn, kTilt, kWhich };
+enum Purpose : std::uint64_t {
+    kSizeX,
+    kSizeY,
+    kSizeZ,
+    kParent,
+    kTurn,
+    kTilt,
+    kWhich,
+    kTiltedTo,
+    kTiltedBy
+};
 
 // How far it is from the centre to the surface along a unit vector.
 double reach(const PlacedEllipsoid& one, const glm::dvec3& direction) {
-    const glm::dvec3 d(direction.x * one.turn.cos - direction.z * one.turn.sin, direction.y,
-                       direction.z * one.turn.cos + direction.x * one.turn.sin);
-    const glm::dvec3 u = d / one.radii;
+    const glm::dvec3 u = one.direction_to_unit(direction);
     return 1 / std::sqrt(glm::dot(u, u));
 }
 
@@ -52,6 +60,13 @@ glm::dvec3 drawn_radii(const Formation& formation, const Draws& draws) {
     return formation.radii * glm::dvec3(one(kSizeX), one(kSizeY), one(kSizeZ));
 }
 
+// Tilted up to `tilt` degrees to a random side: turned about y, tilted, and turned back.
+glm::dmat3 tilted_axes(const Formation& formation, const Draws& draws) {
+    if (formation.tilt == 0) return glm::dmat3(1);
+    const double side = 360 * draws(kTiltedTo);
+    return turned_axes(0, formation.tilt * draws(kTiltedBy), side) * turned_axes(0, 0, -side);
+}
+
 // A random one of the earlier ellipsoids first .. last.
 int earlier(const Draws& draws, int first, int last) {
     return first + std::min(static_cast<int>(draws(kParent) * (last - first + 1)), last - first);
@@ -70,6 +85,7 @@ void add_formation(std::vector<PlacedEllipsoid>& all, const Formation& formation
         PlacedEllipsoid one;
         one.center = formation.center;
         one.radii = drawn_radii(formation, draws);
+        one.axes = tilted_axes(formation, draws);
         one.translucence = translucence;
         if (i > 0) {
             const bool lies = i < base;
@@ -98,23 +114,41 @@ void add_formation(std::vector<PlacedEllipsoid>& all, const Formation& formation
 
 }  // namespace
 
+glm::dmat3 turned_axes(double about_z, double about_x, double about_y) {
+    const exact::SinCos z = exact::sincos_degrees(about_z), x = exact::sincos_degrees(about_x),
+                        y = exact::sincos_degrees(about_y);
+    const glm::dmat3 by_z = {{z.cos, z.sin, 0}, {-z.sin, z.cos, 0}, {0, 0, 1}};
+    const glm::dmat3 by_x = {{1, 0, 0}, {0, x.cos, x.sin}, {0, -x.sin, x.cos}};
+    const glm::dmat3 by_y = {{y.cos, 0, -y.sin}, {0, 1, 0}, {y.sin, 0, y.cos}};
+    return by_y * (by_x * by_z);
+}
+
 std::vector<PlacedEllipsoid> placed_ellipsoids(const EllipsoidsCloud& cloud, std::uint64_t key) {
     std::vector<PlacedEllipsoid> all;
     for (std::size_t i = 0; i < cloud.formations.size(); ++i)
         add_formation(all, cloud.formations[i], cloud.translucence, keyed(key, i));
-    if (cloud.formations.empty() && cloud.ellipsoids.empty() && !cloud.plane)
+    if (cloud.formations.empty() && cloud.ellipsoids.empty() && cloud.quadrics.empty() &&
+        !cloud.plane)
         add_formation(all, Formation{}, cloud.translucence, keyed(key, 0));
     for (const Ellipsoid& given : cloud.ellipsoids) {
         PlacedEllipsoid one;
         one.center = given.center;
         one.radii = given.radii;
-        one.turn = exact::sincos_degrees(given.rotate_y);
+        one.axes = turned_axes(given.rotate_z, given.rotate_x, given.rotate_y);
         const Translucence& own = cloud.translucence;
         one.translucence = {given.threshold.value_or(own.threshold),
                             given.threshold_edge.value_or(own.threshold_edge),
-                            given.range.value_or(own.range)};
+                            given.range.value_or(own.range), own.least, own.most};
         all.push_back(one);
     }
+    for (const Quadric& given : cloud.quadrics)
+        if (const auto shape = shape_of(given)) {
+            PlacedEllipsoid& one = all.emplace_back();
+            one.center = shape->center;
+            one.radii = shape->radii;
+            one.axes = shape->axes;
+            one.translucence = cloud.translucence;
+        }
     return all;
 }
 

@@ -30,7 +30,7 @@ struct Line {
 };
 
 // The depth along a line by the texture and the ellipsoids themselves.
-double depth_of(const Line& line, const std::vector<PlacedEllipsoid>& ellipsoids,
+double depth_of(const Line& line, const std::vector<PlacedEllipsoid>& ellipsoids, double join,
                 const TextureFunction& texture) {
     glm::dvec3 p = line.bottom;
     std::vector<const PlacedEllipsoid*> met;
@@ -44,15 +44,22 @@ double depth_of(const Line& line, const std::vector<PlacedEllipsoid>& ellipsoids
     double depth = 0;
     for (int i = 0; i < line.steps; ++i) {
         p.y = line.bottom.y + (i + 0.5) * step;
-        double opaque = 0;
+        double opaque = 0, limbs = 0;
         std::optional<TextureValue> value;
+        for (const PlacedEllipsoid* one : met) {
+            if (!(join > 0)) break;
+            const glm::dvec3 u = one->to_unit(p);
+            limbs += std::max(limb_in_space(glm::dot(u, u)), 0.0);
+        }
         for (const PlacedEllipsoid* one : met) {
             const glm::dvec3 u = one->to_unit(p);
             const double g = limb_in_space(glm::dot(u, u));
             if (g < 0) continue;
             if (!value) value = texture_at(texture, p);
-            opaque = std::max(opaque, opacity(*value, threshold_at(one->translucence, g),
-                                              one->translucence.range));
+            const Translucence& t = one->translucence;
+            const double limb = join > 0 ? joined_limb(g, limbs - g, join) : g;
+            opaque = std::max(
+                opaque, limited(opacity(*value, threshold_at(t, limb), t.range), t.least, t.most));
         }
         depth += opaque * step;
     }
@@ -122,18 +129,19 @@ double error_of(const LatticeField& lattice, const ReadyParticles& particles, do
 }  // namespace
 
 double sampling_error(const LatticeField& lattice, const ReadyParticles& particles, double density,
-                      const std::vector<PlacedEllipsoid>& ellipsoids,
+                      const std::vector<PlacedEllipsoid>& ellipsoids, double join,
                       const TextureFunction& texture, int threads, const Deadline& deadline) {
     return error_of(lattice, particles, density, threads, deadline,
-                    [&](const Line& line) { return depth_of(line, ellipsoids, texture); });
+                    [&](const Line& line) { return depth_of(line, ellipsoids, join, texture); });
 }
 
 double sampling_error(const LatticeField& lattice, const ReadyParticles& particles, double density,
-                      const SkyPlane& plane, const TextureFunction& texture, int threads,
+                      const SkyPlane& plane, const PlaneTexture& texture, int threads,
                       const Deadline& deadline) {
     return error_of(lattice, particles, density, threads, deadline, [&](const Line& line) {
+        const auto value = [&](const TextureFunction& one) { return texture_at(one, line.bottom); };
         return plane.thickness *
-               column_opacity(plane, texture_at(texture, line.bottom), line.bottom);
+               column_opacity(plane, parts_of(plane, texture, line.bottom, value), line.bottom);
     });
 }
 

@@ -28,15 +28,14 @@ TermSines printed_term(double& half_x, double& half_z, double height) {
     return {sin_turns(half_x + phase_x / (2 * pi)), sin_turns(half_z + phase_z / (2 * pi))};
 }
 
-// The share of a sine that is left by a blur of that variance, radians^2.
-double kept(double variance) {
+}  // namespace
+
+double kept_of_sine(double variance) {
     double one = 1 / (1 + variance / 16);
     one *= one;
     one *= one;
     return one * one;
 }
-
-}  // namespace
 
 TextureFunction texture_function(const SineTexture& texture, bool in_space,
                                  const glm::dvec3& shift) {
@@ -47,6 +46,10 @@ TextureFunction texture_function(const SineTexture& texture, bool in_space,
     function.turns_x = texture.frequency_x / (4 * std::numbers::pi);
     function.turns_z = texture.frequency_z / (4 * std::numbers::pi);
     function.shift = shift;
+    if (!texture.sines.empty()) {
+        take_by_hand(texture, function);
+        return function;
+    }
     double sum = 0, coefficient = 1;
     for (std::size_t i = 0; i < function.terms; ++i) {
         function.coefficient[i] = coefficient;
@@ -63,6 +66,7 @@ TextureFunction texture_function(const SineTexture& texture, bool in_space,
 
 TextureValue texture_at(const TextureFunction& texture, const glm::dvec3& place, double blur_x,
                         double blur_z) {
+    if (!texture.by_hand.empty()) return hand_texture_at(texture, place, blur_x, blur_z);
     const glm::dvec3 at = place - texture.shift;
     double half_x = turns_of(at.x, texture.turns_x), half_z = turns_of(at.z, texture.turns_z);
     double half_y = texture.in_space ? turns_of(at.y, texture.turns_x) : 0;
@@ -80,7 +84,7 @@ TextureValue texture_at(const TextureFunction& texture, const glm::dvec3& place,
             b += c * sines.z;
             continue;
         }
-        const double kept_x = kept(blur_x), kept_z = kept(blur_z);
+        const double kept_x = kept_of_sine(blur_x), kept_z = kept_of_sine(blur_z);
         a += c * kept_x * sines.x;
         b += c * kept_z * sines.z;
         lost_a += 0.5 * c * c * (1 - kept_x * kept_x);

@@ -24,11 +24,26 @@
 #include <array>
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "core/scene/ellipsoids.h"
 #include "core/scene/limits.h"
 
 namespace awan::ellipsoids {
+
+// By hand (SineTexture::sines) row i has FXi, FYi and Ci as they are given, and its phases are added to PXi and PYi;
+// what is printed of P and P' holds with these frequencies. As there is no common period then, k is that of the
+// largest T that is found over some of the longest waves: here and there T is up to a tenth more than 1.
+
+// One row of the two sums, by hand. Frequencies in turns a unit, phases in turns.
+struct HandSine {
+    double x = 0, z = 0;
+    // FY(i-1) and FX(i-1).
+    double z_before = 0, x_before = 0;
+    double phase_x = 0, phase_z = 0;
+    // By how much more the blurs of this row are than those of the first.
+    double blur_x = 1, blur_z = 1;
+};
 
 // T, ready to be evaluated.
 struct TextureFunction {
@@ -46,6 +61,8 @@ struct TextureFunction {
     glm::dvec3 shift{0};
     // Ci, the weights of the terms.
     std::array<double, limits::kMaxTextureTerms> coefficient{};
+    // Empty where frequencies are doubled by the rule.
+    std::vector<HandSine> by_hand{};
 };
 
 // The function of a texture: with its k, which takes up to a millisecond to find.
@@ -65,6 +82,16 @@ struct TextureValue {
 // on every machine. 0: a point.
 TextureValue texture_at(const TextureFunction& texture, const glm::dvec3& place, double blur_x = 0,
                         double blur_z = 0);
+
+// The same of a texture by hand, which has as many rows as terms.
+TextureValue hand_texture_at(const TextureFunction& texture, const glm::dvec3& place, double blur_x,
+                             double blur_z);
+
+// Fills in the rows of a texture by hand, and its k.
+void take_by_hand(const SineTexture& texture, TextureFunction& function);
+
+// The share of a sine that is left by a blur of that variance, radians^2.
+double kept_of_sine(double variance);
 
 // What one `step` (units) as a standard deviation adds to blur_x or, where along_z, to blur_z. The slopes of the
 // phases are in it, by their mean squares. Steps at right angles to each other add up.

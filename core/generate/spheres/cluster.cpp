@@ -10,39 +10,34 @@ namespace {
 // (2 pi)^1.5: the mass of a Gaussian of peak 1 and s = 1.
 constexpr double kSqrtTwoPiCubed = 15.749609945722419;
 
-// A point of the Gauss-Legendre rule on 0..1; five of them are exact for polynomials of degree 9.
-struct GaussPoint {
-    double at, weight;
-};
-constexpr GaussPoint kGauss[] = {{0.04691007703066800, 0.11846344252809454},
-                                 {0.23076534494715845, 0.23931433524968324},
-                                 {0.5, 0.28444444444444444},
-                                 {0.76923465505284155, 0.23931433524968324},
-                                 {0.95308992296933200, 0.11846344252809454}};
-
 double at(const Span& span, double share) {
     return span.low + (span.high - span.low) * share;
 }
 
-// One step up the tree: the mean over five children with `below` in each.
+// One step up the tree: the mean over the children with `below` in each. Parts that stand turned by chance are tried in
+// four turns, which is exact for what is linear or square in the sine and the cosine.
 ClusterMoments step_up(const SphereTree& tree, const ClusterMoments& below) {
+    const std::vector<LawPoint> ratios = points_of(tree.ratio_law());
+    const std::vector<LawPoint> shifts = points_of(tree.shift_law());
+    const int turns = tree.turns() ? 4 : 1;
     ClusterMoments sum{0, glm::dvec3(0), 0};
-    for (const GaussPoint& i : kGauss)
-        for (const GaussPoint& s : kGauss)
-            for (int j = 0; j < kSphereChildren; ++j)
-                for (const double side : {-1.0, 1.0}) {
-                    const double ratio = at(tree.ratios(), i.at);
-                    const glm::dvec3 offset =
-                        child_offset(j, {ratio, at(tree.shifts(), s.at), side}, tree.axes(1),
-                                     tree.across(1), tree.up());
-                    const double mass =
-                        i.weight * s.weight * 0.5 * ratio * ratio * ratio * below.mass;
-                    sum.mass += mass;
-                    sum.mean += mass * (offset + ratio * below.mean);
-                    sum.square += mass * (glm::dot(offset, offset) +
-                                          2 * ratio * glm::dot(offset, below.mean) +
-                                          ratio * ratio * below.square);
-                }
+    for (const LawPoint& i : ratios)
+        for (const LawPoint& s : shifts)
+            for (int j = 0; j < tree.parts(); ++j)
+                for (const double side : {-1.0, 1.0})
+                    for (int turn = 0; turn < turns; ++turn) {
+                        const double ratio = at(tree.ratios(), i.at);
+                        const glm::dvec3 offset =
+                            tree.offset(1, j, {ratio, at(tree.shifts(), s.at), side},
+                                        exact::sincos_degrees(90.0 * turn));
+                        const double mass = i.weight * s.weight * (0.5 / turns) * ratio * ratio *
+                                            ratio * below.mass;
+                        sum.mass += mass;
+                        sum.mean += mass * (offset + ratio * below.mean);
+                        sum.square += mass * (glm::dot(offset, offset) +
+                                              2 * ratio * glm::dot(offset, below.mean) +
+                                              ratio * ratio * below.square);
+                    }
     sum.mean /= sum.mass;
     sum.square /= sum.mass;
     return sum;
@@ -62,10 +57,13 @@ GaussianBlob leaf_blob(const Sphere& sphere) {
     return {sphere.center, s, kLeafMass * over * over * over / kSqrtTwoPiCubed};
 }
 
-GaussianBlob cluster_blob(const std::array<SphereNode, kSphereChildren>& children,
-                          const ClusterMoments& below) {
-    // Relative to the first child, in its radii, so that neither places nor radii lose their digits.
-    const Sphere& first = children[0].sphere;
+GaussianBlob cluster_blob(const SphereChildren& children, const ClusterMoments& below) {
+    // Relative to the first child, in its radii, so that neither places nor radii lose their digits; or to the largest
+    // one, where the first is hardly there.
+    const SphereNode* unit = children.begin();
+    for (const SphereNode& node : children)
+        if (unit->sphere.radius < 1e-6 * node.sphere.radius) unit = &node;
+    const Sphere& first = unit->sphere;
     double mass = 0, square = 0;
     glm::dvec3 mean(0);
     for (const SphereNode& node : children) {

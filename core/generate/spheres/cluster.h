@@ -2,7 +2,6 @@
 // leaves below it.
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -46,9 +45,8 @@ struct GaussianBlob {
     double peak = 0;
 };
 GaussianBlob leaf_blob(const Sphere& sphere);
-// The leaves below five children, each child with the moments that are to be expected of it. Mass, centre of mass and
-// mean square distance from it are kept.
-GaussianBlob cluster_blob(const std::array<SphereNode, kSphereChildren>& children,
-                          const ClusterMoments& below);
+// The leaves below a sphere's children, each child with the moments that are to be expected of it. Mass, centre of mass
+// and mean square distance from it are kept.
+GaussianBlob cluster_blob(const SphereChildren& children, const ClusterMoments& below);
 
 }  // namespace awan::spheres

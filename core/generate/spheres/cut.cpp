@@ -47,8 +47,10 @@ double SphereCut::size_of(const Sphere& sphere) const {
 }
 
 bool SphereCut::cuts(const Sphere& sphere, const Span& ratios) const {
-    // A leaf's particle has .72 of the leaf's radius.
-    return size_of(sphere) < smallest || sphere.radius * ratios.low < 2 * limits::kMinRadius;
+    // A leaf's particle has .72 of the leaf's radius. Children of next to nothing are no reason.
+    constexpr double kLeastRatio = 0.05;
+    return size_of(sphere) < smallest ||
+           sphere.radius * std::max(ratios.low, kLeastRatio) < 2 * limits::kMinRadius;
 }
 
 Result<SphereCut> choose_cut(const SphereTree& tree, const std::optional<glm::dvec3>& eye,
@@ -63,8 +65,9 @@ Result<SphereCut> choose_cut(const SphereTree& tree, const std::optional<glm::dv
     cut.distance = 2 * radius;
     cut.smallest = kCutPixels / 2 * pixel_angle;
 
-    // A cut leaves one sphere, and four more for every sphere that it divides.
-    std::vector<Histogram> divided(kWalkTasks);
+    // A cut leaves one sphere, and one less than there are parts more for every sphere that it divides.
+    const auto more = static_cast<std::uint64_t>(tree.parts()) - 1;
+    std::vector<Histogram> divided(walk_tasks(tree));
     const bool whole = walk_spheres(
         tree, threads, deadline, [&](const SphereNode& node, int level, std::size_t task) {
             if (level == tree.levels() || cut.cuts(node.sphere, tree.ratios())) return false;
@@ -76,7 +79,7 @@ Result<SphereCut> choose_cut(const SphereTree& tree, const std::optional<glm::dv
     for (std::size_t k = kClasses; k-- > 0;) {
         std::uint64_t here = 0;
         for (const Histogram& one : divided) here += one[k];
-        left += 4 * here;
+        left += more * here;
         if (left > most) {
             cut.smallest = std::max(cut.smallest, k + 1 < kClasses ? lower_edge(k + 1) : 0x1p30);
             break;

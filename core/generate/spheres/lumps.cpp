@@ -26,18 +26,15 @@ double covered(double depth) {
 
 }  // namespace
 
-// From the leaves upwards: five children that stand by chance within their parent's Gaussian cover, together, what a
+// From the leaves upwards: children that stand by chance within their parent's Gaussian cover, together, what a
 // Gaussian of that width and of the depth sum(areas of the children) / (2 pi s^2) does. Their mass alone would give it
 // the depth of the one that is drawn. Children are taken to be all of one size, and so many that their areas and their
-// masses come to what is to be expected of five.
+// masses come to what is to be expected.
 double lost_in_lumps(const SphereTree& tree, const std::vector<ClusterMoments>& moments,
                      double radius, int below, double sigma) {
-    const Span ratios = tree.ratios();
-    const double square =
-        (ratios.low * ratios.low + ratios.low * ratios.high + ratios.high * ratios.high) / 3;
-    const double cube =
-        (ratios.low + ratios.high) * (ratios.low * ratios.low + ratios.high * ratios.high) / 4;
-    const double ratio = cube / square, children = kSphereChildren * square / (ratio * ratio);
+    const double square = mean_of_power(tree.ratios(), tree.ratio_law(), 2);
+    const double cube = mean_of_power(tree.ratios(), tree.ratio_law(), 3);
+    const double ratio = cube / square, children = tree.parts() * square / (ratio * ratio);
     // 2 pi s^2 of a sphere of radius 1 with so many levels below it, over its radius squared.
     const auto area = [&](int levels) {
         const ClusterMoments& one = moments[static_cast<std::size_t>(levels)];

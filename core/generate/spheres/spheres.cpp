@@ -32,7 +32,7 @@ struct Part {
 // What cutting does to a picture, root mean square over root mean square. A cut cluster becomes a round blob as wide
 // as it is. So what matters is how many pixels wide the cut spheres are; how much of the cloud is in them (the third
 // root of their mass, as they stand where the cloud ends); and how porous they are: a ray through a sphere meets 5
-// E(I_j^2) of its children, less than one where ratios are small.
+// E(I_j^2) of its children (`met`), less than one where ratios are small.
 //
 // It is above all that was measured, on clouds of 6 to 8 levels against all their leaves, lit by transport-32 in
 // pictures 300 and 450 pixels high:
@@ -41,9 +41,9 @@ struct Part {
 //   ratios .1...6: cut at 1.5 pixels .009, 3: .036, 6: .17, 12: .34, 24: .48.
 // spheres_cut_test does it smaller. Where little is cut it is up to ten times too high. It does not cover deep leaves
 // that leave open what the blob in their place hides: lost_in_lumps().
-double error_of_cut(const Span& ratios, double pixels, double mass_share) {
-    const double met =
-        5 * (ratios.low * ratios.low + ratios.low * ratios.high + ratios.high * ratios.high) / 3;
+//
+// What was measured had five parts; other numbers come in by how many of them a ray meets.
+double error_of_cut(double met, double pixels, double mass_share) {
     const double porous = std::clamp((1.1 - met) / (1.1 - 0.72), 0.0, 1.0);
     return exact::cbrt(mass_share) *
            std::min(0.014 * (1 + porous) * pixels * std::sqrt(pixels), 0.7);
@@ -83,7 +83,7 @@ Result<ModelParticles> make_particles(const SpheresCloud& cloud, const ModelRequ
     const SphereCut& cut = *chosen;
 
     const std::vector<ClusterMoments> moments = cluster_moments(tree);
-    std::vector<Part> parts(kWalkTasks);
+    std::vector<Part> parts(walk_tasks(tree));
     const bool whole = walk_spheres(
         tree, request.threads, deadline, [&](const SphereNode& node, int level, std::size_t task) {
             Part& part = parts[task];
@@ -138,7 +138,7 @@ Result<ModelParticles> make_particles(const SpheresCloud& cloud, const ModelRequ
                          lost_in_lumps(tree, moments, radius / own, static_cast<int>(below), sigma);
         }
         made.error = exact::hypot(
-            error_of_cut(tree.ratios(), 2 * cut.smallest / angle, cut_mass / mass), lumps);
+            error_of_cut(tree.met(), 2 * cut.smallest / angle, cut_mass / mass), lumps);
     }
     return made;
 }

@@ -12,8 +12,13 @@ namespace awan::spheres {
 
 // The pieces of work: the subtrees below the spheres of level 3, and as the last one what lies above, or ends above
 // them.
-inline constexpr std::size_t kWalkSubtrees = 125;
-inline constexpr std::size_t kWalkTasks = kWalkSubtrees + 1;
+inline std::size_t walk_subtrees(const SphereTree& tree) {
+    const auto parts = static_cast<std::size_t>(tree.parts());
+    return parts * parts * parts;
+}
+inline std::size_t walk_tasks(const SphereTree& tree) {
+    return walk_subtrees(tree) + 1;
+}
 
 namespace walk_detail {
 
@@ -37,10 +42,11 @@ void above(const SphereTree& tree, const SphereNode& node, int level, std::size_
         subtrees[place] = {node, true};
         return;
     }
-    if (!divide(node, level, kWalkSubtrees) || level == tree.levels()) return;
+    if (!divide(node, level, subtrees.size()) || level == tree.levels()) return;
     std::size_t j = 0;
     for (const SphereNode& child : tree.children(node, level))
-        above(tree, child, level + 1, 5 * place + j++, subtrees, divide);
+        above(tree, child, level + 1, static_cast<std::size_t>(tree.parts()) * place + j++,
+              subtrees, divide);
 }
 
 }  // namespace walk_detail
@@ -51,10 +57,10 @@ void above(const SphereTree& tree, const SphereNode& node, int level, std::size_
 template <typename Divide>
 bool walk_spheres(const SphereTree& tree, int threads, const Deadline& deadline,
                   const Divide& divide) {
-    std::vector<walk_detail::Subtree> subtrees(kWalkSubtrees);
+    std::vector<walk_detail::Subtree> subtrees(walk_subtrees(tree));
     walk_detail::above(tree, tree.root(), 0, 0, subtrees, divide);
     std::atomic<bool> late{false};
-    parallel_for(threads, kWalkSubtrees, [&](std::size_t task) {
+    parallel_for(threads, subtrees.size(), [&](std::size_t task) {
         if (!subtrees[task].present || late.load(std::memory_order_relaxed)) return;
         if (deadline.over()) {
             late = true;
