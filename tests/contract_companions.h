@@ -22,7 +22,7 @@ struct Companion {
 // A ball beside one coefficient of a quadric, which that makes a little longer or moves.
 template <char kWhich>
 void round_beside(json&, json& quadric) {
-    const double given = quadric.at(std::string("q") + kWhich).get<double>();
+    const double given = quadric.value(std::string("q") + kWhich, kWhich == '0' ? -1.0 : 1.0);
     const double size = kWhich >= '1' && kWhich <= '3' ? given : std::max(std::abs(given), 1.0);
     for (const char* const square : {"q1", "q2", "q3"}) quadric[square] = size;
     if (kWhich == '0')
