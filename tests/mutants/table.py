@@ -140,8 +140,8 @@ MUTANTS = [
 
     # --- generate: spheres
     M("a child of the other radius", "spheres", "core/generate/spheres/subdivision.cpp",
-      "const double reach = 1 - draw.ratio, along", "const double reach = 1 + draw.ratio, along",
-      "a sign", ["spheres_test"]),
+      "const double reach = 1 - draw.ratio, along = draw.shift * reach;",
+      "const double reach = 1 + draw.ratio, along = draw.shift * reach;", "a sign", ["spheres_test"]),
     M("second and third child swapped", "spheres", "core/generate/spheres/subdivision.cpp",
       "return {-along * axes.x, 0, aside * across.z};", "return {along * axes.x, 0, aside * across.z};",
       "a sign", ["spheres_test"]),
@@ -182,13 +182,14 @@ MUTANTS = [
     M("mass of one axis", "automaton", "core/generate/automaton/cells_to_particles.cpp",
       "block.mass / (root * root * root)", "block.mass / (root * root)", "a factor",
       ["automaton_density_test"]),
-    M("between steps the wrong share", "automaton", "core/generate/automaton/cells_to_particles.cpp",
-      "(a + share_ * (b - a)) * scale_", "(b + share_ * (a - b)) * scale_", "the two ends swapped",
+    M("between steps the wrong share", "automaton", "core/generate/automaton/density_planes.h",
+      "(a + share_ * ((*next_)(i, j) - a)) * scale_", "(a + (1 - share_) * ((*next_)(i, j) - a)) * scale_",
+      "the two ends swapped",
       ["automaton_density_test"]),
 
     # --- generate: implicit
-    M("keys in between the other way", "implicit", "core/generate/implicit/elements.cpp",
-      "*of(*before) * (1 - t) + *of(*after) * t", "*of(*before) * t + *of(*after) * (1 - t)",
+    M("keys in between the other way", "implicit", "core/generate/implicit/keys.h",
+      "return a * (1 - t) + b * t;", "return a * t + b * (1 - t);",
       "the two ends swapped", ["implicit_warps_test:Keys.*"]),
     M("turned in the other order", "implicit", "core/generate/implicit/elements.cpp",
       "about_z * about_y * about_x", "about_x * about_y * about_z", "the order of matrices",
