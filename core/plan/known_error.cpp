@@ -18,10 +18,11 @@ constexpr double kEyeError = 0.005, kThickError = 0.006;
 constexpr double kAngularError = 0.025, kTurnedBackError = 0.2, kThinTurnedBackError = 0.5,
                  kIntoSunError = 0.17;
 // what lumps of detail that are smaller than steps, cells and the gaps between rays leave, times the detail's amount;
-// more of it in deep matter, where a cell of the sun's lattice is several mean free paths, in proportion to depths
-// up to kDeep, and where the sun shines through their edges, times the cosine squared between it and the view.
-constexpr double kDetailError = 0.0325, kDeepDetailError = 0.26, kDeep = 800,
-                 kBacklitDetailError = 0.05;
+// more of it in deep matter, where a cell of the sun's lattice is several mean free paths, in proportion to the square
+// of depths up to kDeep, and where the sun shines through their edges, times the cosine squared between it and the
+// view.
+constexpr double kDetailError = 0.028, kDeepDetailError = 0.26, kDeep = 800,
+                 kBacklitDetailError = 0.03;
 // Of what is far below a pixel, times its share of the matter (Survey::sub_pixel).
 constexpr double kSubPixelError = 0.01;
 // Of the ground's light where hills stand and a level ground sends it up in their stead, times its share of all
@@ -43,10 +44,10 @@ double known_error(const Scene& scene, const Survey& survey, bool detailed) {
     double known =
         exact::hypot(kEyeError, exact::hypot(kThickError, angular) * thick, thin_turned_back);
     if (detailed) {
-        known = exact::hypot(known,
-                             scene->detail.value_or(Detail{}).amount *
-                                 (kDetailError + kDeepDetailError * std::min(depth / kDeep, 1.0) +
-                                  kBacklitDetailError * into_sun * into_sun));
+        const double deep = std::min(depth / kDeep, 1.0);
+        known = exact::hypot(known, scene->detail.value_or(Detail{}).amount *
+                                        (kDetailError + kDeepDetailError * deep * deep +
+                                         kBacklitDetailError * into_sun * into_sun));
     }
     if (has_terrain(*scene))
         known = exact::hypot(known, kHillsError * survey.ground.light / (1 + survey.ground.light));
