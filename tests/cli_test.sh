@@ -288,6 +288,7 @@ run 0 plan afterwards.json --state at3.state
 run 0 render afterwards.json -o state.png --width 16 --height 12 --rung harris --state at3.state
 sed 's/"time":3/"time":3,"seed":7/' automaton.json >other.json
 run 3 particles other.json --state at3.state
+contains "another seed" "seed" "$(cat err)"
 # At intervals: any frame goes on from the one before it.
 run 2 state afterwards.json -o one.state --every 2
 mkdir kept
@@ -299,7 +300,7 @@ run 0 particles afterwards.json -o both3.csv --state at3.state --state kept/0000
 cmp -s from3.csv both3.csv || fail "from two states other particles are made"
 mkdir empty
 run 3 particles afterwards.json --state empty
-contains "another seed" "seed" "$(cat err)"
+contains "a folder without states" "no files are in it" "$(cat err)"
 sed 's/40,12,40/40,13,40/' automaton.json >other.json
 run 3 plan other.json --state at3.state
 contains "another grid" "parameters" "$(cat err)"
