@@ -321,7 +321,7 @@ const tests = {
     assert.equal(await page.getByRole("button", { name: ".awn" }).getAttribute("aria-disabled"), "true");
     assert.match(await page.textContent("#awn-why"), /several clouds/);
     await page.locator(".cloud-line select").selectOption("1");
-    assert.ok(await page.getByLabel("Turn, °").isVisible());
+    assert.ok(await page.getByLabel("Turn, °", { exact: true }).isVisible());
   },
 
   async "chooses accuracy by error, by time and by name, and shows what it costs"(page) {
