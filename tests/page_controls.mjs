@@ -9,7 +9,7 @@ import { download, group, openQuiet, runTests, scratch } from "./page_browser.mj
 
 // What changes no document, by what it is called.
 const NO_EDITS = [
-  "Outline", "Factor", "Start with", "Scatter twins", "within", "Insert a file…", "A texture of your own…", "Aim at the cloud",
+  "Outline", "Factor", "Start with", "Scatter twins", "within", "Insert a file…", "A texture of your own…", "A height map of your own…", "Aim at the cloud",
   "What does accuracy cost?", "Copy the command: Numbered pictures", "Copy the command: An animation", "With the picture of every rung",
 ];
 // What needs something else first: a thickness, a measurement.

@@ -10,7 +10,7 @@ import { group, openQuiet, origin } from "./page_browser.mjs";
 // Only what is required, so that the controls of everything else show defaults.
 const HAZE = { extinction: 0.01, scale_height: 10 };
 const AROUND = {
-  sun: {}, ground: {}, haze: HAZE, detail: {}, sequence: { to: 1, frames: 2 }, camera: { eye: [0, 0, 20], target: [0, 0, 0] },
+  sun: {}, ground: { terrain: { height: 5 } }, haze: HAZE, detail: {}, sequence: { to: 1, frames: 2 }, camera: { eye: [0, 0, 20], target: [0, 0, 0] },
 };
 const cloud = (model, own) => ({ clouds: [{ model, [model]: own }] });
 const SILENT = {
@@ -98,8 +98,8 @@ const silentControls = (page, scene) => page.evaluate(async (document_) => {
       said.add(place);
       continue;
     }
-    // A switch is off: they show what it begins with.
-    if (held === undefined && typeof standardAt(document_, holder) === "string") continue;
+    // A switch is off: they show what it begins with. (Hills have no word for that they are off.)
+    if (held === undefined && (holder === "/ground/terrain" || typeof standardAt(document_, holder) === "string")) continue;
     if (!found.has(place)) found.set(place, { pointer: place, shown: [] });
     found.get(place).shown[axis === undefined ? 0 : Number(axis)] = shown;
   }
