@@ -105,15 +105,22 @@ struct Matter {
 Result<Matter> make_matter(const ParticleSet& particles, const glm::dvec3& to_sun, int threads,
                            const Deadline& deadline);
 
-// Extinction on the lattice with its detail, from the smooth one, at q.
-inline double with_detail(const Matter& m, float smooth, const glm::dvec3& q) {
+// Extinction on the lattice with its detail, from the smooth one. bumps(field): n at the place.
+template <typename Bumps>
+double with_bumps(const Matter& m, float smooth, const Bumps& bumps) {
     if (!m.detail || !(smooth > 0)) return static_cast<double>(smooth);
     const DetailField& field = *m.detail;
     const auto per_unit = static_cast<float>(static_cast<double>(smooth) / m.cell);
     // Within there are no bumps to look up.
-    const float bumps =
-        per_unit < field.edge ? bumps_at(field, m.origin + m.cell * ((q - m.shift) * m.axes)) : 1;
-    return m.cell * static_cast<double>(detailed(field, per_unit, bumps));
+    const float n = per_unit < field.edge ? bumps(field) : 1;
+    return m.cell * static_cast<double>(detailed(field, per_unit, n));
+}
+
+// The same at q.
+inline double with_detail(const Matter& m, float smooth, const glm::dvec3& q) {
+    return with_bumps(m, smooth, [&](const DetailField& field) {
+        return bumps_at(field, m.origin + m.cell * ((q - m.shift) * m.axes));
+    });
 }
 
 // Of all particles at p, per cell. 0 outside.

@@ -14,7 +14,7 @@ namespace awan::truth {
 struct AreaRay {
     glm::dvec3 direction;  // unit
     double share;          // of the pixel, that it stands for
-    double depth;          // optical, of the particles without their detail
+    double depth;  // optical, of the particles without their detail; 0 where it is not wanted
 };
 
 struct AreaRays {

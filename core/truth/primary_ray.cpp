@@ -59,13 +59,11 @@ class InTile {
         from_ = field.to_tile * (m.origin + m.cell * ((o - m.shift) * m.axes) - field.origin);
         along_ = field.to_tile * (m.cell * (d * m.axes));
     }
-    // As with_detail() of matter.h, at o + t d.
+    // At o + t d.
     double extinction(float smooth, double t) const {
-        if (!m_.detail || !(smooth > 0)) return static_cast<double>(smooth);
-        const DetailField& field = *m_.detail;
-        const auto per_unit = static_cast<float>(static_cast<double>(smooth) / m_.cell);
-        const float bumps = per_unit < field.edge ? bumps_in_tile(field, from_ + t * along_) : 1;
-        return m_.cell * static_cast<double>(detailed(field, per_unit, bumps));
+        return with_bumps(m_, smooth, [&](const DetailField& field) {
+            return bumps_in_tile(field, from_ + t * along_);
+        });
     }
 
   private:
