@@ -1,11 +1,9 @@
 // The groups for what surrounds the clouds or is finer than they: ground, haze, detail. Each is "none" or an object.
 
-import * as api from "./api.js";
 import { checkbox, slider } from "./controls.js";
 import { at, withAt } from "./document.js";
-import { el } from "./dom.js";
 import { fieldAt, standardAt } from "./schema.js";
-import { nameOf } from "./textures.js";
+import { pictureButton } from "./textures.js";
 
 // `fresh`: what it is when it is first switched on. Its fields write whole objects, so that what is required is there.
 // What is there by itself ("auto") is switched off by the word "none".
@@ -68,27 +66,14 @@ export function groundPanel(store) {
   return { ...ground, fields: [...ground.fields, ...hills.fields], tail: [heightMap(store, `${pointer}/map`)] };
 }
 
-// A picture as height map, sent to the service, which has it by name from then on.
-function heightMap(store, pointer) {
-  const input = el("input", { type: "file", accept: "image/*,.exr,.tif,.tiff", hidden: true, "aria-label": "Height map to use" });
-  const button = el("button", { type: "button", onclick: () => input.click() }, "A height map of your own…");
-  input.addEventListener("change", async () => {
-    const [file] = input.files;
-    input.value = "";
-    if (!file) return;
-    try {
-      const { name } = await api.putTexture(nameOf(file), file);
-      store.update((scene) => {
-        const ground = at(scene, "/ground"), given = ground !== null && typeof ground === "object" ? ground : FRESH_GROUND;
-        const hills = given.terrain !== null && typeof given.terrain === "object" ? given.terrain : { height: 5 };
-        return withAt(scene, "/ground", { ...given, terrain: { ...hills, map: name } });
-      });
-    } catch ({ message }) {
-      button.dispatchEvent(new CustomEvent("wrongnumber", { bubbles: true, detail: { pointer, message } }));
-    }
-  });
-  return el("div", {}, button, input);
-}
+const heightMap = (store, pointer) => pictureButton({
+  text: "A height map of your own…", label: "Height map to use", pointer,
+  use: (name) => store.update((scene) => {
+    const ground = at(scene, "/ground"), given = ground !== null && typeof ground === "object" ? ground : FRESH_GROUND;
+    const hills = given.terrain !== null && typeof given.terrain === "object" ? given.terrain : { height: 5 };
+    return withAt(scene, "/ground", { ...given, terrain: { ...hills, map: name } });
+  }),
+});
 
 export const hazePanel = (store) => optional(store, {
   title: "Haze", pointer: "/haze", label: "Hazy air", fresh: { extinction: 0.01, height: -6, scale_height: 10 },

@@ -7,7 +7,7 @@ import { el } from "./dom.js";
 import { fieldAt } from "./schema.js";
 
 // A name as the service takes it, from that of a file.
-export const nameOf = (file) => file.name.replace(/\.[^.]*$/, "").replace(/[^A-Za-z0-9._-]+/g, "-").replace(/^[^A-Za-z0-9]+/, "").slice(0, 64) || "texture";
+const nameOf = (file) => file.name.replace(/\.[^.]*$/, "").replace(/[^A-Za-z0-9._-]+/g, "-").replace(/^[^A-Za-z0-9]+/, "").slice(0, 64) || "texture";
 
 // One of Awan's own, or whatever name the document has.
 export function textureChoice(store, { label, pointer, none }) {
@@ -29,22 +29,28 @@ export function textureChoice(store, { label, pointer, none }) {
 
 const texture = (store) => textureChoice(store, { label: "Texture of all", pointer: () => "/texture", none: "none: particles" });
 
-function upload(store) {
-  const input = el("input", { type: "file", accept: "image/*,.exr,.tif,.tiff", hidden: true, "aria-label": "Texture to use" });
-  const button = el("button", { type: "button", onclick: () => input.click() }, "A texture of your own…");
+// A button that sends a picture to the service, which has it by name from then on; use(name) puts it into the scene.
+// pointer: the place that errors are of.
+export function pictureButton({ text, label, pointer, use }) {
+  const input = el("input", { type: "file", accept: "image/*,.exr,.tif,.tiff", hidden: true, "aria-label": label });
+  const button = el("button", { type: "button", onclick: () => input.click() }, text);
   input.addEventListener("change", async () => {
     const [file] = input.files;
     input.value = "";
     if (!file) return;
     try {
       const { name } = await api.putTexture(nameOf(file), file);
-      store.set("/texture", name);
+      use(name);
     } catch ({ message }) {
-      button.dispatchEvent(new CustomEvent("wrongnumber", { bubbles: true, detail: { pointer: "/texture", message } }));
+      button.dispatchEvent(new CustomEvent("wrongnumber", { bubbles: true, detail: { pointer, message } }));
     }
   });
   return el("div", {}, button, input);
 }
+
+const upload = (store) => pictureButton({
+  text: "A texture of your own…", label: "Texture to use", pointer: "/texture", use: (name) => store.set("/texture", name),
+});
 
 export function texturePanel(store) {
   const hasCubes = () => cloudsOf(store.scene).some(({ cloud }) => modelOf(cloud) === "cubes");
