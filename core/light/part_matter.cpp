@@ -59,7 +59,10 @@ PartGrid grid_of_part(const LightPart& part, int cells, double floor, int thread
     const double rest = std::min(kLeftOut, kLeftOutShare * part.deepest);
     const MatterBox box =
         box_around_matter(part.own, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, rest, threads);
-    grid.lattice = above(floor, within_work(part.own, box, cells, kMaxCoarseWork, fitted_cells));
+    // Lumps of detail are as wide as they are high, however flat the cloud is.
+    grid.lattice =
+        above(floor, within_work(part.own, box, spread_count(box.size, cells, kMostGridSpread),
+                                 kMaxCoarseWork, part.all.detail ? cubic_cells : fitted_cells));
     const Lattice& lattice = grid.lattice;
     grid.sub = fine_cells_a_side(cells);
     const auto fine_cells = [&] {

@@ -8,6 +8,7 @@
 
 #include "core/base/exact_math.h"
 #include "core/base/parallel.h"
+#include "core/plan/transport_settings.h"
 #include "core/survey/lattice.h"
 #include "core/survey/projection.h"
 
@@ -47,7 +48,7 @@ double nodes_facing(const MatterBox& box, const glm::dvec3& w, int cells) {
     const SideAxes side = side_axes(w);
     const auto along = [&](const glm::dvec3& axis) { return glm::dot(glm::abs(axis), box.size); };
     const glm::dvec3 size(along(side.u), along(side.v), along(w));
-    const double cell = longest(size) / cells;
+    const double cell = longest(size) / spread_count(size, cells, kMostSunSpread);
     return std::ceil(size.x / cell) * std::ceil(size.y / cell) * (std::ceil(size.z / cell) + 1);
 }
 

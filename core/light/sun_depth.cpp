@@ -10,6 +10,7 @@
 #include "core/base/instruction_sets.h"
 #include "core/base/parallel.h"
 #include "core/light/sun_columns.h"
+#include "core/plan/transport_settings.h"
 #include "core/survey/lattice.h"
 #include "core/survey/lattice_detail.h"
 #include "core/survey/projection.h"
@@ -62,8 +63,10 @@ SunDepth sun_depth(const ParticleSet& particles, const glm::dvec3& towards_sun, 
 Lattice sun_lattice(const ParticleSet& particles, const glm::dvec3& towards_sun, int cells,
                     int threads) {
     const SideAxes side = side_axes(-towards_sun);
-    return lattice_around_matter(particles, side.u, side.v, -towards_sun, kLeftOut, cells, threads,
-                                 kMaxSunWork);
+    const MatterBox box =
+        box_around_matter(particles, side.u, side.v, -towards_sun, kLeftOut, threads);
+    return within_work(particles, box, spread_count(box.size, cells, kMostSunSpread), kMaxSunWork,
+                       cubic_cells);
 }
 
 SunDepth sun_depth_on(const Lattice& lattice, const ParticleSet& particles,

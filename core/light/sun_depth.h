@@ -39,8 +39,8 @@ double depth_at(const SunDepth& sun, const glm::dmat3& nodes, const glm::dvec3& 
 SunDepth sun_depth(const ParticleSet& particles, const glm::dvec3& towards_sun, int cells,
                    int threads);
 
-// A lattice around the particles whose w is the way the light goes, with `cells` cells along its longest side; fewer
-// where filling it would take more than kMaxSunWork.
+// A lattice around the particles whose w is the way the light goes, with `cells` cells along its longest side; more
+// where that is flat or long (spread_count), fewer where filling it would take more than kMaxSunWork.
 Lattice sun_lattice(const ParticleSet& particles, const glm::dvec3& towards_sun, int cells,
                     int threads);
 

@@ -12,6 +12,7 @@
 #include "core/plan/island_settings.h"
 #include "core/plan/transport_settings.h"
 #include "core/scene/outside.h"
+#include "core/survey/lattice.h"
 #include "core/survey/projection.h"
 
 namespace awan {
@@ -59,11 +60,21 @@ double updates(const Survey& survey, int cells) {
 }
 
 // Cells of a cubic grid with `count` of them along the longest side.
-double cells_in(const glm::dvec3& size, int count) {
+double cubes_in(const glm::dvec3& size, int count) {
     if (count == 0) return 0;
     const glm::dvec3 share = size / std::max({size.x, size.y, size.z, 1e-12});
     return exact::pow(count, 3) * std::max(share.x, 1.0 / count) * std::max(share.y, 1.0 / count) *
            std::max(share.z, 1.0 / count);
+}
+
+// Cells of the solve's grid.
+double cells_in(const glm::dvec3& size, int count) {
+    return cubes_in(size, spread_count(size, count, kMostGridSpread));
+}
+
+// Cells along its longest side.
+int grid_count(const Survey& survey, int cells) {
+    return spread_count(survey.bounds.max - survey.bounds.min, cells, kMostGridSpread);
 }
 
 // Of an island without its fringe, as Survey::bounds are.
@@ -107,10 +118,11 @@ glm::dvec3 turned_size_of_all(const Islands& islands, const SunAxes& axes) {
 }
 
 // Of a SunDepth of a box of this (turned) size: a layer of nodes more than cells.
-double nodes_in(const glm::dvec3& size, int count) {
-    if (count == 0) return 0;
+double nodes_in(const glm::dvec3& size, int asked) {
+    if (asked == 0) return 0;
+    const int count = spread_count(size, asked, kMostSunSpread);
     const double longest = std::max({size.x, size.y, size.z, 1e-12});
-    return cells_in(size, count) * (1 + longest / (count * std::max(size.z, longest / count)));
+    return cubes_in(size, count) * (1 + longest / (count * std::max(size.z, longest / count)));
 }
 
 }  // namespace
@@ -143,7 +155,7 @@ IslandWork island_work(const TransportSettings& settings, const Scene& scene,
         const double seen = longest / distance * (longest / distance);
         if (cells[i].cells > 0) {
             area += seen;
-            sum += seen * longest / cells[i].cells;
+            sum += seen * longest / spread_count(size, cells[i].cells, kMostGridSpread);
         }
     }
     work.cell = area > 0 ? sum / area : 0;
@@ -156,7 +168,7 @@ ErrorFigures error_figures(const Rung& rung, const Scene& scene, const Survey& s
     double cell_depth = 0, coarseness = 0;
     if (rung.cells > 0) {
         const double cell = survey.islands.list.empty()
-                                ? longest_side(survey) / rung.cells
+                                ? longest_side(survey) / grid_count(survey, rung.cells)
                                 : island_work(transport_settings(rung), scene, survey).cell;
         cell_depth =
             std::clamp(survey.max_extinction * (1 - scene->medium.albedo * f) * cell, 0.0, 1e6);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "core/base/exact_math.h"
 
@@ -14,9 +15,13 @@ constexpr double kEyeError = 0.005, kThickError = 0.006;
 // the nearer the sun is to behind the eye, in proportion to the square of what the cosine between it and the view is
 // below -1/2: what comes back from there has turned around by many small angles, which the peak's light does not. Where
 // matter is so thin that little else comes back, that is most of it, times g to the power of 6. Towards the sun, where
-// the peak comes through in thick matter, times g to the power of 4 and the cosine squared;
+// the peak comes through in thick matter, times g to the power of 4 and the cosine squared; of it kLeavingError is of
+// light that leaves the matter by its sides, or comes to the next cloud where it would not have, since the peak is
+// taken to go straight on: in proportion to how often it would pass matter's thickness on its way (leaving);
 constexpr double kAngularError = 0.025, kTurnedBackError = 0.2, kThinTurnedBackError = 0.5,
-                 kIntoSunError = 0.17;
+                 kIntoSunError = 0.1, kLeavingError = 0.25;
+// By how much light turns when the peak scatters it, as a tangent; and ways after which no more of it is left.
+constexpr double kTurn = 0.47, kMostLeaving = 5;
 // what lumps of detail that are smaller than steps, cells and the gaps between rays leave, times the detail's amount;
 // more of it in deep matter, where a cell of the sun's lattice is several mean free paths, in proportion to the square
 // of depths up to kDeep, and where the sun shines through their edges, times the cosine squared between it and the
@@ -29,14 +34,25 @@ constexpr double kSubPixelError = 0.01;
 // (terrain_truth_test).
 constexpr double kHillsError = 0.3;
 
+// The sun's way through the middle of the matter's box, over the shortest of its sides, times by how much the peak's
+// light turns; 0..1, of kMostLeaving.
+double leaving(const Scene& scene, const Survey& survey) {
+    const glm::dvec3 size = glm::max(survey.bounds.max - survey.bounds.min, glm::dvec3(1e-12));
+    const glm::dvec3 slope = glm::abs(sun_direction(scene->sun)) / size;
+    const double thinnest = std::min({size.x, size.y, size.z});
+    const double way = 1 / std::max({slope.x, slope.y, slope.z});
+    return std::min(kTurn * way / (thinnest * kMostLeaving), 1.0);
+}
+
 }  // namespace
 
 double known_error(const Scene& scene, const Survey& survey, bool detailed) {
     const double g = asymmetry(scene->medium), depth = survey.optical_depth_eye;
     const double behind = std::clamp(-2 * survey.sun_cosine - 1, 0.0, 1.0);
     const double into_sun = std::max(survey.sun_cosine, 0.0);
+    const double into_sun_error = kIntoSunError + kLeavingError * leaving(scene, survey);
     const double angular = (kAngularError + kTurnedBackError * behind * behind +
-                            kIntoSunError * into_sun * into_sun * g * g) *
+                            into_sun_error * into_sun * into_sun * g * g) *
                            g * g;
     const double thick = depth / (1 + depth);
     const double thin_turned_back =

@@ -38,6 +38,11 @@ struct TransportSettings {
     std::vector<IslandCells> islands;
 };
 
+// How many times finer than the rung's name says, at most, the lattices of clouds that are flat or long are
+// (spread_count of core/survey/lattice.h): the solve's grid and that of the sun's depth, which costs little and decides
+// how sharp the edges are that the sun shines through.
+inline constexpr double kMostGridSpread = 1.5, kMostSunSpread = 4;
+
 // Cells along the longest side of the grids on the way to one with `cells`, coarsest first, `cells` itself last; from
 // one to the next they grow by 1.25 to 2 times. cells >= 1.
 std::vector<int> nested_cells(int cells);

@@ -378,6 +378,16 @@ Lattice cubic_cells(const MatterBox& box, int count) {
     return made;
 }
 
+int spread_count(const glm::dvec3& size, int count, double most) {
+    const double longest = std::max({size.x, size.y, size.z});
+    if (!(longest > 0)) return count;
+    // However thin it is, there is a cell across it.
+    const glm::dvec3 share = glm::max(size / longest, glm::dvec3(1 / (most * count)));
+    constexpr double kCompactShare = 0.25;
+    const double spread = exact::cbrt(kCompactShare / (share.x * share.y * share.z));
+    return static_cast<int>(count * std::clamp(spread, 1.0, most));
+}
+
 Lattice fitted_cells(const MatterBox& box, int count) {
     const Lattice cubic = cubic_cells(box, count);
     const double longest = std::max({box.length.x, box.length.y, box.length.z});
