@@ -9,10 +9,21 @@
 namespace awan {
 namespace {
 
+std::size_t frame_pixels(const Scene& scene) {
+    return static_cast<std::size_t>(scene->image.width) *
+           static_cast<std::size_t>(scene->image.height);
+}
+
+std::size_t most_bytes(const Scene& scene) {
+    return std::min(kMostImpostorFrames * frame_pixels(scene) * 4 * sizeof(float),
+                    kMostImpostorBytes);
+}
+
 // Why a flight can have none; EMPTY: it may.
 std::string none_because(const Scene& scene, const Settled& settled) {
     if (scene->look != Look::kPhysical || scene->display != Display::kLit)
         return "its pictures are not made of light";
+    if (frame_pixels(scene) > kLargestImpostorFrame) return "its frames are too large";
     if (settled.sequence.camera.empty() || !clouds_stand(*scene)) return "its clouds do not stand";
     return {};
 }
@@ -22,6 +33,12 @@ bool same_matter(const Planned& planned, std::size_t particles, std::uint64_t va
 }
 
 }  // namespace
+
+std::size_t impostor_bytes(const Scene& scene) {
+    if (frame_pixels(scene) > kLargestImpostorFrame) return 0;
+    // The light and what is left of it, and one layer.
+    return most_bytes(scene) + frame_pixels(scene) * 11 * sizeof(float);
+}
 
 FlightImpostors::FlightImpostors(const FlightImpostorWish& wish, const Scene& scene,
                                  const Settled& settled) {
@@ -58,8 +75,7 @@ Status FlightImpostors::draw_pictures(const std::vector<const ImpostorRun*>& run
                                       const ParticleSet& particles, const TransportLight& light,
                                       const MarchSettings& settings, int threads,
                                       const Deadline& deadline, ImpostorFrame& of_frame) {
-    const std::size_t most = kMostImpostorFrames * static_cast<std::size_t>(scene->image.width) *
-                             static_cast<std::size_t>(scene->image.height) * 4 * sizeof(float);
+    const std::size_t most = most_bytes(scene);
     for (std::size_t cloud = 0; cloud < runs.size(); ++cloud) {
         const auto old = kept_.find(cloud);
         const bool same = old != kept_.end() && old->second.run == runs[cloud];

@@ -18,9 +18,9 @@ namespace awan {
 
 // What a frame had of them.
 struct ImpostorFrame {
-    // Clouds that a picture of an earlier frame was shown for; pictures that were drawn, and of those the ones that took
-    // the place of one whose bound was crossed; clouds in the picture that were drawn as they are. All 0: the frame was
-    // drawn whole.
+    // Clouds that a picture of an earlier frame was shown for; pictures that were drawn, and of those the ones that
+    // took the place of one whose bound was crossed; clouds in the picture that were drawn as they are. All 0: the
+    // frame was drawn whole.
     std::uint32_t kept = 0, drawn = 0, redrawn = 0, whole = 0;
     // Of drawing the pictures; of all else that the frame's eye pass took.
     double pictures_ms = 0, frame_ms = 0;
@@ -85,7 +85,12 @@ class FlightImpostors {
     std::size_t bytes_ = 0;
 };
 
-// Of all pictures that one flight keeps, and of the frame's own size: a frame's pixels that many times.
-inline constexpr std::size_t kMostImpostorFrames = 8;
+// What all pictures that one flight keeps take at most: frames of its own, and bytes.
+inline constexpr std::size_t kMostImpostorFrames = 4, kMostImpostorBytes = 64 << 20;
+// Pixels of a frame; larger ones are drawn whole.
+inline constexpr std::size_t kLargestImpostorFrame = 1 << 22;
+
+// The most memory that the impostors of a flight take, bytes: pictures, and layers while they are laid.
+std::size_t impostor_bytes(const Scene& scene);
 
 }  // namespace awan

@@ -25,7 +25,7 @@ constexpr double kMostTexels = 4;
 
 // What work costs, in pixels of clouds that are drawn whole (measured: tests/bench/impostor_bench.cpp). Of a picture's
 // texel; of a pixel that a picture is shown at; of a frame made of pictures, per pixel of the frame.
-constexpr double kDrawTexel = 1, kShowPixel = 0.03, kFrameOfPictures = 0.03;
+constexpr double kDrawTexel = 1.6, kShowPixel = 0.03, kFrameOfPictures = 0.03;
 // Below this share of saved work impostors are left off, a flight's and a frame's.
 constexpr double kFlightPays = 0.15, kFramePays = 0.1;
 

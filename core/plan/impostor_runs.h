@@ -1,7 +1,7 @@
-// Impostors in flight (Harris & Lastra 2001, Harris 2003): a cloud's picture is drawn once, facing the eye, and shown in
-// place of the cloud for as long as a bound on its error holds. Here is decided which clouds have one in which frames,
-// before the first is drawn: a flight's path is known, so a picture can be of the eye in the middle of the frames that
-// it serves, and whether it pays can be told. (Not to be confused with core/impostor.h, atlases for engines.)
+// Impostors in flight (Harris & Lastra 2001): a cloud's picture is drawn once, facing the eye, and shown in place of
+// the cloud for as long as a bound on its error holds. Here is decided which clouds have one in which frames, before
+// the first is drawn: a flight's path is known, so a picture can be of the eye in the middle of the frames that it
+// serves, and whether it pays can be told. (Not to be confused with core/impostor.h, atlases for engines.)
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ struct FlightImpostorWish {
     double pixels = kImpostorPixels;
 };
 
-// The other halves of the bound. The phase function, along any ray to the cloud, changes by at most this share while its
-// picture is kept: single scattering changes by as much, all light by less.
+// The other halves of the bound. The phase function, along any ray to the cloud, changes by at most this share while
+// its picture is kept: single scattering changes by as much, all light by less.
 inline constexpr double kMostPhaseChange = 0.1;
 // Sides of a picture's texels where they are shown, in pixels.
 inline constexpr double kLeastTexel = 0.45, kMostTexel = 1.1;
@@ -53,8 +53,8 @@ std::optional<FacingPicture> facing_picture(const SeparateCloud& cloud, const Vi
                                             const ImageSettings& image);
 
 // The bound: by how many pixels the picture may show matter of the cloud beside its place, seen from another eye.
-// Matter at distance z along `forward` (n <= z <= f) on a ray of slope m is shown in the plane at p. With e the eye's way
-// since, across and along `forward`, both are seen at slopes that differ by exactly
+// Matter at distance z along `forward` (near <= z <= far) on a ray of slope m is shown in the plane at p. With e the
+// eye's way since, across and along `forward`, both are seen at slopes that differ by exactly
 //     (m e_along - e_across) (p - z) / ((z - e_along) (p - e_along)),
 // which is the largest at an end of the cloud and at a corner of its slopes. Infinite where it has no bound.
 double displacement(const FacingPicture& picture, const View& view, const ImageSettings& image);
