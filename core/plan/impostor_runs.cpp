@@ -23,7 +23,7 @@ constexpr double kWidest = 1.2;
 // Most texels of a picture, over the frame's pixels.
 constexpr double kMostTexels = 4;
 
-// What work costs, in pixels of clouds that are drawn whole (measured: tests/bench/impostor_bench.cpp). Of a picture's
+// What work costs, in pixels of clouds that are drawn whole (measured on sky-of-100). Of a picture's
 // texel; of a pixel that a picture is shown at; of a frame made of pictures, per pixel of the frame.
 constexpr double kDrawTexel = 1.6, kShowPixel = 0.03, kFrameOfPictures = 0.03;
 // Below this share of saved work impostors are left off, a flight's and a frame's.
