@@ -30,7 +30,7 @@ struct ImpostorFrame {
 struct ImpostorReport {
     FlightImpostorWish wish;
     bool on = false;
-    std::string reason;
+    std::string reason = "no frame was drawn";
     // Clouds that stand apart; the share of the eye pass's work that was forecast to be saved.
     std::uint64_t clouds = 0;
     double saved = 0;

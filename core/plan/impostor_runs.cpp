@@ -27,7 +27,7 @@ constexpr double kMostTexels = 4;
 // texel; of a pixel that a picture is shown at; of a frame made of pictures, per pixel of the frame.
 constexpr double kDrawTexel = 1.6, kShowPixel = 0.03, kFrameOfPictures = 0.03;
 // Below this share of saved work impostors are left off, a flight's and a frame's.
-constexpr double kFlightPays = 0.15, kFramePays = 0.1;
+constexpr double kFlightPays = 0.2, kFramePays = 0.1;
 
 double pixel_slope(const View& view, const ImageSettings& image) {
     return 2 * view.tan_half_fov / image.height;
