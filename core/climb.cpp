@@ -73,6 +73,34 @@ Result<Climb> climb_to(int cells, const Scene& scene, const Planned& planned,
     return Climb{scene, planned, tools, deadline, *std::move(small), std::move(settings)};
 }
 
+// Of a grid's light without the coarser ones beside it, which only measuring looks at.
+std::string key_alone(const Climb& climb, int cells) {
+    const ParticleSet& particles = climb.planned.particles;
+    const TransportSettings settings =
+        settings_on_the_way(climb.settings, cells, climb.planned.survey);
+    return light_key(climb.scene, settings, particles.variant, particles.detail.get()) + ":alone";
+}
+
+// The light of a grid with so many cells, if it is kept, with or without coarser ones; else null.
+SharedLight kept_light(const Climb& climb, int cells) {
+    LightCache* const kept = climb.tools.lights;
+    if (kept == nullptr) return nullptr;
+    const std::string alone = key_alone(climb, cells);
+    if (SharedLight light = kept->find(alone.substr(0, alone.rfind(':')))) return light;
+    return kept->find(alone);
+}
+
+// Keeps a light that is too large to be kept together with the coarser ones.
+void keep_alone(const Climb& climb, int cells, const SharedLight& light) {
+    LightCache* const kept = climb.tools.lights;
+    if (kept == nullptr || light == nullptr || !light->coarser) return;
+    const std::size_t all = light->bytes(), most = kept->most_of_one();
+    if (all <= most || all - light->coarser->bytes() > most) return;
+    auto alone = std::make_shared<TransportLight>(*light);
+    alone->coarser = nullptr;
+    kept->keep(key_alone(climb, cells), std::move(alone));
+}
+
 // The light of these settings: kept from an earlier picture, or solved, going on from the one that was reached.
 Result<SharedLight> light_of_step(const Climb& climb, const TransportSettings& settings,
                                   const Deadline& deadline, Climbed& reached) {
@@ -334,7 +362,15 @@ Result<Climbed> climb(const Scene& scene, const Planned& planned, const ClimbToo
         return reached;
     }
     Pictures pictures;
-    if (by_name && planned.is_unmeasured) reached.stated = std::numeric_limits<double>::quiet_NaN();
+    if (by_name && planned.is_unmeasured) {
+        reached.stated = std::numeric_limits<double>::quiet_NaN();
+        // What is kept needs none of the grids on the way, which may not all have had room beside it.
+        if (SharedLight light = kept_light(*begun, most)) {
+            reached.light = std::move(light);
+            reached.rung = rung_with(most);
+            return reached;
+        }
+    }
     for (const int cells : nested_cells(most)) {
         if (Status failed = step(*begun, cells, deadline, reached)) return *failed;
         // Grids that are only on the way are too coarse to show.
@@ -343,6 +379,7 @@ Result<Climbed> climb(const Scene& scene, const Planned& planned, const ClimbToo
         if (Status failed = measure(*begun, cells, pictures, reached)) return *failed;
         if (holds(reached.stated, scene)) break;
     }
+    if (by_name && planned.is_unmeasured) keep_alone(*begun, most, reached.light);
     return reached;
 }
 

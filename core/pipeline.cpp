@@ -71,6 +71,19 @@ Status march_light(const Scene& scene, const Planned& planned, const TransportLi
         once = LightsOnce{sun_once(light), *std::move(of_sky)};
     }
     double draw_ms = 0;
+    if (planned.impostors != nullptr && !layers.any()) {
+        auto frame = timed(draw_ms, [&] {
+            return planned.impostors->draw(planned.flight_frame, scene, planned, light, settings,
+                                           tools.threads, deadline, &rendered.times.effects,
+                                           rendered.impostors);
+        });
+        if (!frame.ok()) return frame.error();
+        rendered.times.draw_ms += draw_ms;
+        if (*frame) {
+            rendered.image = **std::move(frame);
+            return std::nullopt;
+        }
+    }
     auto image = timed(draw_ms, [&] {
         return march(scene, planned.particles, planned.survey.view, light, settings, tools.threads,
                      deadline, &rendered.times.effects, layers.any() ? &beside : nullptr,

@@ -7,6 +7,7 @@
 #include "core/base/image.h"
 #include "core/base/progress.h"
 #include "core/draw/layers.h"
+#include "core/flight_impostors.h"
 #include "core/formats/image_file.h"
 #include "core/generate/detail.h"
 #include "core/gl/device.h"
@@ -30,6 +31,8 @@ struct Rendered {
     double stated_error = 0;
     // Those that the scene asks for (core/scene/layers.h).
     PictureLayers layers{};
+    // Of a flight's frame.
+    ImpostorFrame impostors{};
 };
 
 // What its file keeps of it.

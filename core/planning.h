@@ -21,6 +21,8 @@ struct StageTimes {
     EffectTimes effects;
 };
 
+class FlightImpostors;  // core/flight_impostors.h
+
 struct Planned {
     ParticleSet particles;
     Survey survey;
@@ -34,6 +36,9 @@ struct Planned {
     bool is_unmeasured = false;
     // The picture is looked at in passing: one ray a pixel, even where it is uneven, and no error is stated.
     bool is_preview = false;
+    // Of the flight that the picture is a frame of, and which. Null: it is drawn whole.
+    FlightImpostors* impostors = nullptr;
+    std::uint64_t flight_frame = 0;
 };
 
 // Plans a picture of the scene at its own time; a sequence that it may have is not looked at. detail: the figures from

@@ -265,6 +265,16 @@ Result<Settled> settle(const Scene& scene, Settling how, const ClimbTools& tools
     return settled;
 }
 
+std::vector<View> views_of_frames(const Settled& settled) {
+    std::vector<View> views;
+    for (std::uint64_t i = 0; i < settled.sequence.frames; ++i) {
+        const Camera camera =
+            moved_camera(settled.draft, settled.sequence, frame_time(settled.sequence, i));
+        views.push_back(resolve_view(camera, settled.draft.image, {}));
+    }
+    return views;
+}
+
 Frame frame_at(const Settled& settled, double time) {
     Frame frame{valid(still_of(settled.draft, settled.sequence, time)), settled.detail,
                 settled.samples, settled.views, settled.is_unmeasured};

@@ -69,6 +69,9 @@ enum class Settling { kForecast, kMeasured };
 Result<Settled> settle(const Scene& scene, Settling how, const ClimbTools& tools,
                        const Deadline& deadline);
 
+// Of every frame. Precondition: its camera has keys.
+std::vector<View> views_of_frames(const Settled& settled);
+
 // One picture of a sequence.
 struct Frame {
     Scene scene;

@@ -34,6 +34,8 @@ assert report["lights_made"] <= 1, "light is kept from frame to frame"
 assert report["fps"] > 0 and report["time_s"] > 0 and report["peak_memory_mib"] > 5, report
 assert set(report["stages_ms"]) == {"generate", "survey", "light", "draw", "measure", "encode"}, report
 assert report["stages_ms"]["draw"] > 0, report
+impostors = report["impostors"]
+assert impostors["mode"] == "auto" and impostors["pixels"] == 1 and not impostors["on"] and impostors["reason"], impostors
 assert abs(report["fps"] - 6000 / sum(one["ms"] for one in report["each"])) < 0.01, report
 END_PYTHON
 
@@ -66,6 +68,30 @@ run 0 fly keyed.json --frames 2 --report own.json
 contains "its own keys" '"path":"keys"' "$(cat own.json)"
 run 0 convert keyed.json again.json
 same "written back" "$(cat keyed.json)" "$(cat again.json)"
+
+# --- impostors: a slow way past clouds far apart shows kept pictures, each frame with every cloud
+cat >apart.json <<'END_SCENE'
+{"cubes":[{"particles":60,"size":[3,1,2],"center":[-3,0,0],"radius":0.6},
+ {"particles":60,"size":[3,1,2],"center":[6,-1,-30],"radius":0.6}],"image":{"width":48,"height":32}}
+END_SCENE
+cat >slow.json <<'END_KEYS'
+[{"time": 0, "eye": [0, 0, 40], "target": [0, 0, 0]}, {"time": 1, "eye": [0.4, 0, 40], "target": [0, 0, 0]}]
+END_KEYS
+run 0 fly apart.json --path slow.json --frames 4 --impostors on --impostor-pixels 2 --report kept.json -o "i%d.png"
+contains "as text" "Impostors            on:" "$(cat out)"
+run 0 fly apart.json --path slow.json --frames 4 --impostors off --report whole.json -o "w%d.png"
+cmp -s i2.png w2.png && fail "no kept picture is shown"
+python3 - <<'END_PYTHON' || fail "the report of impostors"
+import json
+kept, whole = (json.load(open(name + ".json"))["impostors"] for name in ("kept", "whole"))
+assert kept["on"] and kept["mode"] == "on" and kept["pixels"] == 2 and kept["clouds"] == 2, kept
+assert kept["drawn"] == 2 and kept["redrawn"] == 0 and kept["frames"] == 4 and kept["kept"] == 6, kept
+assert kept["whole"] == 0 and 0 < kept["pictures_share"] < 1 and 0 < kept["eye_share"] < 1, kept
+assert not whole["on"] and whole["kept"] == whole["drawn"] == 0, whole
+assert [one["impostors"]["drawn"] for one in json.load(open("kept.json"))["each"]] == [2, 0, 0, 0]
+END_PYTHON
+run 2 fly apart.json --impostor-pixels 0 -o x.webp
+run 2 fly apart.json --impostors often -o x.webp
 
 # --- what cannot be
 sed 's/"time": 2/"time": 0/' keys.json >bad.json

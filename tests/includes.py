@@ -27,7 +27,7 @@ ORDER = [
     ["core/planning"],
     ["core/climb"],
     ["core/sequence"],
-    ["core/flight_path", "core/impostor", "core/lit_particles"],
+    ["core/flight_impostors", "core/flight_path", "core/impostor", "core/lit_particles"],
     ["core/pipeline"],
     ["core/accuracy"],
     ["server/document"],

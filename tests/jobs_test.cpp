@@ -216,7 +216,7 @@ TEST_F(JobsTest, FlightsAreAnimationsAndReports) {
     EXPECT_EQ(film.header("Content-Type"), "image/webp");
     EXPECT_TRUE(film.bytes().starts_with("RIFF"));
     EXPECT_EQ(renderer.begun(), 3);
-    const json told = submit(fly(R"("format":"json","frames":2,)"));
+    const json told = submit(fly(R"("format":"json","frames":2,"impostors":"on","impostor_pixels":2.5,)"));
     ASSERT_TRUE(reaches(told, "done")) << state_of(told);
     const Response answer = get(told["result"]);
     EXPECT_EQ(answer.header("Content-Type"), "application/json");
@@ -237,6 +237,8 @@ TEST_F(JobsTest, FlightsAreAnimationsAndReports) {
     expect_problem(post("/v1/jobs", fly(R"("path":"keys",)")), 422, "/scene/sequence/camera");
     expect_problem(post("/v1/jobs", fly(R"("mode":"solid",)")), 422, "/mode");
     expect_problem(post("/v1/jobs", fly(R"("rung":"best",)")), 422, "/rung");
+    expect_problem(post("/v1/jobs", fly(R"("impostors":"often",)")), 422, "/impostors");
+    expect_problem(post("/v1/jobs", fly(R"("impostor_pixels":0,)")), 422, "/impostor_pixels");
     expect_problem(post("/v1/jobs", fly(R"("format":"png",)")), 422, "/format");
     for (const char* const frames : {"0", "10001", "-1", "1.5", "\"3\"", "[3]", "true"})
         expect_problem(post("/v1/jobs", fly(R"("frames":)" + std::string(frames) + ",")), 422,

@@ -94,7 +94,7 @@ std::vector<NarrowParticle> narrow_of(const std::vector<std::vector<Own>>& parts
 }  // namespace
 
 std::vector<SeenParticle> see_particles(const ParticleSet& particles, const View& view, int width,
-                                        int height, int threads) {
+                                        int height, int threads, double share_of_work) {
     const std::size_t shares = (particles.size() + kShare - 1) / kShare;
     std::vector<std::vector<Own>> parts(shares);
     parallel_for(threads, shares, [&](std::size_t share) {
@@ -105,7 +105,7 @@ std::vector<SeenParticle> see_particles(const ParticleSet& particles, const View
         }
     });
     const std::vector<std::uint8_t> levels =
-        affordable_levels(narrow_of(parts), view, width, height);
+        affordable_levels(narrow_of(parts), view, width, height, share_of_work);
     std::vector<SeenParticle> all;
     std::size_t narrow = 0;
     for (auto& part : parts) {

@@ -34,9 +34,9 @@ struct SeenParticle {
 // of lines through it falls below 3e-5, but at no less than 3.8 s and no more than 9 s, and scaled so that its mass
 // stays whole. Where rays a pixel apart would miss matter of one that is narrower than that, they are to stand closer
 // (`level`), as far as a picture's work allows (march_levels.h), and for what is narrower still it is widened, the area
-// that it covers kept.
+// that it covers kept. share_of_work: of what a picture may take for that, for one that is a part of another.
 std::vector<SeenParticle> see_particles(const ParticleSet& particles, const View& view, int width,
-                                        int height, int threads);
+                                        int height, int threads, double share_of_work = 1);
 
 // Calls work(block x, block y, indices into `seen`) for every block of pixels, in no order, on several threads. Lists
 // are made for a few rows of blocks at a time: they hold at most 2^23 entries, or those of one row.

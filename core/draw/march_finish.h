@@ -118,6 +118,7 @@ AWAN_INLINE void finish_in_air(const MarchScene& scene, const AirTile& air, cons
             1.0f - simd::min(tile.seen_air / simd::max(opaque, simd::all(1e-30f)), simd::all(1.0f));
         through = through_peak(scene.scaled, tile.depth) * dimmed;
     }
+    if (scene.alone) whole_air = lost = simd::Floats{};
     const simd::Floats haze = tile.seen_air + clear * whole_air;
     const simd::Floats lit = rest_of_phase(scene.air->phase, chords) *
                              simd::max(haze - tile.seen_lost - clear * lost, simd::Floats{});
@@ -131,7 +132,10 @@ AWAN_INLINE void finish_in_air(const MarchScene& scene, const AirTile& air, cons
                       passes * radiance_behind(sky, behind, c, zenith) +
                       light_of_peak(behind, through, often, c);
     channels[3] = simd::all(1.0f);
-    if (!sky.behind) channels[3] -= clear * whole_clear;
+    if (scene.alone)
+        channels[3] = opaque;
+    else if (!sky.behind)
+        channels[3] -= clear * whole_clear;
     to_pixels(channels, to);
 }
 

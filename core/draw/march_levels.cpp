@@ -97,7 +97,7 @@ std::uint8_t level_for(double s, double width) {
 }
 
 std::vector<std::uint8_t> affordable_levels(const std::vector<NarrowParticle>& narrow,
-                                            const View& view, int width, int height) {
+                                            const View& view, int width, int height, double share) {
     std::vector<std::uint8_t> levels(narrow.size());
     if (narrow.empty()) return levels;
     const int across = (width + kBlockSide - 1) / kBlockSide;
@@ -128,8 +128,8 @@ std::vector<std::uint8_t> affordable_levels(const std::vector<NarrowParticle>& n
     }
     for (Group& group : all)
         if (group.any)
-            group.limit = limit_of(
-                group, std::min(kMostOfGroup, kMostTiles / count) + kTilesOfBlock * group.blocks);
+            group.limit = limit_of(group, std::min(kMostOfGroup, kMostTiles * share / count) +
+                                              kTilesOfBlock * group.blocks);
     for (std::size_t i = 0; i < narrow.size(); ++i)
         levels[i] = std::min(narrow[i].level, all[groups.of(narrow[i].blocks)].limit);
     return levels;

@@ -27,8 +27,9 @@ struct NarrowParticle {
 };
 
 // The level that each gets. Particles whose blocks touch get levels up to one limit: the highest for which they have no
-// more than a bounded number of tiles of rays, about what a picture of 800 x 600 pixels has without.
+// more than a bounded number of tiles of rays, `share` times about what a picture of 800 x 600 pixels has without.
 std::vector<std::uint8_t> affordable_levels(const std::vector<NarrowParticle>& narrow,
-                                            const View& view, int width, int height);
+                                            const View& view, int width, int height,
+                                            double share = 1);
 
 }  // namespace awan

@@ -153,14 +153,18 @@ std::vector<Rgb4> on_fine_cells(const TransportLight& light, const std::vector<R
 
 }  // namespace
 
-EyeLight source_towards(const TransportLight& light, const glm::dvec3& eye, int threads) {
+EyeLight source_towards(const TransportLight& light, const glm::dvec3& eye, int threads,
+                        std::span<const std::uint8_t> islands) {
     EyeLight result{&light, {}, false, {}};
     result.islands.resize(light.islands.size());
     parallel_for(threads, light.islands.size(), [&](std::size_t i) {
-        if (light.islands[i].lit)
+        if (light.islands[i].lit && (islands.empty() || islands[i] != 0))
             result.islands[i] = source_towards(light.islands[i].light, eye, 1);
     });
     if (!light.has_grid() || light.bands.empty()) return result;
+    // Of some islands little is in the light of the whole: that is found ray by ray.
+    result.close = !islands.empty();
+    if (result.close) return result;
     const glm::dvec3 place = (eye - light.origin) / light.cell;
     const glm::dvec3 beyond =
         glm::max(glm::max(-place, place - glm::dvec3(light.cells)), glm::dvec3(0));

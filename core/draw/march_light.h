@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "core/light/transport.h"
@@ -23,7 +25,9 @@ struct EyeLight {
     // One for each of light->islands; its `light` is null where the island is not lit.
     std::vector<EyeLight> islands;
 };
-EyeLight source_towards(const TransportLight& light, const glm::dvec3& eye, int threads);
+// islands: whether each of light.islands is wanted; those that are not are left with `light` null. EMPTY: all are.
+EyeLight source_towards(const TransportLight& light, const glm::dvec3& eye, int threads,
+                        std::span<const std::uint8_t> islands = {});
 
 // A ray in the lattices' own units: at distance t from `start` it is at grid + t grid_step in the light grid, and at
 // sun + t sun_step in the lattice of the sun's depth.

@@ -62,6 +62,8 @@ struct MarchScene {
     const Air* air = nullptr;             // null: there is no haze
     // Instead of light, finds how far away rays end: red is the mean distance to where their light stops, times alpha.
     bool measures = false;
+    // In haze: what the haze sends from behind the matter is left out, so that pixels are of the matter alone.
+    bool alone = false;
     bool one_ray = false;  // a pixel, even where it is uneven
     bool cut = false;  // whether rays end at backdrop->distance: there is matter below the ground
 };

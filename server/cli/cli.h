@@ -70,6 +70,9 @@ struct FlyCommand {
     std::optional<int> width, height;
     double frames_per_second = 12;
     std::optional<std::string> rung;
+    // A word of kImpostorsWords.
+    std::string impostors = "auto";
+    double impostor_pixels = 1;
     // Until when it flies; 0: to its end.
     double timeout_seconds = 0;
     // A .json or a .txt, or "".

@@ -137,6 +137,13 @@ Run add_fly(CLI::App& app) {
         "a rung of accuracy by name, instead of transport-16, which is made for flights: its light "
         "is kept from frame to frame")
         ->check(CLI::IsMember(rung_names()));
+    add(*fly, "--impostors", command->impostors,
+        "a cloud's picture, kept while its bound holds and shown in its place: auto (where that "
+        "pays), on or off")
+        ->check(CLI::IsMember({"auto", "on", "off"}));
+    add(*fly, "--impostor-pixels", command->impostor_pixels,
+        "that bound: by how many pixels at most a kept picture may show matter beside its place")
+        ->check(CLI::Range(kLeastImpostorPixels, kMostImpostorPixels));
     add(*fly, "--timeout", command->timeout_seconds,
         "seconds after which it stops with what is done; 0: at its end")
         ->check(CLI::Range(0.0, 1e6));

@@ -190,11 +190,14 @@ int run_fly(const FlyCommand& command) {
 
     FlightReport report = begin_report(command, *scene, own_keys);
     work.flown = [&](const FlownFrame& frame) { report.frames.push_back(frame); };
+    work.impostor_wish = {word_at<Impostors>(command.impostors, kImpostorsWords),
+                          command.impostor_pixels};
     const auto all = parse_frames("all", frames);
     const auto made = render_frames(*scene, *all, work);
     work.progress.clear();
     const bool none_in_time = !made && made.error().code == ErrorCode::kOverDeadline;
     if (!made && !none_in_time) return report_error(name, made.error());
+    if (work.impostors) report.impostors = work.impostors->report();
     report.timed_out = none_in_time || made->timed_out;
     report.settle_seconds = made ? made->settle_ms / 1000 : 0;
     report.seconds = ms_since(start) / 1000;

@@ -29,8 +29,8 @@ Result<std::string> encode(const Rendered& rendered, const Scene& scene, const s
     return encode_png(rendered.image, film_of(scene), bits);
 }
 
-Result<Rendered> render_of(const Settled& settled, double time, Work& work, Scene& scene,
-                           std::size_t& in_view) {
+Result<Rendered> render_of(const Settled& settled, std::uint64_t number, double time, Work& work,
+                           Scene& scene, std::size_t& in_view) {
     Frame frame = frame_at(settled, time);
     auto planned = with_detail_made(
         frame.scene, plan_frame(frame, work.command.threads, work.deadline, work.speed),
@@ -39,6 +39,10 @@ Result<Rendered> render_of(const Settled& settled, double time, Work& work, Scen
     if (planned && work.command.preview) planned = as_preview(scene, *std::move(planned));
     if (planned && work.flown)
         in_view = particles_in_view(planned->particles, planned->survey.view);
+    if (planned && work.impostors) {
+        planned->impostors = &*work.impostors;
+        planned->flight_frame = number;
+    }
     return render_picture(scene, std::move(planned), work);
 }
 
@@ -116,7 +120,7 @@ Status make_frame(const Settled& settled, const Sequence& sequence, std::uint64_
     const double time = frame_time(sequence, frame);
     Scene still = frame_at(settled, time).scene;
     std::size_t in_view = 0;
-    auto rendered = render_of(settled, time, work, still, in_view);
+    auto rendered = render_of(settled, frame, time, work, still, in_view);
     if (!rendered) return rendered.error();
     PictureResult result{work.command.scene.path, files_of_frame(work.targets, &frame), frame,
                          false, 0};
@@ -226,6 +230,7 @@ Result<FramesMade> render_frames(const Scene& scene, std::vector<std::uint64_t> 
     if (!settled) return settled.error();
     // A flight's report says how fast it was.
     settled->is_unmeasured = work.flown != nullptr;
+    if (work.flown) work.impostors.emplace(work.impostor_wish, scene, *settled);
     made.settle_ms = ms_since(start);
     for (const std::uint64_t frame : frames) {
         work.prefix = "frame " + std::to_string(made.count + 1) + " of " +

@@ -36,6 +36,9 @@ struct Work {
     Deadline deadline;
     // Told of every frame once its files are written; null: nobody counts.
     std::function<void(FlownFrame)> flown;
+    // Of a flight.
+    FlightImpostorWish impostor_wish;
+    std::optional<FlightImpostors> impostors;
     // Put before what is said, e.g. "frame 3 of 12, ".
     std::string prefix;
 };

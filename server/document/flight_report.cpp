@@ -51,6 +51,53 @@ double mebibytes(std::uint64_t bytes) {
     return std::round(static_cast<double>(bytes) / (1 << 20) * 10) / 10;
 }
 
+// Over all frames.
+struct ImpostorSums {
+    std::uint64_t frames = 0, kept = 0, drawn = 0, redrawn = 0, whole = 0;
+    double pictures_ms = 0, frame_ms = 0, all_ms = 0;
+};
+
+ImpostorSums sums_of(const FlightReport& report) {
+    ImpostorSums sums;
+    for (const FlownFrame& frame : report.frames) {
+        const ImpostorFrame& own = frame.impostors;
+        sums.frames += own.kept + own.drawn > 0 ? 1 : 0;
+        sums.kept += own.kept;
+        sums.drawn += own.drawn;
+        sums.redrawn += own.redrawn;
+        sums.whole += own.whole;
+        sums.pictures_ms += own.pictures_ms;
+        sums.frame_ms += own.frame_ms;
+        sums.all_ms += frame.ms;
+    }
+    return sums;
+}
+
+double share(double part, double whole) {
+    return whole > 0 ? part / whole : 0;
+}
+
+void append_impostors(const FlightReport& report, std::string& out) {
+    const ImpostorReport& how = report.impostors;
+    const ImpostorSums sums = sums_of(report);
+    name("impostors", out);
+    out += '{';
+    member("mode", std::string_view(kImpostorsWords[static_cast<int>(how.wish.mode)]), out);
+    member("pixels", how.wish.pixels, out);
+    member("on", how.on, out);
+    member("reason", std::string_view(how.reason), out);
+    member("clouds", how.clouds, out);
+    member("saved_forecast", thousandths(how.saved), out);
+    member("frames", sums.frames, out);
+    member("kept", sums.kept, out);
+    member("drawn", sums.drawn, out);
+    member("redrawn", sums.redrawn, out);
+    member("whole", sums.whole, out);
+    member("pictures_share", thousandths(share(sums.pictures_ms, sums.all_ms)), out);
+    member("eye_share", thousandths(share(sums.frame_ms, sums.all_ms)), out);
+    out += '}';
+}
+
 void append_frame(const FlownFrame& frame, std::string& out) {
     out += '{';
     member("frame", frame.frame, out);
@@ -60,6 +107,13 @@ void append_frame(const FlownFrame& frame, std::string& out) {
     member("billboards", static_cast<std::uint64_t>(frame.billboards), out);
     member("ms", thousandths(frame.ms), out);
     member("light_was_kept", frame.light_was_kept, out);
+    name("impostors", out);
+    out += '{';
+    member("kept", static_cast<std::uint64_t>(frame.impostors.kept), out);
+    member("drawn", static_cast<std::uint64_t>(frame.impostors.drawn), out);
+    member("redrawn", static_cast<std::uint64_t>(frame.impostors.redrawn), out);
+    member("whole", static_cast<std::uint64_t>(frame.impostors.whole), out);
+    out += '}';
     name("stages_ms", out);
     out += '{';
     for (const Stage& stage : kStages) member(stage.name, thousandths(stage.ms(frame)), out);
@@ -78,6 +132,27 @@ std::string number(const char* format, double value) {
     std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), format, value);
     return text.data();
+}
+
+void append_impostor_lines(const FlightReport& report, std::string& out) {
+    const ImpostorReport& how = report.impostors;
+    append_line("Impostors", (how.on ? "on: " : "off: ") + how.reason, out);
+    if (!how.on) return;
+    const ImpostorSums sums = sums_of(report);
+    append_line("  bound", number("%g pixels", how.wish.pixels), out);
+    append_line("  clouds", std::to_string(how.clouds) + " that stand apart", out);
+    append_line("  frames", std::to_string(sums.frames), out);
+    append_line("  kept", std::to_string(sums.kept), out);
+    append_line("  drawn",
+                std::to_string(sums.drawn) + ", " + std::to_string(sums.redrawn) +
+                    " of them again, as the bound was crossed",
+                out);
+    append_line("  drawn whole", std::to_string(sums.whole), out);
+    append_line(
+        "  time",
+        number("%.1f%% of the frames' for pictures, ", 100 * share(sums.pictures_ms, sums.all_ms)) +
+            number("%.1f%% for the rest of the eye pass", 100 * share(sums.frame_ms, sums.all_ms)),
+        out);
 }
 
 }  // namespace
@@ -100,6 +175,7 @@ FlownFrame flown_frame(std::uint64_t frame, double time, std::size_t particles, 
     flown.billboards = splats ? in_view : 0;
     flown.times = rendered.times;
     flown.light_was_kept = rendered.light_was_kept;
+    flown.impostors = rendered.impostors;
     return flown;
 }
 
@@ -144,6 +220,7 @@ std::string flight_to_json(const FlightReport& report) {
     out += '{';
     for (const Stage& stage : kStages) mean(stage.name, stage.ms);
     out += '}';
+    append_impostors(report, out);
     member("peak_memory_mib", mebibytes(peak_memory()), out);
     name("each", out);
     out += '[';
@@ -180,6 +257,7 @@ std::string flight_to_text(const FlightReport& report) {
     for (const Stage& stage : kStages)
         append_line((std::string("  ") + stage.name).c_str(),
                     number("%.3f ms a frame", mean_of_frames(report, stage.ms)), out);
+    append_impostor_lines(report, out);
     append_line("Peak memory", number("%.1f MiB", mebibytes(peak_memory())), out);
     return out;
 }

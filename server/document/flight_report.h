@@ -22,6 +22,7 @@ struct FlownFrame {
     StageTimes times;
     double encode_ms = 0;
     bool light_was_kept = false;
+    ImpostorFrame impostors;
 };
 // particles, in_view: counted before its picture was drawn. Without encode_ms and ms.
 FlownFrame flown_frame(std::uint64_t frame, double time, std::size_t particles, std::size_t in_view,
@@ -42,6 +43,7 @@ struct FlightReport {
     // From the beginning to the last frame; of that, what was settled before the first.
     double seconds = 0, settle_seconds = 0;
     std::vector<FlownFrame> frames;
+    ImpostorReport impostors;
 
     // Frames over the time that they took, without what was settled before.
     double frames_per_second() const;
@@ -51,8 +53,13 @@ struct FlightReport {
 std::uint64_t peak_memory();
 
 // {"awan","scenes","path","mode","width","height","threads","rung","renderer","frames","frames_asked","timed_out",
-// "time_s","settle_s","fps","particles","in_view","billboards","lights_made","stages_ms":{...},"peak_memory_mib",
-// "each":[{"frame","time","particles","in_view","billboards","ms","light_was_kept","stages_ms":{...}}]}.
+// "time_s","settle_s","fps","particles","in_view","billboards","lights_made","stages_ms":{...},
+// "impostors":{"mode","pixels","on","reason","clouds","saved_forecast","frames","kept","drawn","redrawn","whole",
+// "pictures_share","eye_share"},"peak_memory_mib","each":[{"frame","time","particles","in_view","billboards","ms",
+// "light_was_kept","impostors":{"kept","drawn","redrawn","whole"},"stages_ms":{...}}]}. Of impostors: clouds that stand
+// apart, frames that were made of pictures, and in these the clouds shown by a picture of an earlier frame, pictures
+// drawn, those of them that took the place of one whose bound was crossed, clouds drawn as they are; shares of all
+// frames' time that went into drawing pictures, and into the rest of the eye pass of these frames.
 // particles, in_view, billboards and stages_ms: of the mean frame; null where no frame was flown.
 std::string flight_to_json(const FlightReport& report);
 

@@ -51,17 +51,19 @@ class JobScanner {
     }
 
     static Status member(std::string_view name, std::string_view value, JobText& job) {
-        std::string_view* const to = name == "kind"      ? &job.kind
-                                     : name == "scene"   ? &job.scene
-                                     : name == "format"  ? &job.format
-                                     : name == "path"    ? &job.path
-                                     : name == "mode"    ? &job.mode
-                                     : name == "frames"  ? &job.frames
-                                     : name == "rung"    ? &job.rung
-                                     : name == "views"   ? &job.views
-                                     : name == "size"    ? &job.size
-                                     : name == "mapping" ? &job.mapping
-                                                         : nullptr;
+        std::string_view* const to = name == "kind"              ? &job.kind
+                                     : name == "scene"           ? &job.scene
+                                     : name == "format"          ? &job.format
+                                     : name == "path"            ? &job.path
+                                     : name == "mode"            ? &job.mode
+                                     : name == "frames"          ? &job.frames
+                                     : name == "rung"            ? &job.rung
+                                     : name == "impostors"       ? &job.impostors
+                                     : name == "impostor_pixels" ? &job.impostor_pixels
+                                     : name == "views"           ? &job.views
+                                     : name == "size"            ? &job.size
+                                     : name == "mapping"         ? &job.mapping
+                                                                 : nullptr;
         if (to == nullptr) {
             // As everywhere in a document: such names are the client's own.
             if (name.starts_with('_') || name == "name" || name == "description" ||
@@ -69,15 +71,17 @@ class JobScanner {
                 return std::nullopt;
             return invalid(
                 "",
-                "a job has kind, scene and format, one of kind fly also path, mode, "
-                "frames and rung, one of kind impostor views, size and mapping, and no other "
+                "a job has kind, scene and format, one of kind fly also path, mode, frames, rung, "
+                "impostors and impostor_pixels, one of kind impostor views, size and mapping, and "
+                "no other "
                 "member");
         }
         const std::string pointer = "/" + std::string(name);
         if (!to->empty()) return invalid(pointer, "stands twice");
         if (to == &job.scene) {
             if (!value.starts_with('{')) return invalid(pointer, "must be an object");
-        } else if (to != &job.frames && to != &job.views && to != &job.size) {
+        } else if (to != &job.frames && to != &job.impostor_pixels && to != &job.views &&
+                   to != &job.size) {
             if (!value.starts_with('"')) return invalid(pointer, "must be a string");
             value = value.substr(1, value.size() - 2);
             if (value.empty()) return invalid(pointer, "must not be empty");

@@ -9,7 +9,7 @@
 namespace awan {
 
 // {"kind": "render" | "accuracy" | "sequence" | "fly", "scene": {...}, "format": "..."}, and of a flight "path",
-// "mode", "frames" and "rung". Views of the text they were read from.
+// "mode", "frames", "rung", "impostors" and "impostor_pixels". Views of the text they were read from.
 struct JobText {
     std::string_view kind;
     // The scene's document, as it stands; "/scene" is before every pointer in it.
@@ -17,7 +17,7 @@ struct JobText {
     // A word; "" where there is none.
     std::string_view format;
     // Of a flight, as they stand: words without their quotes, a number; "" where there is none.
-    std::string_view path, mode, frames, rung;
+    std::string_view path, mode, frames, rung, impostors, impostor_pixels;
     // Of an impostor, likewise.
     std::string_view views, size, mapping;
 };

@@ -71,7 +71,9 @@ Result<std::size_t> word_at(std::string_view word, std::span<const char* const> 
 Result<FlightWish> flight_wish(const JobText& text) {
     FlightWish wish;
     const std::pair<const char*, std::string_view> given[] = {
-        {"/path", text.path}, {"/mode", text.mode}, {"/frames", text.frames}, {"/rung", text.rung}};
+        {"/path", text.path},           {"/mode", text.mode},
+        {"/frames", text.frames},       {"/rung", text.rung},
+        {"/impostors", text.impostors}, {"/impostor_pixels", text.impostor_pixels}};
     for (const auto& [pointer, value] : given)
         if (!value.empty() && text.kind != "fly")
             return wrong(pointer, "belongs to a job of kind \"fly\"");
@@ -97,6 +99,22 @@ Result<FlightWish> flight_wish(const JobText& text) {
         if (const auto known = word_at(text.rung, rungs, "/rung"); !known) return known.error();
         wish.rung = text.rung;
     }
+    return wish;
+}
+
+// Likewise.
+Result<FlightImpostorWish> flight_impostors(const JobText& text) {
+    FlightImpostorWish wish;
+    if (!text.impostors.empty()) {
+        const auto mode = word_at(text.impostors, kImpostorsWords, "/impostors");
+        if (!mode) return mode.error();
+        wish.mode = static_cast<Impostors>(*mode);
+    }
+    if (text.impostor_pixels.empty()) return wish;
+    const auto pixels = read_number<double>(text.impostor_pixels);
+    if (!pixels || !(*pixels >= kLeastImpostorPixels && *pixels <= kMostImpostorPixels))
+        return wrong("/impostor_pixels", "must be a number from 0.05 to 64 (pixels)");
+    wish.pixels = *pixels;
     return wish;
 }
 
@@ -152,9 +170,12 @@ Result<JobWork> work_of(const JobText& text, const Request& request) {
     }
     auto flight = flight_wish(text);
     if (!flight) return flight.error();
+    const auto flown = flight_impostors(text);
+    if (!flown) return flown.error();
     const auto impostor = impostor_wish(text);
     if (!impostor) return impostor.error();
     JobWork work;
+    work.flight_impostors = *flown;
     work.impostor = *impostor;
     work.flight = *std::move(flight);
     work.id = request_id_from("");

@@ -16,6 +16,7 @@
 
 #include "core/flight_path.h"
 #include "core/impostor.h"
+#include "core/plan/impostor_runs.h"
 #include "server/service/service.h"
 
 namespace awan {
@@ -34,6 +35,7 @@ struct JobWork {
     std::string idempotency_key, digest;
     // Of a flight.
     FlightWish flight{};
+    FlightImpostorWish flight_impostors{};
     ImpostorWish impostor{};
 };
 

@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/flight_impostors.h"
 #include "core/flight_path.h"
 #include "core/formats/animation.h"
 #include "core/formats/image_file.h"
@@ -150,21 +151,24 @@ Status grow_lease(WorkBudget::Lease& lease, std::size_t bytes, const Deadline& d
     return std::nullopt;
 }
 
-// One frame, drawn; or what is to be said instead. in_view: its particles in the picture. pass: in a lane after it, in
-// which it is encoded.
-Drawn frame_of(Service::State& state, const Request& request, const Settled& settled, double time,
-               Scene& scene, std::size_t& in_view, Lanes::Pass& pass) {
+// One frame, drawn; or what is to be said instead. impostors: of a flight, else null. in_view: its particles in the
+// picture. pass: in a lane after it, in which it is encoded.
+Drawn frame_of(Service::State& state, const Request& request, const Settled& settled,
+               std::uint64_t number, FlightImpostors* impostors, Scene& scene, std::size_t& in_view,
+               Lanes::Pass& pass) {
     const LaneWork work{Weight::kLong, 2 * kShort_ms, request.client};
     if (auto refused =
             not_let_in(pass.enter(work, request.deadline), state.lanes, Weight::kLong, request))
         return {std::move(refused), Error{}};
-    Frame frame = frame_at(settled, time);
+    Frame frame = frame_at(settled, frame_time(settled.sequence, number));
     auto planned = with_detail_made(
         frame.scene,
         plan_frame(frame, threads_of_one(state), request.deadline, state.options.speed),
         threads_of_one(state), &state.tiles);
     if (!planned) return {std::nullopt, planned.error()};
     in_view = particles_in_view(planned->particles, planned->survey.view);
+    planned->impostors = impostors;
+    planned->flight_frame = number;
     scene = std::move(frame.scene);
     Request inner = request;
     // A frame's own progress is not that of the whole.
@@ -223,6 +227,13 @@ Response answer_sequence(Service::State& state, const Request& request, const Jo
     report.settle_seconds = ms_since(start) / 1000;
     const Sequence& sequence = *(*scene)->sequence;
     report.frames_asked = sequence.frames;
+    std::optional<FlightImpostors> impostors;
+    if (flies) {
+        impostors.emplace(work.flight_impostors, *scene, *settled);
+        if (work.flight_impostors.mode != Impostors::kOff)
+            if (const Status over = grow_lease(lease, impostor_bytes(*scene), request.deadline))
+                return fail(*over, request);
+    }
     auto reel = Reel::begin(work.format, *scene);
     if (!reel) return fail(reel.error(), request);
     for (std::uint64_t i = 0; i < sequence.frames;) {
@@ -231,7 +242,8 @@ Response answer_sequence(Service::State& state, const Request& request, const Jo
         std::size_t in_view = 0;
         const double time = frame_time(sequence, i);
         Lanes::Pass pass(state.lanes);
-        Drawn drawn = frame_of(state, request, *settled, time, still, in_view, pass);
+        Drawn drawn = frame_of(state, request, *settled, i, impostors ? &*impostors : nullptr,
+                               still, in_view, pass);
         // The lines are full at the moment. What has been drawn is not lost for that.
         if (drawn.refused && drawn.refused->status == 429 && !request.deadline.over()) {
             pass.leave();
@@ -269,6 +281,7 @@ Response answer_sequence(Service::State& state, const Request& request, const Jo
             request.progress(static_cast<double>(i) / static_cast<double>(sequence.frames));
     }
     report.seconds = ms_since(start) / 1000;
+    if (impostors) report.impostors = impostors->report();
     auto bytes = reel->end(*scene, flies ? &report : nullptr, request.deadline);
     if (!bytes) return fail(bytes.error(), request);
     Response response;
