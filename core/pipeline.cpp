@@ -38,7 +38,7 @@ Status render_splats(const Scene& scene, const Planned& planned, const Tools& to
     rendered.times.effects.add(lighting->took);
     auto image = timed(rendered.times.draw_ms, [&] {
         return draw(scene, planned.particles, planned.survey.view, planned.plan, *lighting,
-                    *tools.device, deadline, &rendered.times.effects);
+                    *tools.device, deadline, &rendered.times.effects, tools.threads);
     });
     if (!image.ok()) return image.error();
     rendered.image = *std::move(image);

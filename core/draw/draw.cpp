@@ -1,13 +1,17 @@
 #include "core/draw/draw.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <numbers>
+#include <optional>
 
 #include "core/draw/air_image.h"
 #include "core/draw/backdrop.h"
 #include "core/draw/billboards.h"
+#include "core/draw/splat_detail.h"
 #include "core/draw/splat_parts.h"
 #include "core/gl/programs.h"
 #include "core/light/sun_depth.h"
@@ -30,6 +34,7 @@ struct Drawing {
     const Deadline& deadline;
     bool sky;                          // the program draws the sky behind
     const gl::TextureArray* textures;  // null: nothing is painted
+    const SplatDetail* detail;         // null: there is none
 };
 
 void set_uniforms(const Drawing& drawing, const SplatWindow& window) {
@@ -60,6 +65,18 @@ void set_uniforms(const Drawing& drawing, const SplatWindow& window) {
                 static_cast<float>(fit.alpha), static_cast<float>(fit.share));
     glUniform1i(9, drawing.splats.sorted ? 1 : 0);
     glUniform1i(10, drawing.sky ? 1 : 0);
+}
+
+void set_detail(const SplatDetail& detail, const SplatWindow& window) {
+    const auto set = [](GLint location, const glm::mat4x3& matrix) {
+        glUniformMatrix4x3fv(location, 1, GL_FALSE, &matrix[0][0]);
+    };
+    set(14, detail.to_extinction);
+    set(18, detail.to_bumps);
+    glUniform3f(22, detail.keep, kSoftness, detail.bump / static_cast<float>(window.gap()));
+    glUniform1f(23, static_cast<float>(std::sqrt(2 * std::numbers::pi)) * detail.edge);
+    detail.extinction.bind(3);
+    detail.bumps.bind(4);
 }
 
 // Takes a region's pixels from GL. `spare` is room for those regions that do not fit the picture's rows.
@@ -143,6 +160,11 @@ Result<Image> draw_splats(const Drawing& drawing, const SplatWindow& window,
         const auto painted = programs.painted(half_lines);
         if (!painted.ok()) return painted.error();
         (*painted)->use();
+    } else if (drawing.detail != nullptr) {
+        const auto detailed = programs.detailed(half_lines);
+        if (!detailed.ok()) return detailed.error();
+        (*detailed)->use();
+        set_detail(*drawing.detail, window);
     } else {
         (half_lines ? programs.splat_interior : programs.splat).use();
     }
@@ -201,7 +223,7 @@ void put_behind(const Scene& scene, const View& view, const GroundLight& ground,
 
 Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View& view,
                    const Plan& plan, const Lighting& lighting, Device& device,
-                   const Deadline& deadline, EffectTimes* times) {
+                   const Deadline& deadline, EffectTimes* times, int threads) {
     EffectTimes took;
     const std::optional<Air> air = air_of(scene, particles, view, plan, took);
     const Air* const haze = air ? &*air : nullptr;
@@ -216,13 +238,18 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
         if (!uploaded.ok()) return uploaded.error();
         textures.emplace(*std::move(uploaded));
     }
+    std::optional<SplatDetail> detail;
+    if (!textures && particles.detail && plan.on(Effect::kDetail) && particles.size() > 0)
+        detail.emplace(timed_for(took, Effect::kDetail,
+                                 [&] { return splat_detail(particles, view, threads); }));
     const Drawing drawing{scene,
                           plan,
                           splats,
                           device,
                           deadline,
                           opaque && !backdrop && haze == nullptr,
-                          textures ? &*textures : nullptr};
+                          textures ? &*textures : nullptr,
+                          detail ? &*detail : nullptr};
     auto drawn = draw_window(drawing, whole_picture(view, scene->image),
                              drawing_order(scene, particles, view, plan),
                              splat_budget(scene->image, particles.size()));
