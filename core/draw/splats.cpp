@@ -187,8 +187,8 @@ glm::dvec4 over(glm::vec4 light, const Seen& seen) {
 // Bounds of what lines laid through particles may lead to: fluence about the sun, over its own.
 constexpr double kMostForward = 30;
 
-// The phase function for light that was scattered forward before, from the particle to the eye: 1 in the mean. Each time
-// it is scattered, the mean cosine is g times as much (Henyey & Greenstein); it is taken to have been thrice.
+// The phase function for light that was scattered forward before, from the particle to the eye: 1 in the mean. Each
+// time it is scattered, the mean cosine is g times as much (Henyey & Greenstein); it is taken to have been thrice.
 double scattered_phase(const Seen& seen, const View& view, const LightSources& sources) {
     if (!(seen.distance > 0)) return 1;
     const glm::dvec3 way =

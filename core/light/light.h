@@ -19,11 +19,11 @@ struct ParticleLight {
     glm::vec4 direct;  // of the sun, not scattered on the way
     // Of the sun, scattered forward on the way: it arrives from about the sun, and is scattered on in all directions.
     glm::vec4 scattered;
-    // Of the sun, scattered out of that way, and about within the cloud since: from all sides. In bright matter there is
-    // more of it than of what arrives, up to four times.
+    // Of the sun, scattered out of that way, and about within the cloud since: from all sides. In bright matter there
+    // is more of it than of what arrives, up to four times.
     glm::vec4 diffuse{0};
-    glm::vec4
-        from_above;  // upper half of the sky; what the matter behind sends back makes it twice as much at most
+    // Upper half of the sky; what the matter behind sends back makes it twice as much at most.
+    glm::vec4 from_above;
     glm::vec4 from_below;  // lower half
 };
 
@@ -61,7 +61,8 @@ inline constexpr double kSkyGathering = std::numbers::pi / 2;
 // in a layer under a beam from above is
 //     F = 5 - 2 C - 3 C t - 2 e^-t,     C = (5 - e^-w) / (4 + 3 w)
 // where nothing is absorbed, and `diffuse` is what of it I does not hold, times kKeptBetweenSides, since a cloud loses
-// light through its sides: less where it is wide, more where it is long. Of the sky's light, which comes from a whole hemisphere, with x = w - t,
+// light through its sides: less where it is wide, more where it is long. Of the sky's light, which comes from a whole
+// hemisphere, with x = w - t,
 //     from_above = 2 (2 + 3 x) / (4 + 3 w),     from_below = 2 (2 + 3 t) / (4 + 3 w):
 // in a furnace, where both are as bright, a white cloud cannot be seen. Without effect multiple_scattering all that
 // scatters is lost. light_samples.glsl says what absorption does.

@@ -11,8 +11,8 @@
 // particle's centre, and opaque as their texture says, which was made for about their optical depth
 // (draw/billboards.h).
 //
-// Where it is compiled with DETAIL, a particle's depth is that of the lumps that its thin matter is gathered into, by the
-// rule of generate/detail.h and with the field of the march. What is to be known of the line through a particle is
+// Where it is compiled with DETAIL, a particle's depth is that of the lumps that its thin matter is gathered into, by
+// the rule of generate/detail.h and with the field of the march. What is to be known of the line through a particle is
 // looked up once, where it is the densest: at the point of the ray closest to the centre. Many particles overlap, at
 // other points each, and together they are as smooth as the line.
 //
@@ -99,7 +99,8 @@ layout(location = 12) uniform vec2 middle;
 // quarter of an 8-bit step.
 const float kOpaque = 1e-3;
 #ifdef DETAIL
-const float kMostGathered = 1.5;  // as in generate/detail.h
+// As in generate/detail.h.
+const float kMostGathered = 1.5;
 #endif
 
 // Four pixels of a column. Never in an array, since one that a loop indexes lives in memory on llvmpipe.
@@ -197,8 +198,9 @@ vec4 gathered(vec4 u, vec4 n) {
     vec4 v = 2.0 * u / (1.0 + u);
     vec4 ramp = clamp((n - 1.0 + v * (1.0 + soft)) / soft, 0.0, 1.0);
     vec4 a = 1.0 - v * (1.0 + soft), rest = 1.0 - a;
-    vec4 share = mix(mix(1.0 - (a + soft) * (a + soft) / (2.0 * soft), rest - 0.5 * soft, greaterThanEqual(a, vec4(0.0))),
-                     rest * rest / (2.0 * soft), greaterThanEqual(a, vec4(1.0 - soft)));
+    vec4 early = rest * rest / (2.0 * soft), late = 1.0 - (a + soft) * (a + soft) / (2.0 * soft);
+    vec4 share = mix(late, rest - 0.5 * soft, greaterThanEqual(a, vec4(0.0)));
+    share = mix(share, early, greaterThanEqual(a, vec4(1.0 - soft)));
     vec4 gain = ramp * min(1.0 / max(share, 1e-6), kMostGathered / u);
     return mix(gain, vec4(1.0), greaterThanEqual(u, vec4(1.0)));
 }
@@ -207,10 +209,15 @@ vec4 gathered(vec4 u, vec4 n) {
 vec4 detail_at(vec4 t, float X, vec4 Y, vec4 own) {
     mat4x3 e = to_extinction, b = to_bumps;
     vec3 e0 = e[0] * X + e[2], b0 = b[0] * X + b[2];
-    vec4 u = vec4(texture(extinction, e[3] + t.x * (e0 + Y.x * e[1])).x, texture(extinction, e[3] + t.y * (e0 + Y.y * e[1])).x,
-                  texture(extinction, e[3] + t.z * (e0 + Y.z * e[1])).x, texture(extinction, e[3] + t.w * (e0 + Y.w * e[1])).x);
-    vec4 n = vec4(texture(bumps, b[3] + t.x * (b0 + Y.x * b[1])).x, texture(bumps, b[3] + t.y * (b0 + Y.y * b[1])).x,
-                  texture(bumps, b[3] + t.z * (b0 + Y.z * b[1])).x, texture(bumps, b[3] + t.w * (b0 + Y.w * b[1])).x);
+    vec4 u, n;
+    u.x = texture(extinction, e[3] + t.x * (e0 + Y.x * e[1])).x;
+    u.y = texture(extinction, e[3] + t.y * (e0 + Y.y * e[1])).x;
+    u.z = texture(extinction, e[3] + t.z * (e0 + Y.z * e[1])).x;
+    u.w = texture(extinction, e[3] + t.w * (e0 + Y.w * e[1])).x;
+    n.x = texture(bumps, b[3] + t.x * (b0 + Y.x * b[1])).x;
+    n.y = texture(bumps, b[3] + t.y * (b0 + Y.y * b[1])).x;
+    n.z = texture(bumps, b[3] + t.z * (b0 + Y.z * b[1])).x;
+    n.w = texture(bumps, b[3] + t.w * (b0 + Y.w * b[1])).x;
     n = (255.0 * n + 0.5) / 256.0;
     // Bumps that lie between pixels would be seen as noise: smooth matter takes over.
     vec4 sharp = clamp(lump.z / max(t, 1e-6) - 1.0, 0.0, 1.0);
@@ -269,7 +276,8 @@ void blend(Splat p, Column k, inout Pixels px) {
     px.left -= px.left * alpha;
     vec4 direct = weight * clamp(k.direct.x + k.direct.y * px.Y, 0.0, 1.0) * px.phase;
     vec4 change = k.change.x + k.change.y * px.Y;
-    vec4 other = weight * min(mix(change, 1.0 / (2.0 - min(change, 1.0)), lessThan(change, vec4(1.0))), p.other.w);
+    change = mix(change, 1.0 / (2.0 - min(change, 1.0)), lessThan(change, vec4(1.0)));
+    vec4 other = weight * min(change, p.other.w);
     px.red += other * p.other.x + direct * p.matter.x;
     px.green += other * p.other.y + direct * p.matter.y;
     px.blue += other * p.other.z + direct * p.matter.z;
