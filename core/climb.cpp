@@ -23,8 +23,8 @@ namespace {
 constexpr double kErrorOfDifference = 1.25;
 // The same, of pictures without a grid to one with it.
 constexpr double kErrorOfPicture = 1.1;
-// An error that is so many times another adds an eighth to it at most.
-constexpr double kMuchLess = 0.5;
+// An error of at most this share of another adds 2% to it.
+constexpr double kMuchLess = 0.2;
 // With which power of a cell's side errors fall, at least: from 1.3 to 1.6 was measured on smooth clouds.
 constexpr double kOrder = 1.3;
 using Clock = Deadline::Clock;

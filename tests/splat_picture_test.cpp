@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/light/light.h"
+#include "core/scene/automaton.h"
 #include "tests/scenes.h"
 
 namespace awan {
@@ -81,6 +83,37 @@ TEST(SplatPicture, NoSideIsBlack) {
         EXPECT_GT(least, 0.35) << azimuth;
         EXPECT_GT(sum / truth, 0.65) << azimuth;
         EXPECT_LT(sum / truth, 1.35) << azimuth;
+    }
+}
+
+TEST(SplatPicture, InPassingIsTheSameButCoarser) {
+    // An odd size: half of it is no whole number of pixels.
+    SceneDraft draft = table("harris");
+    draft.image.width = 161;
+    draft.image.height = 101;
+    const Scene scene = test::valid(draft);
+    const Tools tools{&test::device(), 2, nullptr, {}, {}};
+    auto planned = plan_scene(scene, 2, {});
+    auto passing = render_planned(scene, as_preview(scene, *planned), tools, {});
+    ASSERT_TRUE(passing.ok());
+    EXPECT_TRUE(std::isnan(passing->stated_error));
+    const Image whole = test::render(draft).image;
+    ASSERT_EQ(passing->image.pixels.size(), whole.pixels.size());
+    EXPECT_GT(apart(passing->image, whole), 0);
+    EXPECT_LT(apart(passing->image, whole), 0.02);
+}
+
+TEST(SplatPicture, OfAnAutomatonInPassingHasFewSplats) {
+    SceneDraft draft = test::plain_draft();
+    draft.top_level_cubes = false;
+    draft.clouds.push_back({});
+    draft.clouds[0].model = CloudModel::kAutomaton;
+    draft.clouds[0].automaton = std::make_shared<const AutomatonCloud>();
+    for (const char* const rung : {"harris", "transport-16"}) {
+        draft.accuracy.rung = rung;
+        const Scene passing = for_preview(test::valid(draft));
+        EXPECT_EQ(passing->clouds[0].automaton->most_particles,
+                  std::string(rung) == "harris" ? 16384U : 65536U);
     }
 }
 

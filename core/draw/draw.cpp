@@ -298,7 +298,7 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
     if (!drawn.ok()) return drawn;
     Image& image = *drawn;
     if (coarse) image = enlarged(image, scene->image.width, scene->image.height);
-    if (backdrop || haze != nullptr || coarse)
+    if (backdrop || haze != nullptr || (coarse && opaque))
         put_behind(scene, view, lighting.ground, haze, threads, took, image);
     if (times != nullptr) times->add(took);
     return drawn;

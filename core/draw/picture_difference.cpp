@@ -11,7 +11,7 @@ namespace awan {
 namespace {
 
 // As kSmallPixels, where their middles are to be those of other pixels.
-constexpr double kMostAligned = 2500;
+constexpr double kMostAligned = 5000;
 // Of the largest alpha: pixels below are not cloud.
 constexpr float kCloud = 0.05F;
 
