@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/base/exact_math.h"
@@ -20,10 +21,28 @@
 #include "core/plan/step_times.h"
 #include "core/scene/layers.h"
 #include "core/sequence.h"
+#include "core/survey/merge.h"
 #include "core/truth/path_tracer.h"
 
 namespace awan {
 namespace {
+
+constexpr std::size_t kFewSplats = 1u << 14;
+// What merging them may cost of a picture: small beside what the passes themselves leave out.
+constexpr double kSplatMergingError = 0.1;
+
+// Clouds that choose their particles themselves make as many as the march is quick with. Each is a splat of its own:
+// they are merged where that is of use.
+Result<std::optional<ParticleSet>> merged_for_splats(const Scene& scene, const Planned& planned,
+                                                     int threads, const Deadline& deadline) {
+    const ParticleSet& particles = planned.particles;
+    if (particles.whole || planned.plan.on(Effect::kTexture) || particles.size() < kFewSplats)
+        return std::optional<ParticleSet>();
+    auto fewer =
+        merged(particles, sun_direction(scene->sun), kSplatMergingError, threads, deadline);
+    if (!fewer.ok()) return fewer.error();
+    return std::optional<ParticleSet>(*std::move(fewer));
+}
 
 // The two passes of splats on the renderer.
 Status render_splats(const Scene& scene, const Planned& planned, const Tools& tools,
@@ -31,14 +50,18 @@ Status render_splats(const Scene& scene, const Planned& planned, const Tools& to
     if (tools.device == nullptr)
         return Error{ErrorCode::kNoRenderer, "",
                      std::string("rung ") + planned.plan.rung + " needs a renderer"};
+    auto fewer = timed(rendered.times.light_ms,
+                       [&] { return merged_for_splats(scene, planned, tools.threads, deadline); });
+    if (!fewer.ok()) return fewer.error();
+    const ParticleSet& particles = *fewer ? **fewer : planned.particles;
     auto lighting = timed(rendered.times.light_ms, [&] {
-        return light(scene, planned.particles, planned.plan, *tools.device, deadline);
+        return light(scene, particles, planned.plan, *tools.device, deadline);
     });
     if (!lighting.ok()) return lighting.error();
     rendered.times.effects.add(lighting->took);
     auto image = timed(rendered.times.draw_ms, [&] {
-        return draw(scene, planned.particles, planned.survey.view, planned.plan, *lighting,
-                    *tools.device, deadline, &rendered.times.effects);
+        return draw(scene, particles, planned.survey.view, planned.plan, *lighting, *tools.device,
+                    deadline, &rendered.times.effects, tools.threads, planned.is_preview);
     });
     if (!image.ok()) return image.error();
     rendered.image = *std::move(image);

@@ -88,12 +88,16 @@ Result<Planned> with_detail_made(const Scene& scene, Result<Planned> planned, in
 Scene for_preview(const Scene& scene) {
     // So that a picture of 640 x 400 takes less than 200 ms of two cores (tests/bench/automaton_bench.cpp).
     constexpr std::uint64_t kPreviewParticles = 1u << 16;
+    // Splats cost more, each by itself; detail gives them the shape that blocks of cells have not.
+    constexpr std::uint64_t kPreviewSplats = 1u << 14;
+    const bool splats = scene->accuracy.rung == rung_of(RungId::kHarris).name;
+    const std::uint64_t most = splats ? kPreviewSplats : kPreviewParticles;
     SceneDraft draft = *scene;
     bool changed = false;
     for (Cloud& cloud : draft.clouds) {
-        if (!cloud.automaton || cloud.automaton->most_particles <= kPreviewParticles) continue;
+        if (!cloud.automaton || cloud.automaton->most_particles <= most) continue;
         auto fewer = std::make_shared<AutomatonCloud>(*cloud.automaton);
-        fewer->most_particles = kPreviewParticles;
+        fewer->most_particles = most;
         cloud.automaton = std::move(fewer);
         changed = true;
     }

@@ -58,7 +58,7 @@ Result<Planned> plan_generated(const Scene& scene, ParticleSet made, int threads
 Result<Planned> with_detail_made(const Scene& scene, Result<Planned> planned, int threads,
                                  DetailTiles* tiles = nullptr);
 
-// What is looked at in passing: automata of many cells are merged into fewer particles.
+// What is looked at in passing: automata of many cells are merged into fewer particles, for splats into the fewest.
 Scene for_preview(const Scene& scene);
 
 // A plan made one of a preview (Planned::is_preview): of the rung that was planned, whatever error the scene asks for.

@@ -1,13 +1,17 @@
 #include "core/draw/draw.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <numbers>
+#include <optional>
 
 #include "core/draw/air_image.h"
 #include "core/draw/backdrop.h"
 #include "core/draw/billboards.h"
+#include "core/draw/splat_detail.h"
 #include "core/draw/splat_parts.h"
 #include "core/gl/programs.h"
 #include "core/light/sun_depth.h"
@@ -30,6 +34,7 @@ struct Drawing {
     const Deadline& deadline;
     bool sky;                          // the program draws the sky behind
     const gl::TextureArray* textures;  // null: nothing is painted
+    const SplatDetail* detail;         // null: there is none
 };
 
 void set_uniforms(const Drawing& drawing, const SplatWindow& window) {
@@ -60,6 +65,18 @@ void set_uniforms(const Drawing& drawing, const SplatWindow& window) {
                 static_cast<float>(fit.alpha), static_cast<float>(fit.share));
     glUniform1i(9, drawing.splats.sorted ? 1 : 0);
     glUniform1i(10, drawing.sky ? 1 : 0);
+}
+
+void set_detail(const SplatDetail& detail, const SplatWindow& window) {
+    const auto set = [](GLint location, const glm::mat4x3& matrix) {
+        glUniformMatrix4x3fv(location, 1, GL_FALSE, &matrix[0][0]);
+    };
+    set(14, detail.to_extinction);
+    set(18, detail.to_bumps);
+    glUniform3f(22, detail.keep, kSoftness, detail.bump / static_cast<float>(window.gap()));
+    glUniform1f(23, static_cast<float>(std::sqrt(2 * std::numbers::pi)) * detail.edge);
+    detail.extinction.bind(3);
+    detail.bumps.bind(4);
 }
 
 // Takes a region's pixels from GL. `spare` is room for those regions that do not fit the picture's rows.
@@ -143,6 +160,11 @@ Result<Image> draw_splats(const Drawing& drawing, const SplatWindow& window,
         const auto painted = programs.painted(half_lines);
         if (!painted.ok()) return painted.error();
         (*painted)->use();
+    } else if (drawing.detail != nullptr) {
+        const auto detailed = programs.detailed(half_lines);
+        if (!detailed.ok()) return detailed.error();
+        (*detailed)->use();
+        set_detail(*drawing.detail, window);
     } else {
         (half_lines ? programs.splat_interior : programs.splat).use();
     }
@@ -177,16 +199,50 @@ Result<Image> draw_window(const Drawing& drawing, const SplatWindow& window,
     return image;
 }
 
+// The picture on more pixels, interpolated between the middles of its own.
+Image enlarged(const Image& from, int width, int height) {
+    struct Between {
+        std::size_t low, high;
+        float part;
+    };
+    const auto between = [](int to, int pixels, int of) {
+        const double at = std::clamp((to + 0.5) * of / pixels - 0.5, 0.0, of - 1.0);
+        const int low = std::min(static_cast<int>(at), of - 1);
+        return Between{static_cast<std::size_t>(low),
+                       static_cast<std::size_t>(std::min(low + 1, of - 1)),
+                       static_cast<float>(at - low)};
+    };
+    Image image{width, height, from.opaque, {}};
+    image.pixels.resize(4 * image.pixel_count());
+    std::vector<Between> across;
+    for (int x = 0; x < width; ++x) across.push_back(between(x, width, from.width));
+    float* to = image.pixels.data();
+    for (int y = 0; y < height; ++y) {
+        const Between down = between(y, height, from.height);
+        const std::size_t row = 4 * static_cast<std::size_t>(from.width);
+        const float* const low = from.pixels.data() + down.low * row;
+        const float* const high = from.pixels.data() + down.high * row;
+        for (const Between& x : across)
+            for (std::size_t c = 0; c < 4; ++c) {
+                const std::size_t a = 4 * x.low + c, b = 4 * x.high + c;
+                const float above = low[a] + x.part * (low[b] - low[a]);
+                const float below = high[a] + x.part * (high[b] - high[a]);
+                *to++ = above + down.part * (below - above);
+            }
+    }
+    return image;
+}
+
 // Puts what stands behind the clouds under them: through the haze, or as it is.
 void put_behind(const Scene& scene, const View& view, const GroundLight& ground, const Air* air,
-                EffectTimes& took, Image& image) {
+                int threads, EffectTimes& took, Image& image) {
     Backdrop behind;
     if (ground.relief && view.eye.y > ground.height) {
         behind = timed_for(took, Effect::kTerrain, [&] {
-            return make_backdrop(scene, view, image.width, image.height, ground, 1, air);
+            return make_backdrop(scene, view, image.width, image.height, ground, threads, air);
         });
     } else if (image.opaque) {
-        behind = make_backdrop(scene, view, image.width, image.height, ground, 1);
+        behind = make_backdrop(scene, view, image.width, image.height, ground, threads);
     }
     if (air == nullptr) {
         lay_under(image, behind);
@@ -201,7 +257,7 @@ void put_behind(const Scene& scene, const View& view, const GroundLight& ground,
 
 Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View& view,
                    const Plan& plan, const Lighting& lighting, Device& device,
-                   const Deadline& deadline, EffectTimes* times) {
+                   const Deadline& deadline, EffectTimes* times, int threads, bool in_passing) {
     EffectTimes took;
     const std::optional<Air> air = air_of(scene, particles, view, plan, took);
     const Air* const haze = air ? &*air : nullptr;
@@ -216,19 +272,34 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
         if (!uploaded.ok()) return uploaded.error();
         textures.emplace(*std::move(uploaded));
     }
+    std::optional<SplatDetail> detail;
+    if (!textures && particles.detail && plan.on(Effect::kDetail) && particles.size() > 0)
+        detail.emplace(timed_for(took, Effect::kDetail,
+                                 [&] { return splat_detail(particles, view, threads); }));
+    const bool coarse = in_passing && !textures;
     const Drawing drawing{scene,
                           plan,
                           splats,
                           device,
                           deadline,
-                          opaque && !backdrop && haze == nullptr,
-                          textures ? &*textures : nullptr};
-    auto drawn = draw_window(drawing, whole_picture(view, scene->image),
-                             drawing_order(scene, particles, view, plan),
-                             splat_budget(scene->image, particles.size()));
+                          opaque && !backdrop && haze == nullptr && !coarse,
+                          textures ? &*textures : nullptr,
+                          detail ? &*detail : nullptr};
+    std::vector<std::uint32_t> order = drawing_order(scene, particles, view, plan);
+    ImageSettings size = scene->image;
+    if (coarse) {
+        size.width = (size.width + 1) / 2;
+        size.height = (size.height + 1) / 2;
+    }
+    // Finer pixels would take back what coarse ones save.
+    auto drawn = coarse ? draw_splats(drawing, whole_picture(view, size), order)
+                        : draw_window(drawing, whole_picture(view, size), std::move(order),
+                                      splat_budget(scene->image, particles.size()));
     if (!drawn.ok()) return drawn;
     Image& image = *drawn;
-    if (backdrop || haze != nullptr) put_behind(scene, view, lighting.ground, haze, took, image);
+    if (coarse) image = enlarged(image, scene->image.width, scene->image.height);
+    if (backdrop || haze != nullptr || (coarse && opaque))
+        put_behind(scene, view, lighting.ground, haze, threads, took, image);
     if (times != nullptr) times->add(took);
     return drawn;
 }

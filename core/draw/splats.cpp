@@ -28,8 +28,13 @@ constexpr double kFaintDepth = 5e-4;  // optical depth at which a particle is cu
 LightSources light_sources(const Scene& scene, const Plan& plan) {
     const Outside outside = outside_of(scene);
     const SkyDome& sky = outside.sky;
-    LightSources sources{outside.sun / (4 * std::numbers::pi), glm::dvec3(0), glm::dvec3(0),
-                         scene->medium.albedo};
+    const double g = asymmetry(scene->medium);
+    LightSources sources{outside.sun / (4 * std::numbers::pi),
+                         glm::dvec3(0),
+                         glm::dvec3(0),
+                         scene->medium.albedo,
+                         outside.to_sun,
+                         g * g * g * std::abs(g)};
     if (!plan.on(Effect::kSkyLight) || !sky.shines) return sources;
     if (sky.physical) {
         const SkyMeans means = means_of(sky);
@@ -179,6 +184,20 @@ glm::dvec4 over(glm::vec4 light, const Seen& seen) {
     return seen.widened ? glm::dvec4(0, 0, 0, light.w) : glm::dvec4(light);
 }
 
+// Bounds of what lines laid through particles may lead to: fluence about the sun, over its own.
+constexpr double kMostForward = 30;
+
+// The phase function for light that was scattered forward before, from the particle to the eye: 1 in the mean. Each
+// time it is scattered, the mean cosine is g times as much (Henyey & Greenstein); it is taken to have been thrice.
+double scattered_phase(const Seen& seen, const View& view, const LightSources& sources) {
+    if (!(seen.distance > 0)) return 1;
+    const glm::dvec3 way =
+        (seen.q.x * view.right + seen.q.y * view.up + seen.q.z * view.forward) / seen.distance;
+    const double g = sources.g_of_scattered, cosine = glm::dot(way, sources.to_sun);
+    const double apart = 1 + g * g - 2 * g * cosine;
+    return (1 - g * g) / (apart * std::sqrt(apart));
+}
+
 Splat make_splat(const Seen& seen, glm::dvec3 color, const ParticleLight* lit, const View& view,
                  const SplatWindow& window, const LightSources& sources) {
     Splat splat{};
@@ -198,7 +217,9 @@ Splat make_splat(const Seen& seen, glm::dvec3 color, const ParticleLight* lit, c
     glm::dvec4 direct(0, 0, 0, 1), scattered(0), above(0, 0, 0, 1), below(0, 0, 0, 1);
     if (lit != nullptr) {
         direct = over(lit->direct, seen);
-        scattered = over(lit->scattered, seen);
+        // Seen from the eye; the light arrives from about the sun, not from its disc.
+        const double phase = scattered_phase(seen, view, sources);
+        scattered = over(static_cast<float>(phase) * lit->scattered + lit->diffuse, seen);
         above = over(lit->from_above, seen);
         below = over(lit->from_below, seen);
     }
@@ -210,7 +231,7 @@ Splat make_splat(const Seen& seen, glm::dvec3 color, const ParticleLight* lit, c
         sum(sources.sun) * scattered + sum(sources.above) * above + sum(sources.below) * below;
     const glm::dvec3 value =
         sources.sun * scattered.w + sources.above * above.w + sources.below * below.w;
-    const double most = sum(sources.sun + sources.above + sources.below);
+    const double most = sum(kMostForward * sources.sun + 2.0 * (sources.above + sources.below));
     splat.other =
         glm::vec4(glm::dvec4(albedo * value, other.w > 0 ? std::min(most / other.w, 1e6) : 0));
     splat.change = from_eye(other.w > 0 ? other / other.w : glm::dvec4(0), view, seen.q);

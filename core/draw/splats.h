@@ -64,6 +64,9 @@ struct LightSources {
     glm::dvec3 above;  // upper half of the sky: its share of the mean radiance
     glm::dvec3 below;  // lower half
     double albedo;
+    glm::dvec3 to_sun;  // unit
+    // The mean cosine where light that was scattered forward before is scattered on.
+    double g_of_scattered;
 };
 
 // What the splats of all windows are made of. It refers to its arguments.

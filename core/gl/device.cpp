@@ -31,6 +31,13 @@ Result<const gl::Program*> Device::Programs::painted(bool interior) {
     });
 }
 
+Result<const gl::Program*> Device::Programs::detailed(bool interior) {
+    return compiled(late[interior ? 4 : 3], [&] {
+        return gl::Program::compute(
+            "splat.glsl", interior ? "#define DETAIL\n#define INTERIOR\n" : "#define DETAIL\n");
+    });
+}
+
 Result<const gl::Program*> Device::Programs::display() {
     return compiled(late[2], [] { return gl::Program::drawing("display.glsl"); });
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <glm/vec3.hpp>
 #include <utility>
 
 #include "core/base/embedded.h"
@@ -141,6 +142,42 @@ void TextureArray::put(int layer, int level, std::span<const float> texels) {
 }
 
 void TextureArray::bind(GLuint binding) const {
+    glBindTextureUnit(binding, name_);
+}
+
+namespace {
+
+GLuint make_volume(GLenum format, glm::ivec3 size, GLint beyond) {
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_3D, 1, &name);
+    glTextureStorage3D(name, 1, format, size.x, size.y, size.z);
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+        glTextureParameteri(name, axis, beyond);
+    return name;
+}
+
+}  // namespace
+
+VolumeTexture::VolumeTexture(int width, int height, int depth, std::span<const float> values)
+    : name_(make_volume(GL_R16F, {width, height, depth}, GL_CLAMP_TO_BORDER)) {
+    glTextureSubImage3D(name_, 0, 0, 0, 0, width, height, depth, GL_RED, GL_FLOAT, values.data());
+}
+
+VolumeTexture::VolumeTexture(int side, std::span<const std::uint8_t> bytes)
+    : name_(make_volume(GL_R8, glm::ivec3(side), GL_REPEAT)) {
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage3D(name_, 0, 0, 0, 0, side, side, side, GL_RED, GL_UNSIGNED_BYTE,
+                        bytes.data());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+}
+
+VolumeTexture::~VolumeTexture() {
+    if (name_ != 0) glDeleteTextures(1, &name_);
+}
+
+void VolumeTexture::bind(GLuint binding) const {
     glBindTextureUnit(binding, name_);
 }
 

@@ -6,6 +6,7 @@
 #include <GL/glext.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -75,6 +76,26 @@ class TextureArray {
     // texels: (side >> level)^2 of them, the first row first.
     void put(int layer, int level, std::span<const float> texels);
     // Makes it the sampler of `layout(binding = ...) uniform sampler2DArray` in the shader.
+    void bind(GLuint binding) const;
+
+  private:
+    GLuint name_ = 0;
+};
+
+// A volume of one channel, interpolated between its voxels. Beyond its sides it is 0, or begins again.
+class VolumeTexture {
+  public:
+    // One value a voxel, x fastest, kept as half floats.
+    VolumeTexture(int width, int height, int depth, std::span<const float> values);
+    // A byte a voxel, 255 is 1; begins again on all sides.
+    VolumeTexture(int side, std::span<const std::uint8_t> bytes);
+    VolumeTexture(VolumeTexture&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+    VolumeTexture& operator=(VolumeTexture&&) = delete;
+    VolumeTexture(const VolumeTexture&) = delete;
+    VolumeTexture& operator=(const VolumeTexture&) = delete;
+    ~VolumeTexture();
+
+    // Makes it the sampler of `layout(binding = ...) uniform sampler3D` in the shader.
     void bind(GLuint binding) const;
 
   private:

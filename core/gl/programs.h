@@ -21,14 +21,16 @@ struct Device::Programs {
     // Pass 2: the same where the eye may be inside a particle.
     gl::Program splat_interior;
 
-    // Those that few pictures need, compiled when they are first asked for. Both fail as Program does.
+    // Those that not all pictures need, compiled when they are first asked for. They fail as Program does.
 
     // Pass 2 with textures on the billboards of some particles; the eye may be inside a particle or not.
     Result<const gl::Program*> painted(bool interior);
+    // Pass 2 with detail; as painted().
+    Result<const gl::Program*> detailed(bool interior);
     // Triangles, for what is displayed instead of lit.
     Result<const gl::Program*> display();
 
-    std::array<std::optional<gl::Program>, 3> late{};
+    std::array<std::optional<gl::Program>, 5> late{};
 };
 
 }  // namespace awan

@@ -84,7 +84,16 @@ struct OneLight {
     glm::dvec3 to_light;
     double gain;
     bool sky;
+    glm::vec3 about;  // as in light_samples.glsl
 };
+
+// Of light that is scattered about.
+glm::vec3 about_in(const Medium& medium, const Plan& plan) {
+    if (!plan.on(Effect::kMultipleScattering)) return {-1, 0, 0};
+    const double turned = std::max(1 - medium.albedo * asymmetry(medium), 1e-6);
+    const double k = std::sqrt(std::min(3 * (1 - medium.albedo) / turned, 3.0));
+    return {turned, k, kKeptBetweenSides};
+}
 
 // The particles as the passes take them.
 struct PlacedParticles {
@@ -153,12 +162,22 @@ void sum_columns(const glm::ivec3& cells, Device& device, const gl::Buffer& volu
     glDispatchCompute(static_cast<GLuint>((cells.x * cells.y + 63) / 64), 1, 1);
 }
 
-// light_samples: the light at each particle, two vec4 each.
-std::vector<glm::vec4> sample_at_particles(const PlacedParticles& placed, bool sky, Device& device,
-                                           const gl::Buffer& volume) {
+// A column that is longer than the cloud is wide loses the more, one that is shorter less.
+double kept_between_sides(const LightGrid& grid) {
+    const double along = grid.slab * (grid.cells.z - 1),
+                 across = grid.texel * (std::min(grid.cells.x, grid.cells.y) - 1);
+    return std::clamp(std::sqrt(across / along), 0.4, 1.6);
+}
+
+// Vec4s a particle that light_samples makes.
+constexpr std::size_t kSamples = 3;
+
+// light_samples: the light at each particle.
+std::vector<glm::vec4> sample_at_particles(const PlacedParticles& placed, const OneLight& light,
+                                           Device& device, const gl::Buffer& volume) {
     const LightGrid& grid = placed.grid;
     const gl::Buffer point_buffer{std::span<const glm::vec4>(placed.points)};
-    std::vector<glm::vec4> samples(2 * placed.points.size());
+    std::vector<glm::vec4> samples(kSamples * placed.points.size());
     const gl::Buffer sample_buffer(samples.size() * sizeof(glm::vec4));
     device.programs().light_samples.use();
     point_buffer.bind(0);
@@ -173,14 +192,16 @@ std::vector<glm::vec4> sample_at_particles(const PlacedParticles& placed, bool s
     set_axis(2, grid.u, grid.texel);
     set_axis(3, grid.v, grid.texel);
     set_axis(4, grid.w, grid.slab);
-    glUniform1i(5, sky ? 1 : 0);
+    glUniform1i(5, light.sky ? 1 : 0);
+    glUniform3f(6, light.about.x, light.about.y,
+                light.about.z * static_cast<float>(kept_between_sides(grid)));
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glDispatchCompute(static_cast<GLuint>((placed.points.size() + 63) / 64), 1, 1);
     sample_buffer.read(samples.data(), samples.size() * sizeof(glm::vec4));
     return samples;
 }
 
-// All three steps for one light: two vec4 a particle.
+// All three steps for one light.
 Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const OneLight& light,
                                          Device& device, const Deadline& deadline) {
     const PlacedParticles placed = place_particles(particles, light);
@@ -190,7 +211,7 @@ Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const One
     volume.clear();
     if (Status failed = fill_columns(placed, device, deadline, volume)) return *failed;
     sum_columns(cells, device, volume);
-    std::vector<glm::vec4> samples = sample_at_particles(placed, light.sky, device, volume);
+    std::vector<glm::vec4> samples = sample_at_particles(placed, light, device, volume);
     if (auto error = gl::gl_status("the light pass")) return *error;
     if (auto error = deadline.over()) return *error;
     return samples;
@@ -220,28 +241,32 @@ Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const P
                    ? scene->medium.albedo * gathering_fraction(scene->medium, half_angle)
                    : 0.0;
     };
+    const glm::vec3 about = about_in(scene->medium, plan);
     const glm::vec4 full(0, 0, 0, 1), none(0);
-    lighting.particles.assign(particles.size(), {full, none, full, full});
+    lighting.particles.assign(particles.size(), {full, none, none, full, full});
     if (outside_of(scene).sun != glm::dvec3(0)) {
         auto sun = timed_for(lighting.took, Effect::kSelfShadow, [&] {
-            return one_light(particles, {sun_direction(scene->sun), gain(kSunGathering), false},
-                             device, deadline);
+            return one_light(particles,
+                             {sun_direction(scene->sun), gain(kSunGathering), false, about}, device,
+                             deadline);
         });
         if (!sun.ok()) return sun.error();
         for (std::size_t i = 0; i < particles.size(); ++i) {
-            lighting.particles[i].direct = (*sun)[2 * i];
-            lighting.particles[i].scattered = (*sun)[2 * i + 1];
+            lighting.particles[i].direct = (*sun)[kSamples * i];
+            lighting.particles[i].scattered = (*sun)[kSamples * i + 1];
+            lighting.particles[i].diffuse = (*sun)[kSamples * i + 2];
         }
     }
     if (plan.on(Effect::kSkyLight) || lighting.ground.into_cloud) {
         const Effect from = plan.on(Effect::kSkyLight) ? Effect::kSkyLight : Effect::kGroundLight;
         auto sky = timed_for(lighting.took, from, [&] {
-            return one_light(particles, {{0, 1, 0}, gain(kSkyGathering), true}, device, deadline);
+            return one_light(particles, {{0, 1, 0}, gain(kSkyGathering), true, about}, device,
+                             deadline);
         });
         if (!sky.ok()) return sky.error();
         for (std::size_t i = 0; i < particles.size(); ++i) {
-            lighting.particles[i].from_above = (*sky)[2 * i];
-            lighting.particles[i].from_below = (*sky)[2 * i + 1];
+            lighting.particles[i].from_above = (*sky)[kSamples * i];
+            lighting.particles[i].from_below = (*sky)[kSamples * i + 1];
         }
     }
     return lighting;

@@ -248,7 +248,9 @@ void fit_effects_to_rung(Plan& plan) {
                           decision.reason + ")";
     };
     const bool additive = rung.id == RungId::kAdditive;
-    set(rung.method == Method::kSplats ? Effect::kDetail : Effect::kTexture, false);
+    if (rung.method != Method::kSplats) set(Effect::kTexture, false);
+    // Textures are the detail of billboards.
+    if (plan.on(Effect::kTexture)) set(Effect::kDetail, false);
     if (rung.id == RungId::kHarris) return;
     set(Effect::kSelfShadow, !additive);
     set(Effect::kMultipleScattering,

@@ -11,6 +11,11 @@
 // particle's centre, and opaque as their texture says, which was made for about their optical depth
 // (draw/billboards.h).
 //
+// Where it is compiled with DETAIL, a particle's depth is that of the lumps that its thin matter is gathered into, by
+// the rule of generate/detail.h and with the field of the march. What is to be known of the line through a particle is
+// looked up once, where it is the densest: at the point of the ray closest to the centre. Many particles overlap, at
+// other points each, and together they are as smooth as the line.
+//
 // The program is compiled twice, since llvmpipe runs both sides of every branch: INTERIOR (effect `interior`) takes
 // only the half line before the eye, for all particles, the other the whole line. Light and phase function are
 // evaluated where the fragment is: at the point of the ray closest to the particle's centre.
@@ -43,6 +48,20 @@ layout(binding = 0) uniform samplerBuffer splats;
 // square's side; with them the layer, or -1 where it is no billboard, and the mip level.
 layout(binding = 1) uniform samplerBuffer billboards;
 layout(binding = 2) uniform sampler2DArray textures;
+#endif
+#ifdef DETAIL
+// The extinction of all particles together, in units of that below which detail gathers matter; and the field of its
+// bumps (generate/detail.h).
+layout(binding = 3) uniform sampler3D extinction;
+layout(binding = 4) uniform sampler3D bumps;
+// From the eye's frame to the coordinates of each.
+layout(location = 14) uniform mat4x3 to_extinction;
+layout(location = 18) uniform mat4x3 to_bumps;
+// Detail's `keep` and softness, and the distance from the eye at which the largest bumps are as wide as pixels are
+// apart.
+layout(location = 22) uniform vec3 lump;
+// sqrt(2 pi) times the extinction below which detail gathers matter, 1/unit.
+layout(location = 23) uniform float gathered_below;
 #endif
 layout(std430, binding = 1) readonly buffer TileBegin { uint tile_begin[]; };
 layout(std430, binding = 2) readonly buffer TileItems { uint tile_items[]; };
@@ -79,6 +98,10 @@ layout(location = 12) uniform vec2 middle;
 // Below this transmittance the rest of the list is skipped: what is behind adds no more than a thousandth of itself, a
 // quarter of an 8-bit step.
 const float kOpaque = 1e-3;
+#ifdef DETAIL
+// As in generate/detail.h.
+const float kMostGathered = 1.5;
+#endif
 
 // Four pixels of a column. Never in an array, since one that a loop indexes lives in memory on llvmpipe.
 struct Pixels {
@@ -166,6 +189,42 @@ float opacity(Column k, float Y) {
 }
 #endif
 
+#ifdef DETAIL
+// generate/detail.h: what the depth of matter is multiplied by that has the extinction u, in units of that below which
+// it is gathered, where the bumps are n.
+vec4 gathered(vec4 u, vec4 n) {
+    float soft = lump.y;
+    u = max(u, 1e-3);
+    vec4 v = 2.0 * u / (1.0 + u);
+    vec4 ramp = clamp((n - 1.0 + v * (1.0 + soft)) / soft, 0.0, 1.0);
+    vec4 a = 1.0 - v * (1.0 + soft), rest = 1.0 - a;
+    vec4 early = rest * rest / (2.0 * soft), late = 1.0 - (a + soft) * (a + soft) / (2.0 * soft);
+    vec4 share = mix(late, rest - 0.5 * soft, greaterThanEqual(a, vec4(0.0)));
+    share = mix(share, early, greaterThanEqual(a, vec4(1.0 - soft)));
+    vec4 gain = ramp * min(1.0 / max(share, 1e-6), kMostGathered / u);
+    return mix(gain, vec4(1.0), greaterThanEqual(u, vec4(1.0)));
+}
+
+// At the points t (X, Y, 1) of four rays. own: the particle's own extinction there.
+vec4 detail_at(vec4 t, float X, vec4 Y, vec4 own) {
+    mat4x3 e = to_extinction, b = to_bumps;
+    vec3 e0 = e[0] * X + e[2], b0 = b[0] * X + b[2];
+    vec4 u, n;
+    u.x = texture(extinction, e[3] + t.x * (e0 + Y.x * e[1])).x;
+    u.y = texture(extinction, e[3] + t.y * (e0 + Y.y * e[1])).x;
+    u.z = texture(extinction, e[3] + t.z * (e0 + Y.z * e[1])).x;
+    u.w = texture(extinction, e[3] + t.w * (e0 + Y.w * e[1])).x;
+    n.x = texture(bumps, b[3] + t.x * (b0 + Y.x * b[1])).x;
+    n.y = texture(bumps, b[3] + t.y * (b0 + Y.y * b[1])).x;
+    n.z = texture(bumps, b[3] + t.z * (b0 + Y.z * b[1])).x;
+    n.w = texture(bumps, b[3] + t.w * (b0 + Y.w * b[1])).x;
+    n = (255.0 * n + 0.5) / 256.0;
+    // Bumps that lie between pixels would be seen as noise: smooth matter takes over.
+    vec4 sharp = clamp(lump.z / max(t, 1e-6) - 1.0, 0.0, 1.0);
+    return mix(vec4(1.0), lump.x * gathered(max(u, own), n), sharp);
+}
+#endif
+
 Pixels look(float X, float first_row) {
     Pixels px;
     vec4 row = vec4(first_row) + vec4(0.5, 1.5, 2.5, 3.5);
@@ -188,6 +247,7 @@ Pixels look(float X, float first_row) {
     return px;
 }
 
+// Light from all sides falls off along a particle as it does along the line that was laid through it, but never ends.
 void blend(Splat p, Column k, inout Pixels px) {
 #ifdef INTERIOR
     // How far along its ray each pixel's closest point lies, in units of d.
@@ -201,6 +261,12 @@ void blend(Splat p, Column k, inout Pixels px) {
     vec4 off = px.local - k.y0;
     vec4 tau = p.matter.w * exp(-(k.a * off * off + k.m) * px.per_d2);
 #endif
+#ifdef DETAIL
+#ifndef INTERIOR
+    vec4 t = (k.along + (p.place.y + p.place.z * middle.y) * px.Y) * px.per_d2;
+#endif
+    tau *= detail_at(max(t, 0.0), k.X, px.Y, tau * (sqrt(2.0 * p.place.w) / gathered_below));
+#endif
     vec4 alpha = one_minus_exp(tau);
 #ifdef PAINTED
     if (k.layer >= 0.0)
@@ -209,7 +275,9 @@ void blend(Splat p, Column k, inout Pixels px) {
     vec4 weight = extinguish ? px.left * alpha : alpha;
     px.left -= px.left * alpha;
     vec4 direct = weight * clamp(k.direct.x + k.direct.y * px.Y, 0.0, 1.0) * px.phase;
-    vec4 other = weight * clamp(k.change.x + k.change.y * px.Y, 0.0, p.other.w);
+    vec4 change = k.change.x + k.change.y * px.Y;
+    change = mix(change, 1.0 / (2.0 - min(change, 1.0)), lessThan(change, vec4(1.0)));
+    vec4 other = weight * min(change, p.other.w);
     px.red += other * p.other.x + direct * p.matter.x;
     px.green += other * p.other.y + direct * p.matter.y;
     px.blue += other * p.other.z + direct * p.matter.z;
