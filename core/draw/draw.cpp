@@ -30,6 +30,7 @@ struct Drawing {
     const Deadline& deadline;
     bool sky;                          // the program draws the sky behind
     const gl::TextureArray* textures;  // null: nothing is painted
+    const gl::TextureArray* colors;    // null: none of them has any
 };
 
 void set_uniforms(const Drawing& drawing, const SplatWindow& window) {
@@ -140,7 +141,7 @@ Result<Image> draw_splats(const Drawing& drawing, const SplatWindow& window,
         (list.reaches_eye &&
          drawing.scene->effects[static_cast<int>(Effect::kInterior)] != Switch::kOff);
     if (drawing.textures != nullptr) {
-        const auto painted = programs.painted(half_lines);
+        const auto painted = programs.painted(half_lines, drawing.colors != nullptr);
         if (!painted.ok()) return painted.error();
         (*painted)->use();
     } else {
@@ -155,6 +156,7 @@ Result<Image> draw_splats(const Drawing& drawing, const SplatWindow& window,
             splats.bind(0);
             paint.bind(1);
             if (drawing.textures != nullptr) drawing.textures->bind(2);
+            if (drawing.colors != nullptr) drawing.colors->bind(3);
             return draw_region(region, drawing.deadline, spare, image);
         });
     if (status) return *status;
@@ -209,12 +211,13 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
     const bool opaque = scene->image.background == Background::kSky;
     // The program draws no sky where something else is put behind the clouds below.
     const bool backdrop = opaque && wants_backdrop(scene, view);
-    std::optional<gl::TextureArray> textures;
+    std::optional<gl::TextureArray> textures, colors;
     if (splats.levels) {
         auto uploaded = timed_for(took, Effect::kTexture,
                                   [&] { return upload_textures(scene, *splats.levels, deadline); });
         if (!uploaded.ok()) return uploaded.error();
         textures.emplace(*std::move(uploaded));
+        if (has_colors(scene)) colors.emplace(upload_colors(scene));
     }
     const Drawing drawing{scene,
                           plan,
@@ -222,7 +225,8 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
                           device,
                           deadline,
                           opaque && !backdrop && haze == nullptr,
-                          textures ? &*textures : nullptr};
+                          textures ? &*textures : nullptr,
+                          colors ? &*colors : nullptr};
     auto drawn = draw_window(drawing, whole_picture(view, scene->image),
                              drawing_order(scene, particles, view, plan),
                              splat_budget(scene->image, particles.size()));

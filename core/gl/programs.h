@@ -23,12 +23,13 @@ struct Device::Programs {
 
     // Those that few pictures need, compiled when they are first asked for. Both fail as Program does.
 
-    // Pass 2 with textures on the billboards of some particles; the eye may be inside a particle or not.
-    Result<const gl::Program*> painted(bool interior);
+    // Pass 2 with textures on the billboards of some particles; the eye may be inside a particle or not. tinted: some
+    // of the textures have colours.
+    Result<const gl::Program*> painted(bool interior, bool tinted);
     // Triangles, for what is displayed instead of lit.
     Result<const gl::Program*> display();
 
-    std::array<std::optional<gl::Program>, 3> late{};
+    std::array<std::optional<gl::Program>, 5> late{};
 };
 
 }  // namespace awan

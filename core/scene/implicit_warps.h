@@ -101,8 +101,8 @@ inline const Table& table_of<ImplicitAttractor>() {
     return kImplicitAttractorTable;
 }
 
-// The same of a vortex. Its axis goes straight from one key's to the next, and is that of the vortex where it would have
-// no length.
+// The same of a vortex. Its axis goes straight from one key's to the next, and is that of the vortex where it would
+// have no length.
 struct ImplicitVortexKey {
     double time = 0;
     std::optional<glm::dvec3> at;

@@ -55,8 +55,8 @@ SettingsReach reach_at_all_times(const ImplicitCloud& cloud);
 ImplicitAttractor attractor_at(const ImplicitAttractor& attractor, bool smooth, double time);
 ImplicitVortex vortex_at(const ImplicitVortex& vortex, bool smooth, double time);
 
-// The most that a warp does at any time: the box of all its places, units; its largest reach, units; the largest size of
-// its strength, or of its angle in degrees.
+// The most that a warp does at any time: the box of all its places, units; its largest reach, units; the largest size
+// of its strength, or of its angle in degrees.
 struct WarpReach {
     Box places;
     double reach = 0, strength = 0;
