@@ -22,4 +22,5 @@ for i in "${!cells[@]}"; do
     pictures+=("$picture")
 done
 mkdir -p "$here/pictures"
-oiiotool "${pictures[@]}" --mosaic:pad=4 5x7 --resize 1300x0 -o "$here/pictures/models.png"
+oiiotool "${pictures[@]}" --mosaic:pad=4 5x7 --resize:filter=gaussian 1040x0 --attrib png:compressionLevel 9 \
+    -o "$here/pictures/models.png"
