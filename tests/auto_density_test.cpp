@@ -12,6 +12,9 @@
 #include "core/generate/generate.h"
 #include "core/generate/keyed_random.h"
 #include "core/pipeline.h"
+#include "core/scene/ellipsoids.h"
+#include "core/scene/implicit.h"
+#include "core/scene/spheres.h"
 #include "core/scene/validate.h"
 
 namespace awan {
@@ -149,6 +152,86 @@ TEST(AutoDensity, OfAnAutomatonMakesWhatGrowsAsDeepAsOthers) {
     none.activation = 0;
     cloud.automaton = std::make_shared<const AutomatonCloud>(none);
     EXPECT_EQ(auto_density(cloud, Fill::kUniform, 1), kDefaultDensity);
+}
+
+// The mean depth along an axis, weighted by mass, of what a scene shows: of lines evenly through its bounds.
+double mean_depth_of(const Cloud& cloud, double time, int axis) {
+    SceneDraft draft;
+    draft.top_level_cubes = false;
+    draft.clouds = {cloud};
+    draft.time = time;
+    const auto scene = validate(draft);
+    EXPECT_TRUE(scene.ok());
+    const auto set = generate(*scene, 2, Deadline{});
+    EXPECT_TRUE(set.ok());
+    const Bounds bounds = bounds_of(*set);
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    constexpr int kLines = 75;
+    const double du = (bounds.max[u] - bounds.min[u]) / kLines;
+    const double dv = (bounds.max[v] - bounds.min[v]) / kLines;
+    std::vector<double> depths(kLines * kLines);
+    for (std::size_t n = 0; n < set->size(); ++n) {
+        const double s = static_cast<double>(set->radius[n]) / 2;
+        const double depth = static_cast<double>(set->density[n]) * s * kRootTwoPi;
+        const double a = set->center[n][u] - bounds.min[u], b = set->center[n][v] - bounds.min[v];
+        const auto first = [&](double at, double step) {
+            return std::max(static_cast<int>((at - 4 * s) / step), 0);
+        };
+        for (int i = first(a, du); i < kLines && (i - 1) * du < a + 4 * s; ++i)
+            for (int j = first(b, dv); j < kLines && (j - 1) * dv < b + 4 * s; ++j) {
+                const double x = (i + .5) * du - a, y = (j + .5) * dv - b;
+                depths[static_cast<std::size_t>(i * kLines + j)] +=
+                    depth * std::exp(-(x * x + y * y) / (2 * s * s));
+            }
+    }
+    double sum = 0, squares = 0;
+    for (const double depth : depths) sum += depth, squares += depth * depth;
+    return squares / sum;
+}
+
+Cloud procedural(CloudModel model) {
+    Cloud cloud;
+    cloud.model = model;
+    cloud.auto_density = true;
+    if (model == CloudModel::kImplicit) cloud.implicit = std::make_shared<const ImplicitCloud>();
+    if (model == CloudModel::kSpheres) cloud.spheres = std::make_shared<const SpheresCloud>();
+    if (model == CloudModel::kEllipsoids) {
+        auto own = std::make_shared<EllipsoidsCloud>();
+        own->formations.emplace_back();
+        cloud.ellipsoids = own;
+    }
+    return cloud;
+}
+
+// A cloud of any model that says "auto" is 24 deep in the mean along its thinnest axis.
+TEST(AutoDensity, OfACloudThatAsksForItWhateverItsModel) {
+    for (const CloudModel model :
+         {CloudModel::kImplicit, CloudModel::kSpheres, CloudModel::kEllipsoids}) {
+        const Cloud cloud = procedural(model);
+        double least = 1e300;
+        for (int axis = 0; axis < 3; ++axis) least = std::min(least, mean_depth_of(cloud, 0, axis));
+        EXPECT_GT(least, 0.65 * kAutoDepth) << static_cast<int>(model);
+        EXPECT_LT(least, 1.5 * kAutoDepth) << static_cast<int>(model);
+        // A cloud made twice as large is twice as deep. And the scene's "auto" leaves it at the default.
+        const double here = surveyed(cloud).cloud_density[0];
+        Cloud large = cloud;
+        large.scale = 2;
+        EXPECT_NEAR(surveyed(large).cloud_density[0], here / 2, 0.01 * here);
+        large.auto_density = false;
+        EXPECT_EQ(surveyed(large).cloud_density[0], kDefaultDensity);
+    }
+}
+
+// A cloud that grows has one density at all times, and from all eyes.
+TEST(AutoDensity, OfAGrowthIsTheSameAtAllTimes) {
+    Cloud cloud = procedural(CloudModel::kImplicit);
+    auto own = std::make_shared<ImplicitCloud>();
+    own->growth = ImplicitGrowth{};
+    cloud.implicit = own;
+    const double grown = surveyed(cloud, 60).cloud_density[0];
+    EXPECT_EQ(surveyed(cloud, 3).cloud_density[0], grown);
+    EXPECT_GT(mean_depth_of(cloud, 60, 1), 0.5 * kAutoDepth);
+    EXPECT_LT(mean_depth_of(cloud, 3, 1), mean_depth_of(cloud, 60, 1));
 }
 
 TEST(AutoDensity, GivesWayToWhatIsGiven) {

@@ -15,7 +15,7 @@ python3 - <<'PY' || fail "bench.json"
 import json
 report = json.load(open("bench.json"))
 figures = report["figures"]
-assert report["threads"] >= 1 and len(figures) == 9, figures
+assert report["threads"] >= 1 and len(figures) == 11, figures
 assert {f["source"] for f in figures} == {"spheres", "automaton"}
 for figure in figures:
     assert figure["here"] > 0, figure

@@ -247,6 +247,21 @@ inline const Companion kCompanions[] = {
          int time = 0;
          for (json& key : object["keys"]) key["time"] = ++time;
      }},
+    {"ImplicitAttractor", "keys", "keys are in rising order of time",
+     [](json&, json& object) {
+         int time = 0;
+         for (json& key : object["keys"]) key["time"] = ++time;
+     }},
+    {"ImplicitVortex", "keys", "keys are in rising order of time",
+     [](json&, json& object) {
+         int time = 0;
+         for (json& key : object["keys"]) key["time"] = ++time;
+     }},
+    {"ImplicitGrowth", "keys", "keys are in rising order of time",
+     [](json&, json& object) {
+         int time = 0;
+         for (json& key : object["keys"]) key["time"] = ++time;
+     }},
     {"ImplicitGrowth", "seeds", "seeds <= most", [](json&, json& growth) { growth["most"] = 500; }},
     {"ImplicitGrowth", "most", "seeds <= most", [](json&, json& growth) { growth["seeds"] = 1; }},
     {"ImplicitFlow", "", "min < max",

@@ -327,6 +327,10 @@ class Walk {
         return std::nullopt;
     }
     static bool is_word_of(const json& schema, const json& word) {
+        // A word in the place of an object says that it is not there.
+        if (schema.contains("oneOf"))
+            for (const json& one : schema.at("oneOf"))
+                if (one.contains("$ref") || one.contains("properties")) return false;
         if (schema.contains("enum"))
             for (const json& one : schema.at("enum"))
                 if (one == word) return true;

@@ -159,7 +159,7 @@ TEST(Growth, ItsBoxHoldsAllOfThemAtAllTimes) {
     const Box box = growth_box(growth, 9);
     for (const double time : {0.0, 11.3, 30.0, 60.0})
         for (const GrownParticle& p : grown(growth, 9, time)) {
-            const Element e = element_of(p, growth, {});
+            const Element e = element_of(p, {growth.center, growth.radius, growth.weight}, {});
             for (int i = 0; i < 3; ++i) {
                 EXPECT_GE(e.box.min[i], box.min[i] - 1e-9);
                 EXPECT_LE(e.box.max[i], box.max[i] + 1e-9);

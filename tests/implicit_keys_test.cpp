@@ -8,6 +8,7 @@
 
 #include "core/base/deadline.h"
 #include "core/generate/implicit/field.h"
+#include "core/generate/implicit/growth.h"
 #include "core/generate/implicit/sampling.h"
 #include "tests/implicit_clouds.h"
 
@@ -180,6 +181,136 @@ TEST(EveryKey, OfTheCloudItself) {
     half.base = 0;
     all_over({0, 0.5, 0}, 2, 500,
              [&](glm::dvec3 p) { EXPECT_NEAR(density(cloud, p, 1), density(half, p, 1), 1e-5); });
+}
+
+// Warps between keys are those that were described so: straight, and by smoothstep.
+TEST(EveryKey, OfAttractorsAndVortices) {
+    ImplicitCloud cloud = bare({ball({0, 0.5, 0}, 1.5), ball({1, 1, 0}, 1)});
+    cloud.swirl = 0;
+    ImplicitCloud plain = cloud;
+    ImplicitAttractor attractor{{0, 1, 0}, 1, 2, {}};
+    attractor.keys = {
+        {0, glm::dvec3(0, 1, 0), 0.0, {}}, {1, {}, {}, 2.0}, {4, glm::dvec3(1, 1, 0), 2.0, 3.0}};
+    ImplicitVortex vortex{{0, 0, 0}, {0, 1, 0}, 30, 2, {}};
+    vortex.keys = {{0, {}, glm::dvec3(0, 1, 0), 0.0, {}}, {4, {}, glm::dvec3(1, 1, 0), 120.0, {}}};
+    cloud.attractors = {attractor};
+    cloud.vortices = {vortex};
+    for (const bool linear : {true, false}) {
+        cloud.linear_keys = linear;
+        // At 2 s: half of the ways from 0 to 4; of the reach a third of that from 1 to 4.
+        const double third = linear ? 1. / 3 : 1. / 9 * (3 - 2. / 3);
+        plain.attractors = {{{0.5, 1, 0}, 1, 2 + third, {}}};
+        plain.vortices = {{{0, 0, 0}, {0.5, 1, 0}, 60, 2, {}}};
+        expect_same(cloud, 2, plain, 2e-5);
+        // After the last key they stay.
+        plain.attractors = {{{1, 1, 0}, 2, 3, {}}};
+        plain.vortices = {{{0, 0, 0}, {1, 1, 0}, 120, 2, {}}};
+        expect_same(cloud, 9, plain, 2e-5);
+    }
+    // Halfway between opposite axes there is none: that of the vortex holds.
+    vortex.keys = {{0, {}, glm::dvec3(1, 0, 0), 90.0, {}}, {2, {}, glm::dvec3(-1, 0, 0), 90.0, {}}};
+    cloud.attractors.clear();
+    cloud.vortices = {vortex};
+    plain.attractors.clear();
+    plain.vortices = {{{0, 0, 0}, {0, 1, 0}, 90, 2, {}}};
+    expect_same(cloud, 1, plain, 2e-5);
+}
+
+TEST(EveryKey, OfAGrowthAsItIsSeen) {
+    ImplicitCloud cloud = bare({});
+    cloud.primitives.reset();
+    cloud.linear_keys = true;
+    ImplicitGrowth growth;
+    growth.radius = 0.3;
+    cloud.growth = growth;
+    ImplicitCloud plain = cloud;
+    ImplicitGrowthKey first, last;
+    first.radius = 0.2, last.radius = 0.4, last.time = 60;
+    first.center = glm::dvec3(0, 0, 0), last.center = glm::dvec3(2, 0, 0);
+    first.weight = 0, last.weight = 2;
+    cloud.growth->keys = {first, last};
+    plain.growth->center = {1, 0, 0};
+    const auto at_30 = [&](const ImplicitCloud& one, const glm::dvec3& p) {
+        return density(one, p, 30);
+    };
+    int inside = 0;
+    all_over({1, 0.3, 0}, 1.2, 2000, [&](glm::dvec3 p) {
+        const double expected = at_30(plain, p);
+        EXPECT_NEAR(at_30(cloud, p), expected, 2e-5);
+        inside += expected > 0 ? 1 : 0;
+    });
+    EXPECT_GT(inside, 10);
+    EXPECT_EQ(density(cloud, {0, 0, 0}, 0), 0);
+}
+
+// What acts on the particles at a time: a force that ends, a rate that begins.
+TEST(EveryKey, OfAGrowthAsItMoves) {
+    ImplicitGrowth growth;
+    growth.turbulence = growth.drag = 0;
+    growth.velocity = glm::dvec3(0);
+    growth.lifetime = 100;
+    growth.rate = 0;
+    // 1 / s^2 for 20 s of 60, in a step: after that they go on as fast as they are, 20, and have come 200 by then.
+    ImplicitGrowthKey on, off;
+    on.force = glm::dvec3(0, 1, 0), off.force = glm::dvec3(0);
+    on.time = 20 - 1e-9, off.time = 20;
+    growth.keys = {on, off};
+    growth.force = {0, 0, 0};
+    const auto before = implicit::grown(growth, 1, 0), after = implicit::grown(growth, 1, 22);
+    ASSERT_EQ(before.size(), after.size());
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        EXPECT_NEAR(after[i].velocity.y, 20, 1e-6);
+        EXPECT_EQ(after[i].velocity.x, 0);
+    }
+    // Children only from the key on that says so.
+    ImplicitGrowth fertile;
+    fertile.most = 200;
+    ImplicitGrowthKey none, many;
+    none.rate = 0, none.time = 10 - 1e-9, many.rate = 5, many.time = 10;
+    fertile.keys = {none, many};
+    EXPECT_EQ(implicit::grown(fertile, 1, 9.5).size(), fertile.seeds);
+    EXPECT_GT(implicit::grown(fertile, 1, 24).size(), fertile.seeds + 20);
+}
+
+// Nothing is outside the box, at no time, and it is the same at all.
+TEST(EveryKey, TheBoxHoldsAllTimesOfWarpsAndGrowths) {
+    ImplicitCloud cloud = bare({});
+    cloud.primitives.reset();
+    cloud.growth = ImplicitGrowth{};
+    cloud.growth->radius = 0.4;
+    ImplicitGrowthKey first, last;
+    first.radius = 0.6, last.radius = 0.1, last.time = 40;
+    first.center = glm::dvec3(-1, 0, 0), last.center = glm::dvec3(2, 1, 0);
+    last.force = glm::dvec3(0, 0, 0.05);
+    cloud.growth->keys = {first, last};
+    ImplicitAttractor attractor{{0, 1, 0}, 0, 2, {}};
+    attractor.keys = {{0, glm::dvec3(-2, 0, 0), 2.0, 1.0}, {30, glm::dvec3(2, 1, 0), -0.9, 3.0}};
+    ImplicitVortex vortex{{0, 0, 0}, {0, 1, 0}, 0, 0.5, {}};
+    vortex.keys = {{10, {}, {}, 0.0, {}},
+                   {50, glm::dvec3(1, 0, 1), glm::dvec3(0, 0, 1), 400.0, 3.0}};
+    cloud.attractors = {attractor};
+    cloud.vortices = {vortex};
+    const implicit::Box box = box_of(prepare_field(cloud, test::kKey, 0));
+    int inside = 0;
+    for (const double time : {-1.0, 0.0, 7.0, 20.0, 35.0, 50.0, 70.0}) {
+        const implicit::ImplicitField field = prepare_field(cloud, test::kKey, time);
+        EXPECT_EQ(box_of(field).min, box.min);
+        EXPECT_EQ(box_of(field).max, box.max);
+        all_over({0, 0.5, 0}, 3, 8000, [&](glm::dvec3 p) {
+            if (implicit::density_at(field, p) <= 0) return;
+            ++inside;
+            for (int i = 0; i < 3; ++i) {
+                EXPECT_GE(p[i], box.min[i] - 1e-4);
+                EXPECT_LE(p[i], box.max[i] + 1e-4);
+            }
+            implicit::Box here;
+            here.add(p);
+            float one = 0;
+            implicit::row_densities(field, implicit::elements_near(field, here), {p, 0, 1}, &one);
+            EXPECT_NEAR(static_cast<double>(one), implicit::density_at(field, p), 1e-6);
+        });
+    }
+    EXPECT_GT(inside, 50);
 }
 
 // Squash and stretch keeps the volume, at every time, with all that the cloud has.

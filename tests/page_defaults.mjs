@@ -98,8 +98,8 @@ const silentControls = (page, scene) => page.evaluate(async (document_) => {
       said.add(place);
       continue;
     }
-    // A switch is off: they show what it begins with. (Hills have no word for that they are off.)
-    if (held === undefined && (holder === "/ground/terrain" || typeof standardAt(document_, holder) === "string")) continue;
+    // A switch is off: they show what it begins with.
+    if (held === undefined && typeof standardAt(document_, holder) === "string") continue;
     if (!found.has(place)) found.set(place, { pointer: place, shown: [] });
     found.get(place).shown[axis === undefined ? 0 : Number(axis)] = shown;
   }

@@ -139,6 +139,26 @@ TEST(RatioPlot, DrawsABarARowAsLongAsItsLogarithm) {
     EXPECT_EQ(plot_ratios("", "", many, PlotTheme::kDark).error().code, ErrorCode::kTooLarge);
 }
 
+// What stands at the right end is there to its last letter.
+TEST(RatioPlot, CutsNoFigures) {
+    for (const char* const figures : {"120 frames/s / 1,234 frames/s", "22116 ms / 1234 ms"}) {
+        const auto with = [&](const std::string& text) {
+            const std::vector<RatioRow> rows = {
+                {"one", "50,000 particles, 1152 x 864, splats", text, 3}};
+            return decoded(*plot_ratios("Figures", "there / here", rows, PlotTheme::kLight));
+        };
+        const Decoded image = with(figures), other = with(std::string(figures) + "!");
+        int differ = 0, edge = 0;
+        for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+            const auto x = static_cast<int>(i / 3) % image.width;
+            differ += x > image.width - 60 && image.pixels[i] != other.pixels[i];
+            edge += x > image.width - 20 && image.pixels[i] < 200;
+        }
+        EXPECT_GT(differ, 3) << figures;
+        EXPECT_EQ(edge, 0) << figures;
+    }
+}
+
 TEST(Plot, DrawsAnyTitle) {
     const AccuracyReport report = fake_report({{"harris", 40, 0.3}});
     for (const std::string& title :

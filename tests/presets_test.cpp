@@ -52,6 +52,16 @@ TEST(Presets, GiveWayToWhatTheDocumentSays) {
     EXPECT_TRUE(validate(sunlit).ok());
     EXPECT_FALSE(parsed(R"({"preset": "noon-cumulus", "ground": null})").ground);
     EXPECT_TRUE(parsed(R"({"preset": "noon-cumulus"})").ground);
+    // A word takes what a preset has away: its hills, and the rest of its ground stays.
+    const SceneDraft hills = parsed(R"({"preset": "mountain-cumulus"})");
+    const SceneDraft level =
+        parsed(R"({"preset": "mountain-cumulus", "ground": {"terrain": "none"}})");
+    ASSERT_TRUE(hills.ground && hills.ground->terrain && level.ground);
+    EXPECT_FALSE(level.ground->terrain);
+    EXPECT_EQ(level.ground->albedo, hills.ground->albedo);
+    // To say so where there are none is to say nothing.
+    EXPECT_EQ(scene_to_json(parsed(R"({"ground": {"terrain": "none"}, "cubes": []})")),
+              scene_to_json(parsed(R"({"ground": {}, "cubes": []})")));
 }
 
 TEST(Presets, AreToldApartFromMistakes) {

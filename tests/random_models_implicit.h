@@ -201,11 +201,13 @@ struct RandomImplicit {
         if (dice.chance(0.3)) c.warp_from = time(), c.warp_to = time();
         for (int i = dice.chance(0.3) ? dice.below(4) : 0; i > 0; --i)
             c.attractors.push_back(
-                {place(), share(limits::kMinAttraction, limits::kMaxAttraction), length()});
+                {place(), share(limits::kMinAttraction, limits::kMaxAttraction), length(), {}});
         for (int i = dice.chance(0.3) ? dice.below(4) : 0; i > 0; --i)
-            c.vortices.push_back({place(), dice.on_sphere() * dice.log_between(1e-5, 1e5),
+            c.vortices.push_back({place(),
+                                  dice.on_sphere() * dice.log_between(1e-5, 1e5),
                                   share(-limits::kMaxVortexAngle, limits::kMaxVortexAngle),
-                                  length()});
+                                  length(),
+                                  {}});
         if (!dice.chance(0.25)) return;
         ImplicitFlow flow;
         flow.min = place();
@@ -216,6 +218,45 @@ struct RandomImplicit {
         for (int i = static_cast<int>(flow.size.x * flow.size.y * flow.size.z); i > 0; --i)
             flow.vectors.push_back(place() * 0.1);
         c.flow = flow;
+    }
+
+    // Keys of warps and of the growth; last of all, so that the rest of a seed's cloud is what it was without them.
+    void moving(ImplicitCloud& c) {
+        for (ImplicitAttractor& one : c.attractors) {
+            double at = dice.between(-5, 60);
+            for (int i = dice.chance(0.3) ? dice.below(4) : 0; i > 0; --i, at += 1) {
+                ImplicitAttractorKey& key = one.keys.emplace_back();
+                key.time = at;
+                if (dice.chance(0.6)) key.at = place();
+                if (dice.chance(0.6))
+                    key.strength = share(limits::kMinAttraction, limits::kMaxAttraction);
+                if (dice.chance(0.6)) key.reach = length();
+            }
+        }
+        for (ImplicitVortex& one : c.vortices) {
+            double at = dice.between(-5, 60);
+            for (int i = dice.chance(0.3) ? dice.below(4) : 0; i > 0; --i, at += 1) {
+                ImplicitVortexKey& key = one.keys.emplace_back();
+                key.time = at;
+                if (dice.chance(0.6)) key.at = place();
+                if (dice.chance(0.6)) key.axis = dice.on_sphere() * dice.log_between(1e-5, 1e5);
+                if (dice.chance(0.6))
+                    key.angle = share(-limits::kMaxVortexAngle, limits::kMaxVortexAngle);
+                if (dice.chance(0.6)) key.reach = length();
+            }
+        }
+        if (!c.growth) return;
+        double at = dice.between(-5, 60);
+        for (int i = dice.chance(0.3) ? dice.below(4) : 0; i > 0; --i, at += 1) {
+            ImplicitGrowthKey& key = c.growth->keys.emplace_back();
+            key.time = at;
+            if (dice.chance(0.5)) key.center = place();
+            if (dice.chance(0.5)) key.radius = length();
+            if (dice.chance(0.5)) key.weight = weight();
+            if (dice.chance(0.5)) key.turbulence = share(0, limits::kMaxGrowthMotion);
+            if (dice.chance(0.5)) key.drag = share(0, limits::kMaxGrowthMotion);
+            if (dice.chance(0.5)) key.rate = share(0, 1000);
+        }
     }
 
     void style(ImplicitCloud& c) {
@@ -276,6 +317,7 @@ inline Cloud random_implicit(Dice& dice, const Whereabouts& where) {
     const double depth = dice.chance(0.1) ? 0 : dice.log_between(1e-6, 1e6);
     cloud.density =
         std::min(depth / where.size, limits::kMaxDensity / limits::kMaxImplicitDensity / 2);
+    random.moving(*c);
     return cloud;
 }
 

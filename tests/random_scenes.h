@@ -235,6 +235,30 @@ inline void scatter(Dice& dice, const Whereabouts& where, SceneDraft& draft) {
     if (dice.chance(0.5)) draft.camera.automatic = true;
 }
 
+// Hills, on some of the grounds; last of all, as scatter().
+inline void raise_hills(Dice& dice, const Whereabouts& where, SceneDraft& draft) {
+    if (!draft.ground || !dice.chance(0.5)) return;
+    Terrain& terrain = draft.ground->terrain.emplace();
+    const auto length = [](double size) {
+        return std::clamp(size, limits::kMinLength, limits::kMaxLength);
+    };
+    terrain.height = dice.chance(0.1)
+                         ? 0
+                         : std::min(where.size * dice.log_between(1e-3, 10), limits::kMaxLength);
+    terrain.extent = length(where.size * dice.log_between(0.1, 1e3));
+    terrain.center = where.middle;
+    terrain.size = length(terrain.extent * dice.log_between(1e-3, 2));
+    terrain.roughness = dice.chance(0.2) ? dice.either({0, 1}) : dice.uniform();
+    terrain.level = dice.chance(0.5) ? 0 : dice.between(0, limits::kMaxTerrainLevel);
+    terrain.seed = static_cast<std::uint64_t>(dice.below(1000));
+    if (dice.chance(0.3)) terrain.rock = glm::dvec3(dice.uniform(), dice.uniform(), dice.uniform());
+    if (dice.chance(0.3))
+        terrain.snow = std::clamp(terrain.height * dice.uniform(), 0.0, limits::kMaxLength);
+    if (dice.chance(0.1))
+        draft.effects[static_cast<int>(Effect::kTerrain)] =
+            dice.chance(0.5) ? Switch::kOff : Switch::kOn;
+}
+
 inline RandomScene random_scene(std::uint64_t seed) {
     Dice dice(seed);
     RandomScene random;
@@ -299,6 +323,7 @@ inline RandomScene random_scene(std::uint64_t seed) {
             draft.effects[static_cast<int>(effect)] = dice.chance(0.5) ? Switch::kOff : Switch::kOn;
     random_surroundings(dice, where, random);
     if (dice.chance(0.15)) scatter(dice, where, draft);
+    raise_hills(dice, where, draft);
     return random;
 }
 

@@ -61,6 +61,61 @@ TEST(TextureFile, APictureWithoutAlphaIsAsDeepAsItIsBright) {
     EXPECT_NEAR(depth[kTextureSide - 1], 124, 2);
 }
 
+// The hue that each half of a picture gives, and the depth it is at.
+std::array<int, 4> hue_at(const Texture& texture, int x, int y) {
+    const auto at = static_cast<std::size_t>(y * kTextureSide + x);
+    if (texture.color.empty()) return {255, 255, 255, texture.depth[at]};
+    return {texture.color[3 * at], texture.color[3 * at + 1], texture.color[3 * at + 2],
+            texture.depth[at]};
+}
+
+TEST(TextureFile, ItsHueIsTakenAndItsBrightnessIsNot) {
+    // Left half red to the half, right half blue, both half as bright as they can be; all opaque to the half.
+    Image image = image_of(kTextureSide, kTextureSide, 0.5f);
+    for (std::size_t i = 0; i < image.pixel_count(); ++i) {
+        const bool left = i % kTextureSide < kTextureSide / 2;
+        float* const pixel = &image.pixels[4 * i];
+        pixel[0] = left ? 0.25f : 0.05f;
+        pixel[1] = 0.05f;
+        pixel[2] = left ? 0.05f : 0.25f;
+    }
+    const auto texture = read_texture("mine", png_of(image));
+    ASSERT_TRUE(texture.ok()) << texture.error().message;
+    ASSERT_EQ((*texture)->color.size(), std::size_t{3 * kTextureSide * kTextureSide});
+    // Straight, .5 and .1 in sRGB: 188 and 89.
+    const auto left = hue_at(**texture, 20, 60), right = hue_at(**texture, 100, 60);
+    EXPECT_EQ(left[0], 255);
+    EXPECT_NEAR(left[1], 255.0 * 89 / 188, 12);
+    EXPECT_NEAR(left[2], 255.0 * 89 / 188, 12);
+    EXPECT_NEAR(right[0], 255.0 * 89 / 188, 12);
+    EXPECT_EQ(right[2], 255);
+    EXPECT_NEAR(left[3], 128, 1);
+    // The same matter in white is another texture, of the same depth.
+    Image white = image_of(kTextureSide, kTextureSide, 0.5f);
+    const auto plain = read_texture("mine", png_of(white));
+    ASSERT_TRUE(plain.ok());
+    EXPECT_EQ((*plain)->depth, (*texture)->depth);
+    EXPECT_NE((*plain)->hash, (*texture)->hash);
+}
+
+TEST(TextureFile, AGreyOneIsAsAWhiteOne) {
+    // Of every brightness and opacity, with what dither and rounding make of it.
+    Image grey = image_of(kTextureSide, kTextureSide, 0), white = grey;
+    for (std::size_t i = 0; i < grey.pixel_count(); ++i) {
+        const float alpha = static_cast<float>(i % 128) / 127,
+                    light = static_cast<float>(i / 128) / 127;
+        for (std::size_t c = 0; c < 3; ++c) {
+            grey.pixels[4 * i + c] = light * alpha;
+            white.pixels[4 * i + c] = alpha;
+        }
+        grey.pixels[4 * i + 3] = white.pixels[4 * i + 3] = alpha;
+    }
+    const auto a = read_texture("mine", png_of(grey)), b = read_texture("mine", png_of(white));
+    ASSERT_TRUE(a.ok() && b.ok());
+    EXPECT_TRUE((*a)->color.empty());
+    EXPECT_EQ((*a)->hash, (*b)->hash);
+}
+
 TEST(TextureFile, AnOblongStandsInTheMiddleOfItsSquare) {
     const auto texture = read_texture("mine", png_of(image_of(300, 100, 1)));
     ASSERT_TRUE(texture.ok()) << texture.error().message;

@@ -300,6 +300,41 @@ TEST(TexturePicture, ATextureStandsAsItsPictureDoes) {
     EXPECT_LT(alpha(2.2 * glm::dvec2(at.y, -at.x)), 0.01);
 }
 
+// What a billboard scatters is multiplied by its texture's colour, as linear light, and what is behind it is hidden as
+// much as by a white one; the haze before it has its own colour.
+TEST(TexturePicture, ColoursTintTheLight) {
+    Texture tinted{"tinted", "", own_texture_depth(0)};
+    tinted.color.resize(3 * tinted.depth.size());
+    for (std::size_t i = 0; i < tinted.depth.size(); ++i) {
+        const std::uint8_t code[3] = {255, 188, 0};
+        std::copy_n(code, 3, &tinted.color[3 * i]);
+    }
+    tinted.hash = texture_hash(tinted.depth, tinted.color);
+    EXPECT_NE(tinted.hash, texture_hash(tinted.depth));
+    SceneDraft draft = painted({{{0, 0, 0}, 1, 1}, {{0.4, 0.3, 0.5}, 0.8, 3}}, "soft");
+    const Rendered white = render(draft);
+    draft.textures = {std::make_shared<const Texture>(tinted)};
+    draft.texture = "tinted";
+    const Rendered colored = render(draft);
+    const double share[4] = {1, std::pow((188 / 255.0 + .055) / 1.055, 2.4), 0, 1};
+    double most = 0;
+    for (std::size_t i = 0; i < white.image.pixels.size(); ++i) {
+        const auto here = static_cast<double>(white.image.pixels[i]);
+        most = std::max(most, here);
+        EXPECT_NEAR(static_cast<double>(colored.image.pixels[i]), share[i % 4] * here,
+                    1e-3 * (1e-3 + here));
+    }
+    EXPECT_GT(most, 0.1);
+    draft.haze = Haze{};
+    draft.haze->extinction = 0.02;
+    draft.haze->scale_height = 1000;
+    const Rendered hazy = render(draft);
+    const auto middle = static_cast<std::size_t>(
+        4 * (hazy.image.height / 2 * hazy.image.width + hazy.image.width / 2));
+    EXPECT_GT(hazy.image.pixels[middle + 2], 0.01F);
+    EXPECT_LT(hazy.image.pixels[middle + 2], hazy.image.pixels[middle]);
+}
+
 TEST(TexturePicture, TheNearerHidesTheFarther) {
     SceneDraft draft =
         painted({{{0, 0, -2}, 3, 50, {1, 0, 0}}, {{0, 0, 2}, 3, 50, {0, 1, 0}}}, "soft");

@@ -9,7 +9,9 @@ const triple = (over, member, step = 1) => ["x", "y", "z"].map((title, axis) => 
 const MAKERS = ["growth", "bubbles", "billows", "cells"];
 const has = (own, member) => own[member] !== null && typeof own[member] === "object";
 const shapesOfItsOwn = (own) => Array.isArray(own.primitives) || own.particles?.length > 0 || MAKERS.some((member) => has(own, member));
-const changes = (own) => shapesOfItsOwn(own) || own.keys?.length > 0 || own.squash?.keys?.length > 0 || /\btime\b/.test(own.formula ?? "");
+const keyed = (rows) => Array.isArray(rows) && rows.some((row) => row?.keys?.length > 0);
+const changes = (own) => shapesOfItsOwn(own) || own.keys?.length > 0 || own.squash?.keys?.length > 0
+  || keyed(own.attractors) || keyed(own.vortices) || /\btime\b/.test(own.formula ?? "");
 
 // Cylinders and segments need a line, and only they may have one; only ellipsoids have radii, and no core.
 function reshaped({ points, radii, ...row }, shape) {
@@ -146,6 +148,14 @@ export const implicit = {
         { member: "lifetime", label: "Lifetime", min: 1, max: 120, step: 1 },
         { member: "rate", label: "Children / s", min: 0, max: 3, step: 0.005 },
         { member: "duration", label: "Duration", min: 1, max: 300, step: 1 },
+        { kind: "table", member: "keys", title: "Keys of the growth", noun: "growth key", one: "a key of the growth",
+          why: "Centre, radius and weight are of the whole colony then; the others act on its particles. The force: as JSON below.",
+          fresh: { time: 0 }, make: afterTheLast({ time: 0 }),
+          columns: [
+            { title: "time", member: "time" }, ...triple("centre", "center"), { title: "radius", member: "radius" },
+            { title: "weight", member: "weight", step: 0.1 }, { title: "turbulence", member: "turbulence", step: 0.005 },
+            { title: "drag", member: "drag", step: 0.01 }, { title: "children / s", member: "rate", step: 0.01 },
+          ] },
       ] },
     ] },
     { kind: "section", title: "Processes", fields: [
@@ -205,9 +215,11 @@ export const implicit = {
       { kind: "number", member: "warp_from", label: "From" },
       { kind: "number", member: "warp_to", label: "Full at" },
       { kind: "table", member: "attractors", title: "Attractors", noun: "attractor", one: "an attractor",
+        why: "Their keys: as JSON below.",
         fresh: { at: [0, 40, 0], strength: 1, reach: 60 },
         columns: [...triple("at", "at"), { title: "strength", member: "strength", step: 0.1 }, { title: "reach", member: "reach" }] },
       { kind: "table", member: "vortices", title: "Vortices", noun: "vortex", one: "a vortex",
+        why: "Their keys: as JSON below.",
         fresh: { at: [0, 0, 0], axis: [0, 1, 0], angle: 180, reach: 80 },
         columns: [...triple("at", "at"), { title: "angle, °", member: "angle", step: 10 }, { title: "reach", member: "reach" }, ...triple("axis", "axis", 0.1)] },
     ] },

@@ -7,8 +7,8 @@ import { pictureButton } from "./textures.js";
 
 // `fresh`: what it is when it is first switched on. Its fields write whole objects, so that what is required is there.
 // What is there by itself ("auto") is switched off by the word "none".
-// `within`: the scene with the object that this one is in, if it is in one.
-function optional(store, { title, pointer, label, fresh = {}, sliders, within = (scene) => scene }) {
+// `within`: the scene with the object that this one is in, if it is in one. `inWords`: that it is off is said.
+function optional(store, { title, pointer, label, fresh = {}, sliders, within = (scene) => scene, inWords = false }) {
   const now = () => {
     const value = at(store.scene, pointer);
     return value !== null && typeof value === "object" ? value : null;
@@ -22,7 +22,7 @@ function optional(store, { title, pointer, label, fresh = {}, sliders, within = 
       set: (on) => {
         if (!on) kept = now() ?? kept;
         if (on && within(store.scene) !== store.scene) store.update((scene) => withAt(within(scene), pointer, kept));
-        else store.set(pointer, on ? kept : byItself ? "none" : undefined);
+        else store.set(pointer, on ? kept : byItself || inWords ? "none" : undefined);
       },
     }),
     ...sliders.map(({ member, ...spec }) => slider(store, {
@@ -52,7 +52,7 @@ export function groundPanel(store) {
   });
   const pointer = "/ground/terrain";
   const hills = optional(store, {
-    title: "Hills", pointer, label: "Hills on it", fresh: { height: 5 },
+    title: "Hills", pointer, label: "Hills on it", fresh: { height: 5 }, inWords: true,
     within: (scene) => (typeof (at(scene, "/ground") ?? "none") !== "object" ? withAt(scene, "/ground", FRESH_GROUND) : scene),
     sliders: [
       { label: "Hills’ height", member: "height", min: 0.1, max: 100, log: true },

@@ -15,7 +15,10 @@ namespace {
 // Pixels.
 constexpr double kRatioWidth = 1120, kRatioMargin = 28;
 constexpr double kRatioHeader = 62, kRatioGroup = 34, kRatioRow = 24, kRatioFoot = 44;
-constexpr double kRatioNames = 400, kRatioFigures = 230;
+// The columns of text are as wide as what stands in them, within these; the bars have the rest.
+constexpr double kFewestNames = 200, kMostNames = 470, kFewestFigures = 60, kMostFigures = 260;
+// Of the ratio, before the figures.
+constexpr double kRatioTimes = 72;
 // More would be a picture that nobody looks at.
 constexpr std::size_t kMostRows = 400;
 
@@ -60,9 +63,17 @@ Result<std::string> plot_ratios(const std::string& title, const std::string& abo
     canvas.text(canvas.cut(about, kRatioWidth - 2 * kRatioMargin, kRatioSmall), kRatioMargin, 49,
                 kRatioSmall);
 
+    double name_width = kFewestNames, figure_width = kFewestFigures;
+    for (const RatioRow& row : rows) {
+        name_width = std::max(name_width, canvas.text_width(row.what, kRatioName) + 13);
+        figure_width = std::max(figure_width, canvas.text_width(row.figures, kRatioSmall) + 1);
+    }
+    name_width = std::min(name_width, kMostNames);
+    figure_width = std::min(figure_width, kMostFigures);
+
     const LogAxis axis = axis_with_one(rows);
-    const PlotBox area{kRatioMargin + kRatioNames, kRatioHeader,
-                       kRatioWidth - 2 * kRatioMargin - kRatioNames - kRatioFigures,
+    const PlotBox area{kRatioMargin + name_width, kRatioHeader,
+                       kRatioWidth - 2 * kRatioMargin - name_width - kRatioTimes - figure_width,
                        height - kRatioHeader - kRatioFoot};
     const auto x_of = [&](double ratio) { return area.x + area.width * axis.share(ratio); };
     canvas.color(colors.panel);
@@ -95,7 +106,7 @@ Result<std::string> plot_ratios(const std::string& title, const std::string& abo
         }
         y += kRatioRow;
         canvas.color(colors.ink);
-        canvas.text(canvas.cut(row.what, kRatioNames - 12, kRatioName), kRatioMargin, y - 8,
+        canvas.text(canvas.cut(row.what, name_width - 12, kRatioName), kRatioMargin, y - 8,
                     kRatioName);
         const double from = x_of(1), to = x_of(row.times_as_fast);
         canvas.color(row.times_as_fast >= 1 ? colors.accent : colors.above);
@@ -105,7 +116,7 @@ Result<std::string> plot_ratios(const std::string& title, const std::string& abo
         canvas.text(times_text(row.times_as_fast), area.right() + 12, y - 8,
                     {12, true, Align::kLeft});
         canvas.color(colors.quiet);
-        canvas.text(canvas.cut(row.figures, kRatioFigures - 72, kRatioSmall), area.right() + 72,
+        canvas.text(canvas.cut(row.figures, figure_width, kRatioSmall), area.right() + kRatioTimes,
                     y - 8, kRatioSmall);
     }
     return canvas.png();

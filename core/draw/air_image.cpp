@@ -6,7 +6,7 @@
 
 namespace awan {
 
-void see_through_air(const Air& air, const View& view, const glm::dvec3& q, Splat& splat) {
+float see_through_air(const Air& air, const View& view, const glm::dvec3& q, Splat& splat) {
     const double distance = glm::length(q);
     const glm::dvec3 d = distance > 0
                              ? (q.x * view.right + q.y * view.up + q.z * view.forward) / distance
@@ -28,10 +28,11 @@ void see_through_air(const Air& air, const View& view, const glm::dvec3& q, Spla
     // A splat has one factor for all of `other`: the mean of its own and of 1, the veil's, weighted by their light.
     const float own = splat.other.x + splat.other.y + splat.other.z;
     const auto veiled = static_cast<float>(veil.x + veil.y + veil.z);
-    if (!(veiled > 0)) return;
+    if (!(veiled > 0)) return 0;
     const float share = own / (own + veiled);
     for (int c = 0; c < 3; ++c) splat.other[c] += static_cast<float>(veil[c]);
     splat.other.w = share * splat.other.w + (1 - share);
+    return 1 - share;
     splat.change *= share;
     splat.change.w += 1 - share;
 }

@@ -56,16 +56,45 @@ std::vector<float> opacity_of(const Texture& texture, double depth) {
     return texels;
 }
 
-std::vector<float> halved(const std::vector<float>& texels) {
-    const auto side = static_cast<std::size_t>(std::lround(std::sqrt(texels.size())));
+std::vector<float> halved(const std::vector<float>& texels, std::size_t channels) {
+    const auto side = static_cast<std::size_t>(
+        std::lround(std::sqrt(static_cast<double>(texels.size() / channels))));
     std::vector<float> means;
     means.reserve(texels.size() / 4);
     for (std::size_t y = 0; y < side; y += 2)
-        for (std::size_t x = 0; x < side; x += 2) {
-            const float* const at = &texels[y * side + x];
-            means.push_back(0.25f * (at[0] + at[1] + at[side] + at[side + 1]));
-        }
+        for (std::size_t x = 0; x < side; x += 2)
+            for (std::size_t c = 0; c < channels; ++c) {
+                const float* const at = &texels[(y * side + x) * channels + c];
+                const std::size_t down = side * channels;
+                means.push_back(0.25f * (at[0] + at[channels] + at[down] + at[down + channels]));
+            }
     return means;
+}
+
+bool has_colors(const Scene& scene) {
+    const auto used = textures_of(*scene);
+    return std::any_of(used.begin(), used.end(), [&](std::string_view hash) {
+        return std::any_of(scene->textures.begin(), scene->textures.end(), [&](const auto& given) {
+            return given->hash == hash && !given->color.empty();
+        });
+    });
+}
+
+gl::TextureArray upload_colors(const Scene& scene, bool plain) {
+    const std::vector<std::string_view> used = textures_of(*scene);
+    gl::TextureArray array(kTextureSide, static_cast<int>(used.size()) + (plain ? 1 : 0), 3);
+    int layer = 0;
+    const auto put = [&](std::vector<float> texels) {
+        for (int mip = 0; !texels.empty(); ++mip) {
+            array.put(layer, mip, texels);
+            texels = texels.size() > 3 ? halved(texels, 3) : std::vector<float>();
+        }
+        ++layer;
+    };
+    for (const std::string_view hash : used) put(linear_colors(*texture_of_hash(*scene, hash)));
+    if (plain)
+        put(std::vector<float>(3 * static_cast<std::size_t>(kTextureSide) * kTextureSide, 1.0F));
+    return array;
 }
 
 Result<gl::TextureArray> upload_textures(const Scene& scene, const DepthLevels& levels,

@@ -20,8 +20,14 @@ DepthLevels depth_levels(const ParticleSet& particles);
 // mass is kept: that of its Gaussian is shared out over the square by the texture.
 std::vector<float> opacity_of(const Texture& texture, double depth);
 
-// Half as many rows and columns: the means of four. side: a power of 2.
-std::vector<float> halved(const std::vector<float>& texels);
+// Half as many rows and columns: the means of four. Their side: a power of 2.
+std::vector<float> halved(const std::vector<float>& texels, std::size_t channels = 1);
+
+// Whether any of the textures that the scene is painted with has colours.
+bool has_colors(const Scene& scene);
+
+// textures_of(scene) and, if `plain`, a white one behind them: a layer of three channels each.
+gl::TextureArray upload_colors(const Scene& scene, bool plain = false);
 
 // On the renderer: textures_of(scene), kDepthLevels layers each. Errors: of the deadline.
 Result<gl::TextureArray> upload_textures(const Scene& scene, const DepthLevels& levels,

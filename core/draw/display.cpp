@@ -154,13 +154,14 @@ Result<Image> draw_display(const Scene& scene, const ParticleSet& particles, con
 
     const auto program = device.programs().display();
     if (!program.ok()) return program.error();
-    const gl::TextureArray textures = plain_textures(scene);
+    const gl::TextureArray textures = plain_textures(scene), colors = upload_colors(scene, true);
     const int rows = std::clamp(kBandPixels / image.width, 1, image.height);
     const Canvas canvas(image.width, rows);
     for (int top = 0; top < image.height; top += rows) {
         canvas.begin(image.opaque ? kBackground : glm::vec4(0));
         (*program)->use();
         textures.bind(1);
+        colors.bind(2);
         // Rows count downward from the picture's top: row `top` is at y = 1 - 2 top / height, and becomes -1.
         const double scale = -static_cast<double>(image.height) / rows;
         const double y_top = 1 - 2.0 * top / image.height;

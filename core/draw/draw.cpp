@@ -34,6 +34,7 @@ struct Drawing {
     const Deadline& deadline;
     bool sky;                          // the program draws the sky behind
     const gl::TextureArray* textures;  // null: nothing is painted
+    const gl::TextureArray* colors;    // null: none of them has any
     const SplatDetail* detail;         // null: there is none
 };
 
@@ -157,7 +158,7 @@ Result<Image> draw_splats(const Drawing& drawing, const SplatWindow& window,
         (list.reaches_eye &&
          drawing.scene->effects[static_cast<int>(Effect::kInterior)] != Switch::kOff);
     if (drawing.textures != nullptr) {
-        const auto painted = programs.painted(half_lines);
+        const auto painted = programs.painted(half_lines, drawing.colors != nullptr);
         if (!painted.ok()) return painted.error();
         (*painted)->use();
     } else if (drawing.detail != nullptr) {
@@ -177,6 +178,7 @@ Result<Image> draw_splats(const Drawing& drawing, const SplatWindow& window,
             splats.bind(0);
             paint.bind(1);
             if (drawing.textures != nullptr) drawing.textures->bind(2);
+            if (drawing.colors != nullptr) drawing.colors->bind(3);
             return draw_region(region, drawing.deadline, spare, image);
         });
     if (status) return *status;
@@ -265,12 +267,13 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
     const bool opaque = scene->image.background == Background::kSky;
     // The program draws no sky where something else is put behind the clouds below.
     const bool backdrop = opaque && wants_backdrop(scene, view);
-    std::optional<gl::TextureArray> textures;
+    std::optional<gl::TextureArray> textures, colors;
     if (splats.levels) {
         auto uploaded = timed_for(took, Effect::kTexture,
                                   [&] { return upload_textures(scene, *splats.levels, deadline); });
         if (!uploaded.ok()) return uploaded.error();
         textures.emplace(*std::move(uploaded));
+        if (has_colors(scene)) colors.emplace(upload_colors(scene));
     }
     std::optional<SplatDetail> detail;
     if (!textures && particles.detail && plan.on(Effect::kDetail) && particles.size() > 0)
@@ -284,6 +287,7 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
                           deadline,
                           opaque && !backdrop && haze == nullptr && !coarse,
                           textures ? &*textures : nullptr,
+                          colors ? &*colors : nullptr,
                           detail ? &*detail : nullptr};
     std::vector<std::uint32_t> order = drawing_order(scene, particles, view, plan);
     ImageSettings size = scene->image;

@@ -164,6 +164,7 @@ Seen see_billboard(const SplatSetting& setting, std::size_t i, const SplatWindow
     const double level = pixel > texel ? exact::log2(pixel / texel) : 0;
     painted.across = glm::vec4(glm::dvec4(across / (half * half), layer));
     painted.up = glm::vec4(glm::dvec4(up / (half * half), level));
+    painted.tint.x = static_cast<float>(paint.texture - 1);
     seen.reach = std::numbers::sqrt2 * half;
     seen.tiles = tiles_of(seen, window);
     return seen;
@@ -341,7 +342,7 @@ SplatList make_splats(const SplatSetting& setting, const SplatWindow& window,
             particles.color.empty() ? glm::dvec3(1) : glm::dvec3(particles.color[i]);
         const ParticleLight* lit = lighting.particles.empty() ? nullptr : &lighting.particles[i];
         Splat splat = make_splat(seen, color, lit, view, window, sources);
-        if (air != nullptr) see_through_air(*air, view, seen.q, splat);
+        if (air != nullptr) painted.tint.y = see_through_air(*air, view, seen.q, splat);
         if (sorted && !is_billboard && previous < particles.size() &&
             particles.center[i] == particles.center[previous] &&
             particles.radius[i] == particles.radius[previous]) {

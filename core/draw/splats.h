@@ -35,7 +35,7 @@ struct Splat {
 
 // How a splat is painted, laid out as in splat.glsl.
 struct PaintedSplat {
-    glm::vec4 across{0, 0, 0, -1}, up{0};
+    glm::vec4 across{0, 0, 0, -1}, up{0}, tint{0};
 };
 
 struct SplatList {

@@ -127,8 +127,9 @@ Result<GreyPicture> read_picture(std::string_view bytes, const Deadline& deadlin
     into.close();
 
     std::string said;
-    constexpr std::size_t kMost =
-        sizeof(PictureHead) + limits::kMaxTexturePixels + 2 * kPictureHeights * kPictureHeights;
+    constexpr std::size_t kHueBytes = 3 * kPictureHues * kPictureHues;
+    constexpr std::size_t kMost = sizeof(PictureHead) + limits::kMaxTexturePixels +
+                                  2 * kPictureHeights * kPictureHeights + kHueBytes;
     if (const Status over = read_all(from.get(), kMost, deadline, said)) return *over;
     PictureHead head;
     if (said.size() >= sizeof head) std::memcpy(&head, said.data(), sizeof head);
@@ -141,11 +142,13 @@ Result<GreyPicture> read_picture(std::string_view bytes, const Deadline& deadlin
     const std::size_t pixels = area(head.width, head.height, kSide),
                       heights = area(head.across, head.down, kPictureHeights);
     if (head.outcome == PictureOutcome::kRead && pixels > 0 && heights > 0 &&
-        rest.size() == pixels + 2 * heights) {
-        GreyPicture picture{head.width, head.height, {}, head.across, head.down, {}};
+        rest.size() == pixels + 2 * heights + (head.colored == 1 ? kHueBytes : 0)) {
+        GreyPicture picture{head.width, head.height, {}, head.across, head.down, {}, {}};
         picture.values.assign(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(pixels));
         picture.luminance.resize(heights);
         std::memcpy(picture.luminance.data(), rest.data() + pixels, 2 * heights);
+        const std::string_view hues = rest.substr(pixels + 2 * heights);
+        picture.hues.assign(hues.begin(), hues.end());
         return picture;
     }
     if (head.outcome == PictureOutcome::kTooLarge)

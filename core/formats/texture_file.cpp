@@ -75,9 +75,11 @@ Result<std::shared_ptr<const Texture>> read_texture(std::string name, std::strin
     if (std::all_of(depth.begin(), depth.end(), [](std::uint8_t one) { return one == 0; }))
         return refused(ErrorCode::kInvalidScene,
                        "there is nothing in it: its alpha (or luminance) is 0 everywhere");
-    std::string hash = texture_hash(depth);
-    return std::make_shared<const Texture>(Texture{
-        std::move(name), std::move(hash), std::move(depth), false, height_map_of(*picture)});
+    static_assert(kTextureSide == kPictureHues);
+    std::string hash = texture_hash(depth, picture->hues);
+    return std::make_shared<const Texture>(Texture{std::move(name), std::move(hash),
+                                                   std::move(depth), false, height_map_of(*picture),
+                                                   picture->hues});
 }
 
 }  // namespace awan

@@ -12,12 +12,18 @@
 #include "core/generate/cubes.h"
 #include "core/generate/keyed_random.h"
 #include "core/generate/models.h"
+#include "core/scene/ellipsoids.h"
+#include "core/scene/implicit.h"
 #include "core/scene/limits.h"
 
 namespace awan {
 namespace {
 
 constexpr std::uint64_t kSampled = 256;
+// Of models that are made of cells or of many small spheres, of which few stand in one line.
+constexpr std::uint64_t kSampledOfModel = 1024;
+// Cells along the longest side, for this alone.
+constexpr std::uint64_t kCoarseCells = 48;
 
 // A Gaussian of extinction in the cloud's own units, for a density of 1.
 struct Blob {
@@ -113,6 +119,61 @@ double rounded(double x) {
     return x;
 }
 
+double deep_enough(const Cloud& cloud, const std::vector<Blob>& blobs, std::uint64_t all) {
+    const glm::dvec3 depths = cloud.scale * mean_depths(blobs, all);
+    const double least = std::min({depths.x, depths.y, depths.z}), most = densest_of(cloud);
+    if (!(least > 0) || !(most > 0)) return kDefaultDensity;
+    const double wanted = std::min(kAutoDepth / least, limits::kMaxDensity);
+    return std::min(rounded(wanted), limits::kMaxDensity / std::max(most, 1.0));
+}
+
+template <typename Keys>
+void take_last(const Keys& keys, double& time) {
+    if (!keys.empty()) time = std::max(time, keys.back().time);
+}
+
+// When all of it is there.
+double last_change(const ImplicitCloud& cloud) {
+    double time = cloud.warp_to > cloud.warp_from ? std::max(cloud.warp_to, 0.0) : 0;
+    take_last(cloud.keys, time);
+    if (cloud.primitives)
+        for (const ImplicitPrimitive& one : *cloud.primitives) take_last(one.keys, time);
+    for (const ImplicitAttractor& one : cloud.attractors) take_last(one.keys, time);
+    for (const ImplicitVortex& one : cloud.vortices) take_last(one.keys, time);
+    for (const ImplicitParticle& one : cloud.particles) time = std::max(time, one.time);
+    if (cloud.growth) {
+        time = std::max(time, cloud.growth->duration);
+        take_last(cloud.growth->keys, time);
+    }
+    if (cloud.bubbles)
+        time = std::max(time, cloud.bubbles->began +
+                                  static_cast<double>(cloud.bubbles->most) / cloud.bubbles->rate);
+    // Two wavelengths of sliding roll them up.
+    if (cloud.billows && cloud.billows->shear != 0)
+        time = std::max(time, cloud.billows->began +
+                                  2 * cloud.billows->wavelength / std::abs(cloud.billows->shear));
+    return std::min(time, limits::kMaxTime);
+}
+
+// The cloud, made of few cells, and when.
+Cloud coarser(const Cloud& cloud, double& time) {
+    Cloud coarse = cloud;
+    time = 0;
+    if (cloud.implicit) {
+        auto own = std::make_shared<ImplicitCloud>(*cloud.implicit);
+        own->resolution = std::min(own->resolution, kCoarseCells);
+        time = last_change(*own);
+        coarse.implicit = std::move(own);
+    }
+    if (cloud.ellipsoids) {
+        auto own = std::make_shared<EllipsoidsCloud>(*cloud.ellipsoids);
+        own->resolution = std::min(own->resolution, kCoarseCells);
+        if (own->plane) own->plane->resolution = std::min(own->plane->resolution, kCoarseCells);
+        coarse.ellipsoids = std::move(own);
+    }
+    return coarse;
+}
+
 }  // namespace
 
 double auto_density(const Cloud& cloud, Fill fill, std::uint64_t key) {
@@ -124,11 +185,27 @@ double auto_density(const Cloud& cloud, Fill fill, std::uint64_t key) {
     if (is_procedural(cloud)) return kDefaultDensity;
     const std::uint64_t all = size_of(cloud);
     const std::vector<Blob> blobs = sampled(cloud, fill, key, std::min(all, kSampled));
-    const glm::dvec3 depths = cloud.scale * mean_depths(blobs, all);
-    const double least = std::min({depths.x, depths.y, depths.z}), most = densest_of(cloud);
-    if (!(least > 0) || !(most > 0)) return kDefaultDensity;
-    const double wanted = std::min(kAutoDepth / least, limits::kMaxDensity);
-    return std::min(rounded(wanted), limits::kMaxDensity / std::max(most, 1.0));
+    return deep_enough(cloud, blobs, all);
+}
+
+Result<double> own_auto_density(const Cloud& cloud, Fill fill, std::uint64_t key,
+                                const Deadline& deadline) {
+    if (!is_procedural(cloud) || cloud.model == CloudModel::kAutomaton)
+        return auto_density(cloud, fill, key);
+    ModelRequest request;
+    request.key = key;
+    // The whole cloud, so many pixels high.
+    request.pixel_angle = 2 * exact::tan(kAutomaticFov * std::numbers::pi / 360) / kCoarseCells;
+    const Cloud coarse = coarser(cloud, request.time);
+    auto made = model_particles(coarse, request, deadline);
+    if (!made.ok()) return made.error();
+    Cloud particles;
+    particles.model = CloudModel::kParticles;
+    particles.scale = cloud.scale;
+    particles.ready = std::move(made->particles);
+    const std::uint64_t all = size_of(particles);
+    return deep_enough(particles, sampled(particles, fill, key, std::min(all, kSampledOfModel)),
+                       all);
 }
 
 }  // namespace awan

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "core/base/deadline.h"
+#include "core/base/result.h"
 #include "core/scene/scene.h"
 
 namespace awan {
@@ -17,5 +19,11 @@ inline constexpr double kAutoDepth = 24;
 // 256 of them, evenly chosen (within 15%). Three digits; no more than a particle may have; kDefaultDensity for a cloud
 // without matter, and for those of other models.
 double auto_density(const Cloud& cloud, Fill fill, std::uint64_t key);
+
+// The same of a cloud whose own density is "auto" (Cloud::auto_density), of any model: procedural ones are made
+// coarsely for it, by their description alone, as they are when all that they begin with has come (the growth has
+// ended, the last key is reached). So it is the same at all times, from all eyes. Errors: those of the model.
+Result<double> own_auto_density(const Cloud& cloud, Fill fill, std::uint64_t key,
+                                const Deadline& deadline);
 
 }  // namespace awan

@@ -50,13 +50,14 @@ void add_pieces(std::vector<Piece>& pieces, Piece whole, std::uint64_t count, st
     }
 }
 
-double density_of_cloud(const Scene& scene, std::size_t k) {
+Result<double> density_of_cloud(const Scene& scene, std::size_t k, const Deadline& deadline) {
     const Cloud& cloud = scene->clouds[k];
     if (const auto given = density_of(*scene, cloud)) return *given;
     const Fill fill = fill_of(*scene, cloud);
     const std::uint64_t key = keyed(seed_of(*scene, cloud), k);
-    if (is_procedural(cloud)) return auto_density(cloud, fill, key);
-    if (cloud.model != CloudModel::kCubes) return auto_density(cloud, fill, key);
+    if (cloud.model != CloudModel::kCubes)
+        return cloud.auto_density ? own_auto_density(cloud, fill, key, deadline)
+                                  : auto_density(cloud, fill, key);
     Cloud filled = cloud;
     for (Cube& cube : filled.cubes) cube.particles = particles_of(*scene, cloud, cube);
     return auto_density(filled, fill, key);
@@ -197,7 +198,7 @@ Status bring_within_limits(ReadyParticles& made, const Motion& motion, double de
     return std::nullopt;
 }
 
-// Runs the procedural clouds one after the other; each uses all threads.
+// Runs the procedural clouds one after the other; each uses all threads. Their densities are those of the set.
 Status run_models(const Scene& scene, int threads, const Deadline& deadline, bool coarse,
                   std::vector<ModelParticles>& made, ParticleSet& set) {
     std::uint64_t total = 0;
@@ -212,7 +213,7 @@ Status run_models(const Scene& scene, int threads, const Deadline& deadline, boo
         ModelRequest request;
         request.key = keyed(seed_of(*scene, cloud), k);
         request.place = k;
-        request.density = density_of_cloud(scene, k);
+        request.density = set.cloud_density[k];
         request.time = clouds_time(*scene);
         request.threads = threads;
         request.coarse = coarse;
@@ -245,9 +246,12 @@ Result<ParticleSet> generate(const Scene& scene, int threads, const Deadline& de
                              bool coarse) {
     ParticleSet set;
     std::vector<ModelParticles> made(scene->clouds.size());
+    for (std::size_t k = 0; k < scene->clouds.size(); ++k) {
+        const auto density = density_of_cloud(scene, k, deadline);
+        if (!density.ok()) return density.error();
+        set.cloud_density.push_back(*density);
+    }
     if (Status failed = run_models(scene, threads, deadline, coarse, made, set)) return *failed;
-    for (std::size_t k = 0; k < scene->clouds.size(); ++k)
-        set.cloud_density.push_back(density_of_cloud(scene, k));
     std::size_t total = 0;
     const std::vector<Piece> pieces =
         cut_into_pieces(scene, made, set.cloud_density, set.cloud_begin, total);

@@ -196,4 +196,18 @@ std::shared_ptr<const Texture> texture_of_hash(const SceneDraft& scene, std::str
     return nullptr;
 }
 
+// sRGB, by its own curve.
+std::vector<float> linear_colors(const Texture& texture) {
+    std::vector<float> texels(3 * texture.depth.size(), 1.0F);
+    if (texture.color.empty()) return texels;
+    std::array<float, 256> linear{};
+    for (std::size_t i = 0; i < linear.size(); ++i) {
+        const double code = static_cast<double>(i) / 255;
+        linear[i] = static_cast<float>(code <= 0.04045 ? code / 12.92
+                                                       : exact::pow((code + 0.055) / 1.055, 2.4));
+    }
+    for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = linear[texture.color[i]];
+    return texels;
+}
+
 }  // namespace awan

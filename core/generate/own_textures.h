@@ -9,6 +9,9 @@ namespace awan {
 // where there is none.
 std::shared_ptr<const Texture> texture_of_hash(const SceneDraft& scene, std::string_view hash);
 
+// A texture's colours as linear light, 3 numbers a point; white where it has none.
+std::vector<float> linear_colors(const Texture& texture);
+
 // What one of them holds (Texture::depth), the same bytes on every machine. place: in kOwnTextures.
 std::vector<std::uint8_t> own_texture_depth(std::size_t place);
 

@@ -24,10 +24,12 @@ Result<const gl::Program*> compiled(std::optional<gl::Program>& kept, const Comp
 
 }  // namespace
 
-Result<const gl::Program*> Device::Programs::painted(bool interior) {
-    return compiled(late[interior ? 1 : 0], [&] {
-        return gl::Program::compute(
-            "splat.glsl", interior ? "#define PAINTED\n#define INTERIOR\n" : "#define PAINTED\n");
+Result<const gl::Program*> Device::Programs::painted(bool interior, bool tinted) {
+    return compiled(late[(interior ? 1 : 0) + (tinted ? 2 : 0)], [&] {
+        std::string defines = "#define PAINTED\n";
+        if (interior) defines += "#define INTERIOR\n";
+        if (tinted) defines += "#define TINTED\n";
+        return gl::Program::compute("splat.glsl", defines);
     });
 }
 
@@ -39,7 +41,7 @@ Result<const gl::Program*> Device::Programs::detailed(bool interior) {
 }
 
 Result<const gl::Program*> Device::Programs::display() {
-    return compiled(late[2], [] { return gl::Program::drawing("display.glsl"); });
+    return compiled(late[4], [] { return gl::Program::drawing("display.glsl"); });
 }
 
 struct Device::State {

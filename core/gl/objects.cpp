@@ -121,15 +121,16 @@ void TexelBuffer::bind(GLuint binding) const {
     glBindTextureUnit(binding, texture_);
 }
 
-TextureArray::TextureArray(int side, int layers) {
+TextureArray::TextureArray(int side, int layers, int channels) : channels_(channels) {
     int levels = 1;
     while (side >> levels > 0) ++levels;
     glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name_);
-    glTextureStorage3D(name_, levels, GL_R16F, side, side, layers);
+    glTextureStorage3D(name_, levels, channels == 1 ? GL_R16F : GL_RGB16F, side, side, layers);
     glTextureParameteri(name_, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glTextureParameteri(name_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTextureParameteri(name_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-    glTextureParameteri(name_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    const GLint beyond = channels == 1 ? GL_CLAMP_TO_BORDER : GL_CLAMP_TO_EDGE;
+    glTextureParameteri(name_, GL_TEXTURE_WRAP_S, beyond);
+    glTextureParameteri(name_, GL_TEXTURE_WRAP_T, beyond);
 }
 
 TextureArray::~TextureArray() {
@@ -137,8 +138,10 @@ TextureArray::~TextureArray() {
 }
 
 void TextureArray::put(int layer, int level, std::span<const float> texels) {
-    const auto side = static_cast<GLsizei>(std::lround(std::sqrt(texels.size())));
-    glTextureSubImage3D(name_, level, 0, 0, layer, side, side, 1, GL_RED, GL_FLOAT, texels.data());
+    const auto side = static_cast<GLsizei>(
+        std::lround(std::sqrt(texels.size() / static_cast<std::size_t>(channels_))));
+    glTextureSubImage3D(name_, level, 0, 0, layer, side, side, 1, channels_ == 1 ? GL_RED : GL_RGB,
+                        GL_FLOAT, texels.data());
 }
 
 void TextureArray::bind(GLuint binding) const {

@@ -62,24 +62,27 @@ class TexelBuffer {
     GLuint texture_ = 0;
 };
 
-// Layers of a square picture of one channel, half floats, each with its mip levels. Beyond its edge it is 0.
+// Layers of a square picture of one channel or of three, half floats, each with its mip levels. Beyond its edge one
+// channel is 0, and three are as at the edge.
 class TextureArray {
   public:
     // side: a power of 2.
-    TextureArray(int side, int layers);
-    TextureArray(TextureArray&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+    TextureArray(int side, int layers, int channels = 1);
+    TextureArray(TextureArray&& other) noexcept
+        : name_(std::exchange(other.name_, 0)), channels_(other.channels_) {}
     TextureArray& operator=(TextureArray&&) = delete;
     TextureArray(const TextureArray&) = delete;
     TextureArray& operator=(const TextureArray&) = delete;
     ~TextureArray();
 
-    // texels: (side >> level)^2 of them, the first row first.
+    // texels: (side >> level)^2 times the channels, the first row first.
     void put(int layer, int level, std::span<const float> texels);
     // Makes it the sampler of `layout(binding = ...) uniform sampler2DArray` in the shader.
     void bind(GLuint binding) const;
 
   private:
     GLuint name_ = 0;
+    int channels_ = 1;
 };
 
 // A volume of one channel, interpolated between its voxels. Beyond its sides it is 0, or begins again.

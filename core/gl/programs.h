@@ -23,8 +23,9 @@ struct Device::Programs {
 
     // Those that not all pictures need, compiled when they are first asked for. They fail as Program does.
 
-    // Pass 2 with textures on the billboards of some particles; the eye may be inside a particle or not.
-    Result<const gl::Program*> painted(bool interior);
+    // Pass 2 with textures on the billboards of some particles; the eye may be inside a particle or not. tinted: some
+    // of the textures have colours.
+    Result<const gl::Program*> painted(bool interior, bool tinted);
     // Pass 2 with detail; as painted().
     Result<const gl::Program*> detailed(bool interior);
     // Triangles, for what is displayed instead of lit.

@@ -101,14 +101,17 @@ constexpr Field kCloudFields[] = {
                          .words = kFillWords,
                          .says = "Instead of the scene's, for this cloud.",
                          .otherwise = "the scene's"}),
-    field<&Cloud::density>({.name = "density",
-                            .wanted = "a number >= 0 (extinction, 1/unit)",
-                            .range = from_to(0, limits::kMaxDensity),
-                            .unit = "1/unit",
-                            .says = "Peak extinction of a particle, or what the model's own "
-                                    "density multiplies, 1/unit; instead of the "
-                                    "scene's, for this cloud.",
-                            .otherwise = "the scene's"}),
+    field_unless<&Cloud::density, &Cloud::auto_density>(
+        {.name = "density",
+         .wanted = R"(a number >= 0 (extinction, 1/unit) or "auto")",
+         .range = from_to(0, limits::kMaxDensity),
+         .absent = "auto",
+         .unit = "1/unit",
+         .says = "Peak extinction of a particle, or what the model's own density multiplies, "
+                 "1/unit; instead of the scene's, for this cloud. \"auto\": what makes it, of any "
+                 "model, an optical depth of some 24 in the mean along its thinnest axis (model "
+                 "spheres has its own by meteorological_range).",
+         .otherwise = "the scene's"}),
     field<&Cloud::seed>({.name = "seed",
                          .wanted = "an integer from 0 to 18446744073709551615",
                          .says = "Instead of the scene's, for this cloud.",

@@ -130,6 +130,9 @@ struct Cloud {
     // Where not given, the scene's holds.
     std::optional<Fill> fill;
     std::optional<double> density;
+    // Its density is what makes it deep enough (core/generate/auto_density.h), whatever its model; the scene's own
+    // "auto" leaves procedural models but automata at kDefaultDensity.
+    bool auto_density = false;
     std::optional<std::uint64_t> seed;
     std::optional<std::string> texture;
     std::optional<std::uint64_t> billboards;

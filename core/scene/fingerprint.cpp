@@ -164,6 +164,13 @@ void add_value(Hasher& hash, const Field& field, const void* value, const Instea
     }
 }
 
+// Of a traceless field that is there.
+bool says_nothing(const Field& field, const void* value) {
+    if (field.access.holds == Holds::kObjects) return field.access.size(value) == 0;
+    return field.access.holds == Holds::kSwitch &&
+           *static_cast<const Switch*>(value) == Switch::kAuto;
+}
+
 void add_field(Hasher& hash, const Field& field, const void* object, const Instead& instead) {
     if (field.access.holds == Holds::kOutside || field.access.holds == Holds::kAbsence) return;
     const void* const value = instead.value_of(field, object);
@@ -171,11 +178,12 @@ void add_field(Hasher& hash, const Field& field, const void* object, const Inste
     const bool used = value != nullptr && !idle &&
                       !(field.access.unused != nullptr && *field.access.unused(object));
     if (field.traceless) {
-        if (!used || (field.access.holds == Holds::kSwitch &&
-                      *static_cast<const Switch*>(value) == Switch::kAuto))
-            return;
+        if (!used || says_nothing(field, value)) return;
         hash.text(field.name);
     }
+    // Of an optional field "not given" is one thing, and its word another.
+    if (field.access.optional && field.access.unused != nullptr && *field.access.unused(object))
+        hash.text(field.absent);
     hash.integer(used);
     if (used) add_value(hash, field, value, instead);
 }

@@ -26,9 +26,9 @@ inline constexpr Field kGroundFields[] = {
                             .one_for_all = true,
                             .says = "Share of light that it sends back."}),
     field<&Ground::terrain>({.name = "terrain",
-                             .wanted = "an object",
-                             .says = "Hills on it; left out: none.",
-                             .otherwise = "level",
+                             .wanted = R"(an object or "none")",
+                             .absent = "none",
+                             .says = "Hills on it.",
                              .traceless = true}),
 };
 static_assert(covers<Ground>(kGroundFields));

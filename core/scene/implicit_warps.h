@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/scene/implicit_primitive.h"
@@ -11,12 +12,59 @@
 
 namespace awan {
 
+// What an attractor is at one time. Members that are given at no key are as the attractor has them; between keys that
+// give them they go on, as those of primitives do.
+struct ImplicitAttractorKey {
+    double time = 0;
+    std::optional<glm::dvec3> at;
+    std::optional<double> strength;
+    std::optional<double> reach;
+};
+
+inline constexpr Range kAttraction = from_to(limits::kMinAttraction, limits::kMaxAttraction);
+
+inline constexpr Field kImplicitAttractorKeyFields[] = {
+    field<&ImplicitAttractorKey::time>({.name = "time",
+                                        .wanted = "a number (seconds)",
+                                        .range = within(limits::kMaxTime),
+                                        .required = true,
+                                        .unit = "seconds",
+                                        .says = "Seconds."}),
+    field<&ImplicitAttractorKey::at>({.name = "at",
+                                      .wanted = kPointWanted,
+                                      .range = kImplicitPlace,
+                                      .unit = "units",
+                                      .says = "Its place then.",
+                                      .otherwise = "by the keys around"}),
+    field<&ImplicitAttractorKey::strength>({.name = "strength",
+                                            .wanted = "a number",
+                                            .range = kAttraction,
+                                            .says = "Its strength then.",
+                                            .otherwise = "by the keys around"}),
+    field<&ImplicitAttractorKey::reach>({.name = "reach",
+                                         .wanted = "a number > 0",
+                                         .range = kImplicitRadius,
+                                         .unit = "units",
+                                         .says = "Its reach then.",
+                                         .otherwise = "by the keys around"}),
+};
+static_assert(covers<ImplicitAttractorKey>(kImplicitAttractorKeyFields));
+inline constexpr Table kImplicitAttractorKeyTable{.name = "ImplicitAttractorKey",
+                                                  .says = "What an attractor is at one time.",
+                                                  .fields = kImplicitAttractorKeyFields,
+                                                  .standard = standard_of<ImplicitAttractorKey>};
+template <>
+inline const Table& table_of<ImplicitAttractorKey>() {
+    return kImplicitAttractorKeyTable;
+}
+
 // Draws matter towards (or, negative, pushes it from) a place: what is seen at p is what was at
 // p + strength h(d / reach) (p - at), d the distance from `at`.
 struct ImplicitAttractor {
     glm::dvec3 at{0};
     double strength = 0;
     double reach = 1;
+    std::vector<ImplicitAttractorKey> keys{};
 };
 
 inline constexpr Field kImplicitAttractorFields[] = {
@@ -25,18 +73,22 @@ inline constexpr Field kImplicitAttractorFields[] = {
                                    .range = kImplicitPlace,
                                    .unit = "units",
                                    .says = "Its place."}),
-    field<&ImplicitAttractor::strength>(
-        {.name = "strength",
-         .wanted = "a number",
-         .range = from_to(limits::kMinAttraction, limits::kMaxAttraction),
-         .required = true,
-         .says = "Positive draws matter in."}),
+    field<&ImplicitAttractor::strength>({.name = "strength",
+                                         .wanted = "a number",
+                                         .range = kAttraction,
+                                         .required = true,
+                                         .says = "Positive draws matter in."}),
     field<&ImplicitAttractor::reach>({.name = "reach",
                                       .wanted = "a number > 0",
                                       .range = kImplicitRadius,
                                       .required = true,
                                       .unit = "units",
                                       .says = "Beyond it moves nothing."}),
+    field<&ImplicitAttractor::keys>({.name = "keys",
+                                     .wanted = "a list of keys",
+                                     .counts = at_most(limits::kMaxImplicitKeys),
+                                     .says = "In rising order of time.",
+                                     .traceless = true}),
 };
 static_assert(covers<ImplicitAttractor>(kImplicitAttractorFields));
 inline constexpr Table kImplicitAttractorTable{
@@ -49,6 +101,57 @@ inline const Table& table_of<ImplicitAttractor>() {
     return kImplicitAttractorTable;
 }
 
+// The same of a vortex. Its axis goes straight from one key's to the next, and is that of the vortex where it would
+// have no length.
+struct ImplicitVortexKey {
+    double time = 0;
+    std::optional<glm::dvec3> at;
+    std::optional<glm::dvec3> axis;
+    std::optional<double> angle;
+    std::optional<double> reach;
+};
+
+inline constexpr Field kImplicitVortexKeyFields[] = {
+    field<&ImplicitVortexKey::time>({.name = "time",
+                                     .wanted = "a number (seconds)",
+                                     .range = within(limits::kMaxTime),
+                                     .required = true,
+                                     .unit = "seconds",
+                                     .says = "Seconds."}),
+    field<&ImplicitVortexKey::at>({.name = "at",
+                                   .wanted = kPointWanted,
+                                   .range = kImplicitPlace,
+                                   .unit = "units",
+                                   .says = "Its place then.",
+                                   .otherwise = "by the keys around"}),
+    field<&ImplicitVortexKey::axis>({.name = "axis",
+                                     .wanted = kPointWanted,
+                                     .range = kImplicitPlace,
+                                     .says = "Its axis then, of any length > 0.",
+                                     .otherwise = "by the keys around"}),
+    field<&ImplicitVortexKey::angle>({.name = "angle",
+                                      .wanted = "a number (degrees)",
+                                      .range = within(limits::kMaxVortexAngle),
+                                      .unit = "degrees",
+                                      .says = "How far it turns then, in the middle.",
+                                      .otherwise = "by the keys around"}),
+    field<&ImplicitVortexKey::reach>({.name = "reach",
+                                      .wanted = "a number > 0",
+                                      .range = kImplicitRadius,
+                                      .unit = "units",
+                                      .says = "Its reach then.",
+                                      .otherwise = "by the keys around"}),
+};
+static_assert(covers<ImplicitVortexKey>(kImplicitVortexKeyFields));
+inline constexpr Table kImplicitVortexKeyTable{.name = "ImplicitVortexKey",
+                                               .says = "What a vortex is at one time.",
+                                               .fields = kImplicitVortexKeyFields,
+                                               .standard = standard_of<ImplicitVortexKey>};
+template <>
+inline const Table& table_of<ImplicitVortexKey>() {
+    return kImplicitVortexKeyTable;
+}
+
 // Turns matter about an axis through `at` by angle h(d / reach).
 struct ImplicitVortex {
     glm::dvec3 at{0};
@@ -56,6 +159,7 @@ struct ImplicitVortex {
     // Right-handed.
     double angle = 0;
     double reach = 1;
+    std::vector<ImplicitVortexKey> keys{};
 };
 
 inline constexpr Field kImplicitVortexFields[] = {
@@ -80,6 +184,11 @@ inline constexpr Field kImplicitVortexFields[] = {
                                    .required = true,
                                    .unit = "units",
                                    .says = "Beyond it turns nothing."}),
+    field<&ImplicitVortex::keys>({.name = "keys",
+                                  .wanted = "a list of keys",
+                                  .counts = at_most(limits::kMaxImplicitKeys),
+                                  .says = "In rising order of time.",
+                                  .traceless = true}),
 };
 static_assert(covers<ImplicitVortex>(kImplicitVortexFields));
 inline constexpr Table kImplicitVortexTable{.name = "ImplicitVortex",

@@ -226,6 +226,31 @@ Status check_primitives(const std::vector<ImplicitPrimitive>& primitives, const 
     return std::nullopt;
 }
 
+Status check_axis(const glm::dvec3& axis, const std::string& at) {
+    if (glm::length(axis) >= 1e-6) return std::nullopt;
+    return invalid(at + "/axis", "must have a length of 1e-6 at least");
+}
+
+// Attractors and vortices.
+Status check_warps(const ImplicitCloud& cloud, const std::string& at) {
+    for (std::size_t i = 0; i < cloud.attractors.size(); ++i)
+        if (Status wrong = check_times(cloud.attractors[i].keys,
+                                       at + "/attractors/" + std::to_string(i) + "/keys"))
+            return wrong;
+    for (std::size_t i = 0; i < cloud.vortices.size(); ++i) {
+        const ImplicitVortex& vortex = cloud.vortices[i];
+        const std::string of = at + "/vortices/" + std::to_string(i);
+        if (Status wrong = check_axis(vortex.axis, of)) return wrong;
+        if (Status wrong = check_times(vortex.keys, of + "/keys")) return wrong;
+        for (std::size_t k = 0; k < vortex.keys.size(); ++k)
+            if (vortex.keys[k].axis)
+                if (Status wrong =
+                        check_axis(*vortex.keys[k].axis, of + "/keys/" + std::to_string(k)))
+                    return wrong;
+    }
+    return std::nullopt;
+}
+
 Status check_flow(const ImplicitFlow& flow, const std::string& at) {
     for (int i = 0; i < 3; ++i)
         if (!(flow.max[i] - flow.min[i] >= limits::kMinImplicitRadius))
@@ -343,24 +368,22 @@ Status check_rules(const SpheresCloud& cloud, const std::string& at) {
 Status check_rules(const ImplicitCloud& cloud, const std::string& at) {
     if (cloud.primitives)
         if (Status wrong = check_primitives(*cloud.primitives, at + "/primitives")) return wrong;
-    if (cloud.growth)
+    if (cloud.growth) {
         if (Status wrong = count_in_range(cloud.growth->most, cloud.growth->seeds,
                                           limits::kMaxGrowth, at + "/growth/most"))
             return wrong;
+        if (Status wrong = check_times(cloud.growth->keys, at + "/growth/keys")) return wrong;
+    }
     if (Status wrong = check_particles(cloud.particles, at + "/particles")) return wrong;
     if (Status wrong = check_times(cloud.keys, at + "/keys")) return wrong;
     if (cloud.formula)
         if (const auto formula = parse_formula(*cloud.formula, at + "/formula"); !formula)
             return formula.error();
     if (cloud.squash) {
-        if (!(glm::length(cloud.squash->axis) >= 1e-6))
-            return invalid(at + "/squash/axis", "must have a length of 1e-6 at least");
+        if (Status wrong = check_axis(cloud.squash->axis, at + "/squash")) return wrong;
         if (Status wrong = check_times(cloud.squash->keys, at + "/squash/keys")) return wrong;
     }
-    for (std::size_t i = 0; i < cloud.vortices.size(); ++i)
-        if (!(glm::length(cloud.vortices[i].axis) >= 1e-6))
-            return invalid(at + "/vortices/" + std::to_string(i) + "/axis",
-                           "must have a length of 1e-6 at least");
+    if (Status wrong = check_warps(cloud, at)) return wrong;
     if (cloud.flow) return check_flow(*cloud.flow, at + "/flow");
     return std::nullopt;
 }

@@ -207,6 +207,7 @@ double clouds_time(const SceneDraft& scene) {
 }
 
 std::optional<double> density_of(const SceneDraft& scene, const Cloud& cloud) {
+    if (cloud.auto_density) return std::nullopt;
     return cloud.density ? cloud.density : scene.density;
 }
 

@@ -88,8 +88,8 @@ struct Row {
     std::optional<int> of_model{};
     // Whether the rest of the object makes it mean nothing; null: it always means something.
     bool (*idle)(const void* object) = nullptr;
-    // A field of later days: where it is absent, or a switch that is automatic, it leaves no trace in fingerprints, so
-    // that those of older documents stay as they were.
+    // A field of later days: where it is absent, an empty list, or a switch that is automatic, it leaves no trace in
+    // fingerprints, so that those of older documents stay as they were.
     bool traceless = false;
     // Names the member of which this is a part, where the document is flatter than the struct.
     const char* part_of = nullptr;

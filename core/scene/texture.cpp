@@ -30,9 +30,12 @@ const std::string* name_for(const SceneDraft& scene, const Cloud& cloud, const C
 
 }  // namespace
 
-std::string texture_hash(const std::vector<std::uint8_t>& depth) {
+std::string texture_hash(const std::vector<std::uint8_t>& depth,
+                         const std::vector<std::uint8_t>& color) {
+    std::vector<std::uint8_t> all(depth);
+    all.insert(all.end(), color.begin(), color.end());
     XXH128_canonical_t bytes;
-    XXH128_canonicalFromHash(&bytes, XXH3_128bits(depth.data(), depth.size()));
+    XXH128_canonicalFromHash(&bytes, XXH3_128bits(all.data(), all.size()));
     std::string text;
     for (const unsigned char byte : bytes.digest) {
         text += "0123456789abcdef"[byte >> 4];

@@ -36,7 +36,8 @@ std::string height_map_hash(const HeightMap& map);
 // A picture of a puff of matter.
 struct Texture {
     std::string name;
-    // 32 hex digits of what it holds (XXH3-128 of `depth`): another name for it, the same for the same picture.
+    // 32 hex digits of what it holds (XXH3-128 of `depth`, and of `color` behind it): another name for it, the same for
+    // the same picture.
     std::string hash;
     // How deep the matter is behind each point of its square, 255 the deepest; kTextureSide^2, row by row from the top
     // left. Not 0 everywhere.
@@ -45,11 +46,15 @@ struct Texture {
     bool upright = false;
     // The same picture as a height map; of pictures that came beside a document.
     HeightMap heights{};
+    // The hue of the matter at each point, r, g, b as a picture file has them (sRGB), the largest of the three 255: how
+    // bright the picture is counts as depth, or not at all. EMPTY: it is grey.
+    std::vector<std::uint8_t> color{};
 };
 using GivenTextures = std::vector<std::shared_ptr<const Texture>>;
 
-// 32 hex digits, of a texture's `depth`.
-std::string texture_hash(const std::vector<std::uint8_t>& depth);
+// 32 hex digits, of a texture's `depth` and `color`.
+std::string texture_hash(const std::vector<std::uint8_t>& depth,
+                         const std::vector<std::uint8_t>& color = {});
 
 // The names of Awan's own, and what their hashes are.
 struct OwnTexture {

@@ -5,6 +5,7 @@
 layout(location = 0) uniform vec2 band;
 layout(binding = 0) uniform samplerBuffer vertices;
 layout(binding = 1) uniform sampler2DArray textures;
+layout(binding = 2) uniform sampler2DArray hues;
 
 #ifdef VERTEX
 out vec4 color;
@@ -26,6 +27,7 @@ out vec4 shown;
 
 void main() {
     float share = texture(textures, vec3(place.xy, max(place.z, 0.0))).x;
-    shown = color * (place.z < 0.0 ? 1.0 : share);
+    vec4 hue = vec4(texture(hues, vec3(place.xy, max(place.z, 0.0))).rgb, 1.0);
+    shown = color * (place.z < 0.0 ? vec4(1.0) : share * hue);
 }
 #endif

@@ -9,7 +9,9 @@
 //
 // Where the program is compiled with PAINTED, particles may be billboards: squares that face the eye, through the
 // particle's centre, and opaque as their texture says, which was made for about their optical depth
-// (draw/billboards.h).
+// (draw/billboards.h). With TINTED, too, textures have colours, by which the light that a billboard scatters is
+// multiplied: "the polygon color is set to the scattering factor and the texture is modulated by this color" (Sunar et
+// al. 2005, below (3.15), after Harris).
 //
 // Where it is compiled with DETAIL, a particle's depth is that of the lumps that its thin matter is gathered into, by
 // the rule of generate/detail.h and with the field of the march. What is to be known of the line through a particle is
@@ -44,8 +46,9 @@ struct Splat {
 };
 layout(binding = 0) uniform samplerBuffer splats;
 #ifdef PAINTED
-// A particle: two vec4s. The axes of its texture in the eye's frame, to its right and up, over the square of half the
-// square's side; with them the layer, or -1 where it is no billboard, and the mip level.
+// A particle: three vec4s. The axes of its texture in the eye's frame, to its right and up, over the square of half the
+// square's side; with them the layer, or -1 where it is no billboard, and the mip level. Then the layer of its colours,
+// and which share of `other` is the haze's, which they do not tint.
 layout(binding = 1) uniform samplerBuffer billboards;
 layout(binding = 2) uniform sampler2DArray textures;
 #endif
@@ -62,6 +65,9 @@ layout(location = 18) uniform mat4x3 to_bumps;
 layout(location = 22) uniform vec3 lump;
 // sqrt(2 pi) times the extinction below which detail gathers matter, 1/unit.
 layout(location = 23) uniform float gathered_below;
+#endif
+#ifdef TINTED
+layout(binding = 3) uniform sampler2DArray hues;
 #endif
 layout(std430, binding = 1) readonly buffer TileBegin { uint tile_begin[]; };
 layout(std430, binding = 2) readonly buffer TileItems { uint tile_items[]; };
@@ -121,6 +127,9 @@ struct Column {
     // The same of what the texture's coordinates are times d q, and of that product.
     vec2 across, up, to_center;
     float layer, level;
+#ifdef TINTED
+    float hue, veil;
+#endif
 #endif
 };
 
@@ -169,7 +178,7 @@ Column on_column(Splat p, float local, float low, float high) {
 // A ray d meets the square's plane, which is at right angles to q, at t d with t = |q|^2 / (d q), and the axes are at
 // right angles to q: t (d axis) is the place on the square.
 void paint(int item, Splat p, inout Column k) {
-    vec4 across = texelFetch(billboards, item * 2), up = texelFetch(billboards, item * 2 + 1);
+    vec4 across = texelFetch(billboards, item * 3), up = texelFetch(billboards, item * 3 + 1);
     vec2 q = p.place.xy + p.place.z * middle;
     float q2 = dot(q, q) + p.place.z * p.place.z;
     k.across = q2 * vec2(across.x * k.X + across.z, across.y);
@@ -177,14 +186,24 @@ void paint(int item, Splat p, inout Column k) {
     k.to_center = vec2(k.along, q.y);
     k.layer = across.w;
     k.level = up.w;
+#ifdef TINTED
+    vec4 tint = texelFetch(billboards, item * 3 + 2);
+    k.hue = tint.x;
+    k.veil = tint.y;
+#endif
 }
 
-// The first row of a texture is its highest. Behind the eye there is nothing; beside the square there is none of it,
-// and what would be infinite lies there.
+// The first row of a texture is its highest. Beside the square there is none of it, and what would be infinite lies
+// there.
+vec2 on_texture(Column k, float Y, float ahead) {
+    vec2 at = vec2(k.across.x + k.across.y * Y, -(k.up.x + k.up.y * Y)) / max(ahead, 1e-30);
+    return clamp(0.5 + 0.5 * at, vec2(-1.0), vec2(2.0));
+}
+
+// Behind the eye there is nothing.
 float opacity(Column k, float Y) {
     float ahead = k.to_center.x + k.to_center.y * Y;
-    vec2 at = vec2(k.across.x + k.across.y * Y, -(k.up.x + k.up.y * Y)) / max(ahead, 1e-30);
-    at = clamp(0.5 + 0.5 * at, vec2(-1.0), vec2(2.0));
+    vec2 at = on_texture(k, Y, ahead);
     return ahead > 0.0 ? textureLod(textures, vec3(at, k.layer), k.level).x : 0.0;
 }
 #endif
@@ -222,6 +241,21 @@ vec4 detail_at(vec4 t, float X, vec4 Y, vec4 own) {
     // Bumps that lie between pixels would be seen as noise: smooth matter takes over.
     vec4 sharp = clamp(lump.z / max(t, 1e-6) - 1.0, 0.0, 1.0);
     return mix(vec4(1.0), lump.x * gathered(max(u, own), n), sharp);
+}
+#endif
+
+#ifdef TINTED
+vec3 hue(Column k, float Y) {
+    vec2 at = on_texture(k, Y, k.to_center.x + k.to_center.y * Y);
+    return textureLod(hues, vec3(at, k.hue), k.level).rgb;
+}
+
+void add_tinted(Splat p, Column k, vec4 direct, vec4 other, inout Pixels px) {
+    vec3 a = hue(k, px.Y.x), b = hue(k, px.Y.y), c = hue(k, px.Y.z), d = hue(k, px.Y.w);
+    vec4 red = vec4(a.r, b.r, c.r, d.r), green = vec4(a.g, b.g, c.g, d.g), blue = vec4(a.b, b.b, c.b, d.b);
+    px.red += other * p.other.x * mix(red, vec4(1.0), k.veil) + direct * p.matter.x * red;
+    px.green += other * p.other.y * mix(green, vec4(1.0), k.veil) + direct * p.matter.y * green;
+    px.blue += other * p.other.z * mix(blue, vec4(1.0), k.veil) + direct * p.matter.z * blue;
 }
 #endif
 
@@ -278,6 +312,12 @@ void blend(Splat p, Column k, inout Pixels px) {
     vec4 change = k.change.x + k.change.y * px.Y;
     change = mix(change, 1.0 / (2.0 - min(change, 1.0)), lessThan(change, vec4(1.0)));
     vec4 other = weight * min(change, p.other.w);
+#ifdef TINTED
+    if (k.layer >= 0.0) {
+        add_tinted(p, k, direct, other, px);
+        return;
+    }
+#endif
     px.red += other * p.other.x + direct * p.matter.x;
     px.green += other * p.other.y + direct * p.matter.y;
     px.blue += other * p.other.z + direct * p.matter.z;

@@ -187,6 +187,28 @@ Status frames(Bench& bench) {
     return measure(many, kFlightRung, kFlightRung, std::nullopt);
 }
 
+// Of its texture system (appendix A) it prints no figures; Pakawan's report had them. The same matter, in two cubes for
+// each of the table's, painted with one texture, with three, with all six.
+Status textures(Bench& bench) {
+    constexpr std::uint64_t kBillboards = 10000;
+    for (const std::size_t count : {1, 3, 6}) {
+        const std::string what = grouped(kBillboards) + " billboards, " + size_text(800, 600) +
+                                 ", " + std::to_string(count) +
+                                 (count == 1 ? " texture" : " textures");
+        bench.begin(what);
+        SceneDraft draft = bare(kBillboards / 2, 800, 600);
+        std::vector<Cube>& cubes = draft.clouds[0].cubes;
+        const std::vector<Cube> again = cubes;
+        cubes.insert(cubes.end(), again.begin(), again.end());
+        for (std::size_t i = 0; i < cubes.size(); ++i)
+            cubes[i].texture = kOwnTextures[i % count].name;
+        const auto rate = frames_a_second(bench, draft, "harris", std::nullopt);
+        if (!rate.ok()) return rate.error();
+        bench.take({BenchSource::kCubes, "", what, BenchUnit::kFramesASecond, std::nullopt, *rate});
+    }
+    return std::nullopt;
+}
+
 // --- the automaton
 
 AutomatonCloud automaton_of(double side, std::uint64_t ellipsoids) {
@@ -209,6 +231,26 @@ Status step_and_smooth(const AutomatonCloud& cloud, int threads, const Deadline&
     automaton::PlaneSmoother smoother(grid, {&state.cld}, {1, 1, 1});
     for (std::size_t k = 0; k < grid.nz; ++k) smoother.plane(k);
     return std::nullopt;
+}
+
+// Frames a second of the automaton in Upchurch's look, cells and all, painted with the textures of these names.
+Result<double> painted_rate(Bench& bench, SceneDraft draft, AutomatonCloud cloud,
+                            const char* names) {
+    bench.begin(std::string("in his look, ") + names);
+    cloud.drawing.mode = AutomatonMode::kTextures;
+    cloud.drawing.textures = names;
+    draft.look = Look::kUpchurch;
+    draft.clouds[0].automaton = std::make_shared<const AutomatonCloud>(std::move(cloud));
+    const auto scene = validate(std::move(draft));
+    if (!scene.ok()) return scene.error();
+    std::vector<double> times;
+    for (int i = 0; i <= kRuns; ++i) {
+        const auto rendered = render_scene(
+            *scene, {nullptr, bench.wish.threads, nullptr, {}, bench.speed}, bench.deadline);
+        if (!rendered.ok()) return rendered.error();
+        if (i > 0) times.push_back(rendered->times.draw_ms);
+    }
+    return 1000 / std::max(median(std::move(times)), 1e-3);
 }
 
 Status automata(Bench& bench) {
@@ -252,6 +294,16 @@ Status automata(Bench& bench) {
         if (!rate.ok()) return rate.error();
         bench.take({BenchSource::kAutomaton, "table 1", size + ", drawn at 800 x 600",
                     BenchUnit::kFramesASecond, row.frames, *rate});
+        if (!printed) continue;
+        // As he drew it; figure 15 has it with one texture and with nine.
+        for (const char* const names : {"puff", "soft,puff,cauliflower,torn,wisp,hard"}) {
+            const auto drawn = painted_rate(bench, draft, standing, names);
+            if (!drawn.ok()) return drawn.error();
+            bench.take({BenchSource::kAutomaton, "",
+                        "... in his look, painted with " +
+                            std::string(names == std::string("puff") ? "1 texture" : "6 textures"),
+                        BenchUnit::kFramesASecond, std::nullopt, *drawn});
+        }
     }
     return std::nullopt;
 }
@@ -320,6 +372,7 @@ Status measure_figures(const BenchWish& wish, const std::function<void(const std
             case BenchSource::kCubes:
                 failed = filling(bench);
                 if (!failed) failed = frames(bench);
+                if (!failed) failed = textures(bench);
                 break;
             case BenchSource::kAutomaton:
                 failed = automata(bench);

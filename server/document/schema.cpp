@@ -255,7 +255,8 @@ void add_default(const Field& field, const void* standards, std::string& out) {
         default:
             break;
     }
-    if (!value && field.absent != nullptr) words("default", field.absent, out);
+    if (!value && field.absent != nullptr && field.access.unused == nullptr)
+        words("default", field.absent, out);
 }
 
 std::string field_schema(const Field& field, const void* standards, Schemas& schemas) {

@@ -39,14 +39,21 @@ std::shared_ptr<const Texture> texture_of(const Service::State& state, std::stri
     return nullptr;
 }
 
-// White, with the texture as its alpha: given back, it is the same texture.
+// White, with the texture as its alpha: given back, it is the same texture. One with colours has them, at half the
+// light: the tone curve leaves those as they are.
 Response show_texture(const Texture& texture, const Request& request) {
     const std::string etag = make_etag({"texture", texture.hash});
     if (none_match_names(joined_header(request, "If-None-Match"), etag))
         return not_modified(etag, false);
     Image image{kTextureSide, kTextureSide, false, {}};
-    for (const std::uint8_t depth : texture.depth)
-        image.pixels.insert(image.pixels.end(), 4, static_cast<float>(depth) / 255.0f);
+    const std::vector<float> colors = linear_colors(texture);
+    const float light = texture.color.empty() ? 1.0f : 0.5f;
+    for (std::size_t i = 0; i < texture.depth.size(); ++i) {
+        const float alpha = static_cast<float>(texture.depth[i]) / 255.0f;
+        for (std::size_t c = 0; c < 3; ++c)
+            image.pixels.push_back(light * colors[3 * i + c] * alpha);
+        image.pixels.push_back(alpha);
+    }
     auto png = encode_png(image, {0, Tone::kNeutral});
     if (!png) return fail(png.error(), request);
     Response response;

@@ -10,6 +10,7 @@ cells=(automaton-cumulus:15 automaton-cumulus:40 automaton-cumulus:100 automaton
     implicit-cumulus implicit-cirrus implicit-stratus implicit-mackerel implicit-creature
     implicit-cirrostratus:0 implicit-cirrostratus:20 implicit-cirrostratus:60 implicit-sunset-cirrus implicit-sunset-cirrostratus
     implicit-growth:5 implicit-growth:20 implicit-growth:35 implicit-growth:48 implicit-growth:60
+    implicit-bubbles:20 implicit-bubbles:52 implicit-billows:12 implicit-billows:44 implicit-cells
     ellipsoids-volume ellipsoids-stratus gardner-cumulus gardner-sky:0 gardner-sky:47)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -21,4 +22,5 @@ for i in "${!cells[@]}"; do
     pictures+=("$picture")
 done
 mkdir -p "$here/pictures"
-oiiotool "${pictures[@]}" --mosaic:pad=4 5x6 --resize 1300x0 -o "$here/pictures/models.png"
+oiiotool "${pictures[@]}" --mosaic:pad=4 5x7 --resize:filter=gaussian 1040x0 --attrib png:compressionLevel 9 \
+    -o "$here/pictures/models.png"

@@ -123,8 +123,68 @@ class Heights {
     std::vector<double> sums_;
 };
 
+// The hue of a picture: its colours as means over areas, by rows as they come. What is bright counts for more, and of a
+// picture with alpha what is opaque, as its colours are premultiplied.
+class Hues {
+  public:
+    Hues(int width, int height)
+        : part_(static_cast<double>(std::max(width, height)) / kSide),
+          left_(0.5 * (std::max(width, height) - width)),
+          top_(0.5 * (std::max(width, height) - height)),
+          sums_(3 * kSide * kSide) {}
+    void add_row(int y, const std::vector<std::uint16_t>& row) {
+        const double low = (y + top_) / part_, high = (y + 1 + top_) / part_;
+        for (int j = static_cast<int>(low); j < std::min(high, 1.0 * kSide); ++j) {
+            const double down = std::min(high, j + 1.0) - std::max(low, 1.0 * j);
+            for (std::size_t x = 0; 3 * x < row.size(); ++x) add(x, down, j, &row[3 * x]);
+        }
+    }
+    // EMPTY where it is grey all over, but for dither and rounding. Where it is dark these would be all the hue that
+    // there is, so the darker a place, the more it is as the mean.
+    std::vector<unsigned char> bytes() const {
+        double mean[3]{}, brightest = 0, apart = 0;
+        for (std::size_t i = 0; i < sums_.size(); i += 3) {
+            const auto [least, most] = std::minmax({sums_[i], sums_[i + 1], sums_[i + 2]});
+            brightest += most;
+            apart += std::max(most - least - 2 * kCode, 0.0);
+            for (std::size_t c = 0; c < 3; ++c) mean[c] += sums_[i + c];
+        }
+        if (!(apart > kGrey * brightest)) return {};
+        const double scale = 4 * kCode / std::max({mean[0], mean[1], mean[2]});
+        std::vector<unsigned char> hues(sums_.size());
+        for (std::size_t i = 0; i < hues.size(); i += 3) {
+            double own[3];
+            for (std::size_t c = 0; c < 3; ++c) own[c] = sums_[i + c] + scale * mean[c];
+            const double most = std::max({own[0], own[1], own[2]});
+            for (std::size_t c = 0; c < 3; ++c)
+                hues[i + c] = static_cast<unsigned char>(255 * own[c] / most + 0.5);
+        }
+        return hues;
+    }
+
+  private:
+    static constexpr int kSide = awan::kPictureHues;
+    // One of 8 bits.
+    static constexpr double kCode = 257;
+    static constexpr double kGrey = 0.005;
+
+    void add(std::size_t x, double down, int j, const std::uint16_t* color) {
+        const double low = (static_cast<double>(x) + left_) / part_, high = low + 1 / part_;
+        for (int i = static_cast<int>(low); i < std::min(high, 1.0 * kSide); ++i) {
+            const double share = down * (std::min(high, i + 1.0) - std::max(low, 1.0 * i));
+            double* const to = &sums_[3 * static_cast<std::size_t>(j * kSide + i)];
+            for (int c = 0; c < 3; ++c) to[c] += std::max(share, 0.0) * color[c];
+        }
+    }
+
+    // Pixels along a side of one of the square's parts; how many are missing before the picture.
+    double part_, left_, top_;
+    std::vector<double> sums_;
+};
+
 // Once more, its colours in 16 bits. False: it cannot be read so.
-bool read_heights(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, Heights& heights) {
+bool read_heights(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, Heights& heights,
+                  Hues& hues) {
     const int count = spec.nchannels < 3 ? 1 : 3;
     const auto width = static_cast<std::size_t>(spec.width);
     std::vector<std::uint16_t> pixels(width * static_cast<std::size_t>(spec.height) *
@@ -134,6 +194,7 @@ bool read_heights(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, Heights&
         return false;
     }
     std::vector<float> row(width);
+    std::vector<std::uint16_t> colors;
     const std::uint16_t* from = pixels.data();
     for (int y = 0; y < spec.height; ++y) {
         for (float& one : row) {
@@ -144,6 +205,9 @@ bool read_heights(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, Heights&
             from += count;
         }
         heights.add_row(y, row);
+        if (count != 3) continue;
+        colors.assign(from - 3 * width, from);
+        hues.add_row(y, colors);
     }
     return true;
 }
@@ -185,10 +249,16 @@ const char* read(awan::PictureHead& head, std::vector<unsigned char>& values) {
     values.resize(pixels);
     values.shrink_to_fit();
     Heights heights(spec.width, spec.height);
-    if (!read_heights(*input, spec, heights)) return "it is broken, or ends too soon";
+    Hues hues(spec.width, spec.height);
+    if (!read_heights(*input, spec, heights, hues)) return "it is broken, or ends too soon";
     const std::vector<std::uint16_t> numbers = heights.numbers();
     const auto* const bytes = reinterpret_cast<const unsigned char*>(numbers.data());
     values.insert(values.end(), bytes, bytes + 2 * numbers.size());
+    if (spec.nchannels >= 3) {
+        const std::vector<unsigned char> colors = hues.bytes();
+        values.insert(values.end(), colors.begin(), colors.end());
+        head.colored = colors.empty() ? 0 : 1;
+    }
     head.width = spec.width;
     head.height = spec.height;
     head.across = heights.across();

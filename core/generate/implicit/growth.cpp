@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "core/generate/implicit/keys.h"
 #include "core/generate/implicit/noise.h"
 #include "core/generate/keyed_random.h"
 
@@ -50,10 +51,27 @@ AWAN_KERNEL(void, air_around,
             (const Octaves& octaves, const GrownParticle* particles, int count, Air* air),
             (octaves, particles, count, air))
 
+// One member of a growth at a time.
+template <typename T>
+T member_at(const ImplicitGrowth& growth, T ImplicitGrowth::*own,
+            std::optional<T> ImplicitGrowthKey::*keyed, bool smooth, double time) {
+    return at_time(
+        growth.keys, growth.*own, smooth,
+        time, [=](const ImplicitGrowthKey& key) -> const auto& { return key.*keyed; });
+}
+
+// What acts on the particles at a time.
+struct Acting {
+    glm::dvec3 force;
+    double turbulence, drag, rate;
+};
+
 class Colony {
   public:
-    Colony(const ImplicitGrowth& growth, std::uint64_t key)
-        : growth_(growth), octaves_(octaves_of(keyed(key, 1), 3, 0.5, 0, 0, 0, 0)) {
+    Colony(const ImplicitGrowth& growth, bool smooth, std::uint64_t key)
+        : growth_(growth),
+          smooth_(smooth),
+          octaves_(octaves_of(keyed(key, 1), 3, 0.5, 0, 0, 0, 0)) {
         for (std::uint64_t i = 0; i < growth.seeds; ++i) {
             GrownParticle& seed = particles.emplace_back();
             seed.key = keyed(keyed(key, 0), i);
@@ -71,26 +89,36 @@ class Colony {
     void step(double time, double dt) {
         // Children born in this step move from the next one on.
         const std::size_t count = particles.size();
+        const Acting acting = acting_at(time);
         Air air[lanes::kCount];
         for (std::size_t first = 0; first < count; first += lanes::kCount) {
             const std::size_t last = std::min(count, first + lanes::kCount);
             air_around(octaves_, &particles[first], static_cast<int>(last - first), air);
             for (std::size_t i = first; i < last; ++i) {
                 if (time - particles[i].birth >= growth_.lifetime) particles[i].dormant = true;
-                if (!particles[i].dormant) move(i, air[i - first], time, dt);
+                if (!particles[i].dormant) move(i, acting, air[i - first], time, dt);
             }
         }
         grow_to(time + dt);
     }
 
   private:
-    void move(std::size_t i, const Air& air, double time, double dt) {
+    Acting acting_at(double time) const {
+        using Of = ImplicitGrowth;
+        using Key = ImplicitGrowthKey;
+        return {member_at(growth_, &Of::force, &Key::force, smooth_, time),
+                member_at(growth_, &Of::turbulence, &Key::turbulence, smooth_, time),
+                member_at(growth_, &Of::drag, &Key::drag, smooth_, time),
+                member_at(growth_, &Of::rate, &Key::rate, smooth_, time)};
+    }
+
+    void move(std::size_t i, const Acting& acting, const Air& air, double time, double dt) {
         GrownParticle& p = particles[i];
         // The drag is taken at the step's end (implicit Euler), which is stable for steps of any length.
-        p.velocity += dt * (growth_.force + growth_.turbulence * air.force);
-        p.velocity /= 1 + growth_.drag * dt;
+        p.velocity += dt * (acting.force + acting.turbulence * air.force);
+        p.velocity /= 1 + acting.drag * dt;
         p.position = glm::clamp(p.position + dt * p.velocity, -kGrowthReach, kGrowthReach);
-        p.fertility += dt * growth_.rate * air.strength;
+        p.fertility += dt * acting.rate * air.strength;
         if (p.fertility < 1) return;
         // At most one child a step.
         p.fertility = std::min(p.fertility - 1, 1.0);
@@ -117,13 +145,15 @@ class Colony {
     }
 
     const ImplicitGrowth& growth_;
+    bool smooth_;
     Octaves octaves_;
 };
 
 }  // namespace
 
-std::vector<GrownParticle> grown(const ImplicitGrowth& growth, std::uint64_t key, double time) {
-    Colony colony(growth, key);
+std::vector<GrownParticle> grown(const ImplicitGrowth& growth, std::uint64_t key, double time,
+                                 bool smooth) {
+    Colony colony(growth, smooth, key);
     const double dt = growth.duration / kGrowthSteps;
     const double at = std::clamp(time, 0.0, growth.duration) / dt;
     const int whole = std::min(static_cast<int>(at), kGrowthSteps);
@@ -143,20 +173,44 @@ std::vector<GrownParticle> grown(const ImplicitGrowth& growth, std::uint64_t key
     return now;
 }
 
-Element element_of(const GrownParticle& particle, const ImplicitGrowth& growth,
-                   const Frame& frame) {
-    const double radius = growth.radius * particle.size * (0.4 + 0.6 * particle.share);
-    return sphere_element(growth.center + growth.radius * particle.position, radius,
-                          growth.weight * particle.share, frame);
+ColonySeen colony_seen(const ImplicitGrowth& growth, bool smooth, double time) {
+    using Of = ImplicitGrowth;
+    using Key = ImplicitGrowthKey;
+    return {member_at(growth, &Of::center, &Key::center, smooth, time),
+            member_at(growth, &Of::radius, &Key::radius, smooth, time),
+            member_at(growth, &Of::weight, &Key::weight, smooth, time)};
 }
 
-Box growth_box(const ImplicitGrowth& growth, std::uint64_t key) {
+Element element_of(const GrownParticle& particle, const ColonySeen& seen, const Frame& frame) {
+    const double radius = seen.radius * particle.size * (0.4 + 0.6 * particle.share);
+    return sphere_element(seen.center + seen.radius * particle.position, radius,
+                          seen.weight * particle.share, frame);
+}
+
+// Wherever the colony's middle is and whatever its measure, a particle is at middle + measure * position: in the box of
+// what the ends of both make.
+Box growth_box(const ImplicitGrowth& growth, std::uint64_t key, bool smooth) {
+    Box middles;
+    middles.add(growth.center);
+    double least = growth.radius, most = growth.radius;
+    for (const ImplicitGrowthKey& one : growth.keys) {
+        if (one.center) middles.add(*one.center);
+        least = std::min(least, one.radius.value_or(least));
+        most = std::max(most, one.radius.value_or(most));
+    }
     Box box;
-    const auto add = [&](const Colony& colony) {
+    const auto add_seen = [&](const Colony& colony, const glm::dvec3& middle, double measure) {
         for (const GrownParticle& p : colony.particles)
-            box.add(growth.center + growth.radius * p.position, glm::dvec3(growth.radius * p.size));
+            box.add(middle + measure * p.position, glm::dvec3(most * p.size));
     };
-    Colony colony(growth, key);
+    const auto add = [&](const Colony& colony) {
+        add_seen(colony, middles.min, most);
+        if (growth.keys.empty()) return;
+        add_seen(colony, middles.max, most);
+        add_seen(colony, middles.min, least);
+        add_seen(colony, middles.max, least);
+    };
+    Colony colony(growth, smooth, key);
     add(colony);
     const double dt = growth.duration / kGrowthSteps;
     for (int i = 0; i < kGrowthSteps; ++i) {

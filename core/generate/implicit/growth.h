@@ -37,12 +37,21 @@ inline constexpr double kGrowthReach = 150;
 // All particles that there are at `time` (before 0: as at 0; after the duration: as at its end), in the order of
 // their birth. A particle once born is in every later answer, at the same index. It depends on the growth, the key
 // and the time alone: the steps are always those from time 0, and between two of them places are interpolated.
-std::vector<GrownParticle> grown(const ImplicitGrowth& growth, std::uint64_t key, double time);
+// What acts on them changes by the growth's keys, smoothly or straight.
+std::vector<GrownParticle> grown(const ImplicitGrowth& growth, std::uint64_t key, double time,
+                                 bool smooth = true);
+
+// What the whole colony is at a time, its keys followed.
+struct ColonySeen {
+    glm::dvec3 center{0};
+    double radius = 1, weight = 1;
+};
+ColonySeen colony_seen(const ImplicitGrowth& growth, bool smooth, double time);
 
 // A particle as an element. Its weight and radius grow with its share.
-Element element_of(const GrownParticle& particle, const ImplicitGrowth& growth, const Frame& frame);
+Element element_of(const GrownParticle& particle, const ColonySeen& seen, const Frame& frame);
 
 // A box around all particles at all times, units.
-Box growth_box(const ImplicitGrowth& growth, std::uint64_t key);
+Box growth_box(const ImplicitGrowth& growth, std::uint64_t key, bool smooth = true);
 
 }  // namespace awan::implicit

@@ -1,7 +1,9 @@
 #include "core/generate/implicit/keys.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace awan::implicit {
 namespace {
@@ -13,6 +15,27 @@ void add_jet(const glm::dvec3& jet, double turbulence, SettingsReach& reach) {
     const glm::dvec3 most = jet + turbulence * kTurbulentJet;
     reach.jet_low = glm::min(reach.jet_low, glm::min(jet, most));
     reach.jet_high = glm::max(reach.jet_high, glm::max(jet, most));
+}
+
+// Of a warp whose keys may say its place, its reach and, by `strength_of`, its strength. What lies between two keys is
+// not beyond both.
+template <typename Warp, typename Strength>
+WarpReach most_of(const Warp& warp, const Strength& strength_of) {
+    WarpReach most;
+    most.reach = warp.reach;
+    most.strength = std::abs(strength_of(warp));
+    for (const auto& key : warp.keys) {
+        most.reach = std::max(most.reach, key.reach.value_or(0));
+        most.strength = std::max(most.strength, std::abs(strength_of(key)));
+    }
+    most.places.add(warp.at);
+    for (const auto& key : warp.keys)
+        if (key.at) most.places.add(*key.at);
+    return most;
+}
+
+double value_of(const std::optional<double>& value) {
+    return value.value_or(0);
 }
 
 }  // namespace
@@ -62,6 +85,43 @@ SettingsReach reach_at_all_times(const ImplicitCloud& cloud) {
     for (const ImplicitCloudKey& key : cloud.keys)
         if (key.jet) add_jet(*key.jet, turbulence, reach);
     return reach;
+}
+
+ImplicitAttractor attractor_at(const ImplicitAttractor& attractor, bool smooth, double time) {
+    ImplicitAttractor now{attractor.at, attractor.strength, attractor.reach};
+    const auto put = [&](auto& value, auto ImplicitAttractorKey::*member) {
+        value = at_time(
+            attractor.keys, value, smooth,
+            time, [=](const ImplicitAttractorKey& key) -> const auto& { return key.*member; });
+    };
+    put(now.at, &ImplicitAttractorKey::at);
+    put(now.strength, &ImplicitAttractorKey::strength);
+    put(now.reach, &ImplicitAttractorKey::reach);
+    return now;
+}
+
+ImplicitVortex vortex_at(const ImplicitVortex& vortex, bool smooth, double time) {
+    ImplicitVortex now{vortex.at, vortex.axis, vortex.angle, vortex.reach};
+    const auto put = [&](auto& value, auto ImplicitVortexKey::*member) {
+        value = at_time(
+            vortex.keys, value, smooth,
+            time, [=](const ImplicitVortexKey& key) -> const auto& { return key.*member; });
+    };
+    put(now.at, &ImplicitVortexKey::at);
+    put(now.axis, &ImplicitVortexKey::axis);
+    put(now.angle, &ImplicitVortexKey::angle);
+    put(now.reach, &ImplicitVortexKey::reach);
+    // Halfway between opposite ones.
+    if (!(glm::length(now.axis) >= 1e-6)) now.axis = vortex.axis;
+    return now;
+}
+
+WarpReach reach_at_all_times(const ImplicitAttractor& attractor) {
+    return most_of(attractor, [](const auto& one) { return value_of(one.strength); });
+}
+
+WarpReach reach_at_all_times(const ImplicitVortex& vortex) {
+    return most_of(vortex, [](const auto& one) { return value_of(one.angle); });
 }
 
 }  // namespace awan::implicit

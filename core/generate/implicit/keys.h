@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/generate/implicit/elements.h"
 #include "core/generate/implicit/lanes.h"
 #include "core/scene/implicit.h"
 
@@ -49,5 +50,18 @@ struct SettingsReach {
     double base = 0;
 };
 SettingsReach reach_at_all_times(const ImplicitCloud& cloud);
+
+// A warp at a time, its keys followed.
+ImplicitAttractor attractor_at(const ImplicitAttractor& attractor, bool smooth, double time);
+ImplicitVortex vortex_at(const ImplicitVortex& vortex, bool smooth, double time);
+
+// The most that a warp does at any time: the box of all its places, units; its largest reach, units; the largest size
+// of its strength, or of its angle in degrees.
+struct WarpReach {
+    Box places;
+    double reach = 0, strength = 0;
+};
+WarpReach reach_at_all_times(const ImplicitAttractor& attractor);
+WarpReach reach_at_all_times(const ImplicitVortex& vortex);
 
 }  // namespace awan::implicit

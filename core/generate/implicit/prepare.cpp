@@ -40,10 +40,17 @@ double most_over_ball(const F& f) {
     return most;
 }
 
-Box ball_around(const glm::dvec3& at, double reach) {
-    Box box;
-    box.add(at, glm::dvec3(reach));
-    return box;
+Box within(const Frame& frame, const Box& box) {
+    return {(box.min - frame.middle) / frame.unit, (box.max - frame.middle) / frame.unit};
+}
+
+// In the frame.
+Box ball_of(const WarpReach& most, const Frame& frame) {
+    const Box places = within(frame, most.places);
+    Box ball;
+    for (const glm::dvec3& place : {places.min, places.max})
+        ball.add(place, glm::dvec3(most.reach / frame.unit));
+    return ball;
 }
 
 Box widened(const Box& box, const glm::dvec3& low, const glm::dvec3& high) {
@@ -100,22 +107,25 @@ void prepare_warps(const ImplicitCloud& cloud, const ImplicitSettings& s, double
     f.jet_floor = static_cast<float>(macro.min.y);
     f.jet_slope = static_cast<float>(1 / std::max(macro.max.y - macro.min.y, 1e-6));
     if (cloud.flow) prepare_flow(*cloud.flow, share, frame, f.flow);
-    for (const ImplicitAttractor& a : cloud.attractors) {
-        const glm::dvec3 at = (a.at - frame.middle) / frame.unit;
-        const double reach = a.reach / frame.unit, strength = std::abs(a.strength);
-        f.attractors.push_back({glm::vec3(at), static_cast<float>(a.strength * share),
-                                static_cast<float>(1 / reach), ball_around(at, reach),
-                                reach * most_over_ball([=](double h) { return strength * h; })});
+    for (const ImplicitAttractor& described : cloud.attractors) {
+        const ImplicitAttractor a = attractor_at(described, !cloud.linear_keys, time);
+        const WarpReach most = reach_at_all_times(described);
+        const double strength = most.strength;
+        f.attractors.push_back(
+            {glm::vec3((a.at - frame.middle) / frame.unit), static_cast<float>(a.strength * share),
+             static_cast<float>(1 / (a.reach / frame.unit)), ball_of(most, frame),
+             most.reach / frame.unit * most_over_ball([=](double h) { return strength * h; })});
     }
-    for (const ImplicitVortex& v : cloud.vortices) {
-        const glm::dvec3 at = (v.at - frame.middle) / frame.unit;
-        const double reach = v.reach / frame.unit;
-        const double radians = std::abs(v.angle) * std::numbers::pi / 180;
+    for (const ImplicitVortex& described : cloud.vortices) {
+        const ImplicitVortex v = vortex_at(described, !cloud.linear_keys, time);
+        const WarpReach most = reach_at_all_times(described);
+        const double radians = most.strength * std::numbers::pi / 180;
         f.vortices.push_back(
-            {glm::vec3(at), glm::vec3(glm::normalize(v.axis)),
-             static_cast<float>(v.angle / 360 * share), static_cast<float>(1 / reach),
-             ball_around(at, reach),
-             reach * most_over_ball([=](double h) { return std::min(2.0, radians * h); })});
+            {glm::vec3((v.at - frame.middle) / frame.unit), glm::vec3(glm::normalize(v.axis)),
+             static_cast<float>(v.angle / 360 * share),
+             static_cast<float>(1 / (v.reach / frame.unit)), ball_of(most, frame),
+             most.reach / frame.unit *
+                 most_over_ball([=](double h) { return std::min(2.0, radians * h); })});
     }
     f.warped = s.jet != glm::dvec3(0) || s.jet_turbulence > 0 || cloud.flow ||
                !cloud.attractors.empty() || !cloud.vortices.empty();
@@ -196,7 +206,8 @@ class Macrostructure {
         const std::vector<ImplicitPrimitive> driven = primitives_of(cloud.particles);
         primitives_.insert(primitives_.end(), driven.begin(), driven.end());
         for (const ImplicitPrimitive& primitive : primitives_) box.add(box_at_all_times(primitive));
-        if (cloud.growth) box.add(growth_box(*cloud.growth, keyed(key, kGrowthKey)));
+        if (cloud.growth)
+            box.add(growth_box(*cloud.growth, keyed(key, kGrowthKey), !cloud.linear_keys));
         if (cloud.bubbles) box.add(bubbles_box(*cloud.bubbles));
         if (cloud.billows) {
             sheet_ = rolled_sheet(cloud.billows->amplitude, cloud.billows->smoothing);
@@ -211,10 +222,13 @@ class Macrostructure {
     void add_at(double time, const Frame& frame, std::vector<Element>& elements) const {
         for (const ImplicitPrimitive& primitive : primitives_)
             add_elements(primitive, !cloud_.linear_keys, time, frame, elements);
-        if (cloud_.growth)
+        if (cloud_.growth) {
+            const bool smooth = !cloud_.linear_keys;
+            const ColonySeen seen = colony_seen(*cloud_.growth, smooth, time);
             for (const GrownParticle& particle :
-                 grown(*cloud_.growth, keyed(key_, kGrowthKey), time))
-                elements.push_back(element_of(particle, *cloud_.growth, frame));
+                 grown(*cloud_.growth, keyed(key_, kGrowthKey), time, smooth))
+                elements.push_back(element_of(particle, seen, frame));
+        }
         const auto add = [&](const std::vector<Puff>& puffs) {
             for (const Puff& puff : puffs)
                 elements.push_back(sphere_element(puff.center, puff.radius, puff.weight, frame));
@@ -278,9 +292,7 @@ ImplicitField prepare_field(const ImplicitCloud& cloud, std::uint64_t key, doubl
     f.diagonal = cloud.diagonal;
     prepare_noise(cloud, s, key, time, f);
     Box macro;
-    if (!all.empty())
-        macro = {(all.min - f.frame.middle) / f.frame.unit,
-                 (all.max - f.frame.middle) / f.frame.unit};
+    if (!all.empty()) macro = within(f.frame, all);
     prepare_warps(cloud, s, time, macro, f);
     for (int i = 0; i < 3; ++i)
         f.ripple[i] = s.ripple[i] > 0 ? static_cast<float>(1 / s.ripple[i]) : 0;
@@ -304,7 +316,7 @@ Box box_of(const ImplicitField& field) {
 
 std::vector<std::uint32_t> elements_near(const ImplicitField& field, const Box& box) {
     const Frame& frame = field.frame;
-    Box at{(box.min - frame.middle) / frame.unit, (box.max - frame.middle) / frame.unit};
+    Box at = within(frame, box);
     if (field.squashed) at = mapped(field.unsquash, field.squash_at, at);
     const auto most = static_cast<double>(field.displacement);
     at = widened(at, glm::dvec3(-most), glm::dvec3(most));
