@@ -25,7 +25,7 @@ Result<const gl::Program*> compiled(std::optional<gl::Program>& kept, const Comp
 }  // namespace
 
 Result<const gl::Program*> Device::Programs::painted(bool interior, bool tinted) {
-    return compiled(late[(interior ? 1 : 0) + (tinted ? 2 : 0)], [&] {
+    return compiled(painted_splats[interior ? 1 : 0][tinted ? 1 : 0], [&] {
         std::string defines = "#define PAINTED\n";
         if (interior) defines += "#define INTERIOR\n";
         if (tinted) defines += "#define TINTED\n";
@@ -34,14 +34,14 @@ Result<const gl::Program*> Device::Programs::painted(bool interior, bool tinted)
 }
 
 Result<const gl::Program*> Device::Programs::detailed(bool interior) {
-    return compiled(late[interior ? 4 : 3], [&] {
+    return compiled(detailed_splats[interior ? 1 : 0], [&] {
         return gl::Program::compute(
             "splat.glsl", interior ? "#define DETAIL\n#define INTERIOR\n" : "#define DETAIL\n");
     });
 }
 
 Result<const gl::Program*> Device::Programs::display() {
-    return compiled(late[4], [] { return gl::Program::drawing("display.glsl"); });
+    return compiled(display_triangles, [] { return gl::Program::drawing("display.glsl"); });
 }
 
 struct Device::State {

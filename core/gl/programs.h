@@ -1,7 +1,6 @@
 // The compiled programs of both passes. Private to core/gl, core/light and core/draw.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "core/gl/device.h"
@@ -31,7 +30,10 @@ struct Device::Programs {
     // Triangles, for what is displayed instead of lit.
     Result<const gl::Program*> display();
 
-    std::array<std::optional<gl::Program>, 5> late{};
+    using Late = std::optional<gl::Program>;
+    Late painted_splats[2][2]{};  // [interior][tinted]
+    Late detailed_splats[2]{};    // [interior]
+    Late display_triangles{};
 };
 
 }  // namespace awan
