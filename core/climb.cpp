@@ -76,21 +76,25 @@ Result<Climb> climb_to(int cells, const Scene& scene, const Planned& planned,
     return Climb{scene, planned, tools, deadline, *std::move(small), std::move(settings)};
 }
 
-// Of a grid's light without the coarser ones beside it, which only measuring looks at.
-std::string key_alone(const Climb& climb, int cells) {
+std::string key_of(const Climb& climb, const TransportSettings& settings) {
     const ParticleSet& particles = climb.planned.particles;
-    const TransportSettings settings =
-        settings_on_the_way(climb.settings, cells, climb.planned.survey);
-    return light_key(climb.scene, settings, particles.variant, particles.detail.get()) + ":alone";
+    return light_key(climb.scene, settings, particles.variant, particles.detail.get());
+}
+std::string key_of(const Climb& climb, int cells) {
+    return key_of(climb, settings_on_the_way(climb.settings, cells, climb.planned.survey));
+}
+// Of a grid's light without the coarser ones beside it, which only measuring looks at.
+std::string alone(const std::string& key) {
+    return key + ":alone";
 }
 
 // The light of a grid with so many cells, if it is kept, with or without coarser ones; else null.
 SharedLight kept_light(const Climb& climb, int cells) {
     LightCache* const kept = climb.tools.lights;
     if (kept == nullptr) return nullptr;
-    const std::string alone = key_alone(climb, cells);
-    if (SharedLight light = kept->find(alone.substr(0, alone.rfind(':')))) return light;
-    return kept->find(alone);
+    const std::string key = key_of(climb, cells);
+    if (SharedLight light = kept->find(key)) return light;
+    return kept->find(alone(key));
 }
 
 // Keeps a light that is too large to be kept together with the coarser ones.
@@ -99,9 +103,9 @@ void keep_alone(const Climb& climb, int cells, const SharedLight& light) {
     if (kept == nullptr || light == nullptr || !light->coarser) return;
     const std::size_t all = light->bytes(), most = kept->most_of_one();
     if (all <= most || all - light->coarser->bytes() > most) return;
-    auto alone = std::make_shared<TransportLight>(*light);
-    alone->coarser = nullptr;
-    kept->keep(key_alone(climb, cells), std::move(alone));
+    auto without = std::make_shared<TransportLight>(*light);
+    without->coarser = nullptr;
+    kept->keep(alone(key_of(climb, cells)), std::move(without));
 }
 
 // The light of these settings: kept from an earlier picture, or solved, going on from the one that was reached.
@@ -109,9 +113,7 @@ Result<SharedLight> light_of_step(const Climb& climb, const TransportSettings& s
                                   const Deadline& deadline, Climbed& reached) {
     const ParticleSet& particles = climb.planned.particles;
     LightCache* const kept = climb.tools.lights;
-    const std::string key =
-        kept ? light_key(climb.scene, settings, particles.variant, particles.detail.get())
-             : std::string();
+    const std::string key = kept ? key_of(climb, settings) : std::string();
     if (kept)
         if (SharedLight light = kept->find(key)) return light;
     reached.was_kept = false;

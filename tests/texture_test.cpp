@@ -331,7 +331,7 @@ TEST(TexturePicture, ColoursTintTheLight) {
     const Rendered hazy = render(draft);
     const auto middle = static_cast<std::size_t>(
         4 * (hazy.image.height / 2 * hazy.image.width + hazy.image.width / 2));
-    EXPECT_GT(hazy.image.pixels[middle + 2], 0.01F);
+    EXPECT_GT(hazy.image.pixels[middle + 2], 0.005F);
     EXPECT_LT(hazy.image.pixels[middle + 2], hazy.image.pixels[middle]);
 }
 

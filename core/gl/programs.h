@@ -31,8 +31,8 @@ struct Device::Programs {
     Result<const gl::Program*> display();
 
     using Late = std::optional<gl::Program>;
-    Late painted_splats[2][2]{};  // [interior][tinted]
-    Late detailed_splats[2]{};    // [interior]
+    // [interior][tinted], [interior].
+    Late painted_splats[2][2]{}, detailed_splats[2]{};
     Late display_triangles{};
 };
 

@@ -60,8 +60,8 @@ Lattice cubic_cells(const MatterBox& box, int count);
 Lattice fitted_cells(const MatterBox& box, int count);
 
 // Cells along the longest side for as many cubic ones as `count` along it fill a compact box with: its sides as 1 to
-// 1/2 to 1/2. A box that is flatter than that, or longer, gets finer ones, up to `most` times `count`: else the cells of
-// wide, thin clouds would be few, and large beside what they are to show.
+// 1/2 to 1/2. A box that is flatter than that, or longer, gets finer ones, up to `most` times `count`: else the cells
+// of wide, thin clouds would be few, and large beside what they are to show.
 int spread_count(const glm::dvec3& size, int count, double most);
 
 // Divides the box by one of these into `count` cells, or, where extinction_in would need more than `most_work` updates

@@ -210,7 +210,7 @@ MUTANTS = [
       "mix(mix(row[0], row[1], c.fz), mix(row[2], row[3], c.fz), c.fy)", "swapped axes",
       ["implicit_noise_test"]),
     M("growth without drag", "implicit", "core/generate/implicit/growth.cpp",
-      "p.velocity /= 1 + growth_.drag * dt;", "p.velocity /= 1 - growth_.drag * dt;", "a sign",
+      "p.velocity /= 1 + acting.drag * dt;", "p.velocity /= 1 - acting.drag * dt;", "a sign",
       ["implicit_growth_test"]),
     M("growth rests too early", "implicit", "core/generate/implicit/growth.cpp",
       "(time - p.birth) / (growth_.lifetime / 2)", "(time - p.birth) / growth_.lifetime", "a factor",
