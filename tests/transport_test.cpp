@@ -168,6 +168,39 @@ TEST(SunDepth, IsTheLineIntegralInFlatMatterToo) {
     }
 }
 
+// Small clouds far apart, under a sun that shines between them.
+TEST(SunDepth, IsFineWhereCloudsAreFewAndFlat) {
+    std::vector<test::Ball> list;
+    for (int i = 0; i < 8; ++i)
+        for (int j = 0; j < 8; ++j)
+            list.push_back({{6 * i + std::sin(5. * j), .3 * std::sin(3. * i + j), 6. * j}, 1.2, 2});
+    const ParticleSet field = plan_scene(test::valid(test::balls(list)), 1, {})->particles;
+    const glm::dvec3 towards = glm::normalize(glm::dvec3(.3, .05, 1));
+    const SunDepth sun = sun_depth(field, towards, 96, 2);
+    double sum = 0;
+    constexpr int kPoints = 400;
+    for (int i = 0; i < kPoints; ++i) {
+        const test::Ball& ball = list[static_cast<std::size_t>(i) % list.size()];
+        const glm::dvec3 at =
+            ball.center + glm::dvec3(std::sin(i * 12.9), std::sin(i * 78.2), std::sin(i * 37.7));
+        const double exact = line_optical_depth(field, at, towards, 0, INFINITY);
+        const double off = std::exp(-depth_at(sun, at)) - std::exp(-exact);
+        sum += off * off;
+    }
+    EXPECT_LT(std::sqrt(sum / kPoints), .015);
+}
+
+TEST(Lattice, FlatMatterHasAsManyCellsAsCompact) {
+    EXPECT_EQ(spread_count({8, 4, 4}, 64, 4), 64);
+    EXPECT_EQ(spread_count({5, 5, 5}, 64, 4), 64);
+    const glm::dvec3 flat(40, 5, 40);
+    const int count = spread_count(flat, 64, 4);
+    EXPECT_NEAR(count * count * (count * 5. / 40), .25 * 64 * 64 * 64, 6000);
+    EXPECT_EQ(spread_count({100, .001, 100}, 64, 4), 256);
+    EXPECT_EQ(spread_count({100, .001, 100}, 64, 1.5), 96);
+    EXPECT_EQ(spread_count({0, 0, 0}, 64, 4), 64);
+}
+
 TEST(SunDepth, IsTheLineIntegral) {
     SceneDraft draft = test::table_4_4();
     const auto planned = plan_scene(test::valid(draft), 1, {});
