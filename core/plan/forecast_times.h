@@ -12,12 +12,12 @@ struct TimeModel {
     TimeFigures coefficient;
 };
 // Generate, survey and plan.
-inline constexpr TimeModel kPrepareTime = {{1.43259, 0, 0.000966922, 6.64295e-08, 0, 0, 0, 0, 0, 0, 76.034, 0, 0, 0}};
-inline constexpr TimeModel kAdditiveTime = {{3.40263, 0, 0.00248724, 1.14041e-06, 8.58942e-06, 0, 0, 0, 0, 3.03988e-05, 0, 0, 0, 0}};
-inline constexpr TimeModel kHarrisLightTime = {{2.35634, 0, 0.00562015, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}};
-inline constexpr TimeModel kHarrisDrawTime = {{0.30896, 0, 0.00420637, 6.51369e-07, 3.12539e-05, 0, 0, 0, 0, 4.62078e-05, 0, 0, 0, 0}};
-inline constexpr TimeModel kMarchLightTime = {{0.848736, 0, 0.000881663, 0, 0, 0.000485522, 1.51484e-07, 0, 0, 0, 0, 0, 0.000530085, 0.0539104}};
-inline constexpr TimeModel kMarchDrawTime = {{2.88837, 0, 0.00452757, 0, 0.00013594, 0, 0, 0, 0.000115255, 0.000164206, 0, 3.47236e-05, 0, 0.0138051}};
-inline constexpr TimeModel kPathTime = {{0, 0, 0.412038, 0, 0.00311928, 0, 0, 0.00107784, 0, 0.00494184, 0, 0, 0, 0}};
+inline constexpr TimeModel kPrepareTime = {{3.60712, 0, 0.0018534, 2.81182e-08, 0, 0, 0, 0, 0, 0, 71.0839, 0, 0, 0}};
+inline constexpr TimeModel kAdditiveTime = {{0.598091, 0, 0.00456869, 1.6139e-06, 6.67814e-05, 0, 0, 0, 0, 6.8738e-05, 0, 0, 0, 0}};
+inline constexpr TimeModel kHarrisLightTime = {{2.57761, 0, 0.00568982, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}};
+inline constexpr TimeModel kHarrisDrawTime = {{0.203591, 0, 0.00431405, 8.99397e-07, 4.0901e-05, 0, 0, 0, 0, 2.41709e-05, 0, 0, 0, 0}};
+inline constexpr TimeModel kMarchLightTime = {{1.22376, 0, 0.000678895, 0, 0, 0.000564842, 1.04652e-07, 0, 0, 0, 0, 0, 0.000508753, 0.0503716}};
+inline constexpr TimeModel kMarchDrawTime = {{0.783154, 0.000112313, 0.00444618, 4.17954e-07, 7.36477e-05, 0, 0, 0, 6.83242e-05, 0.000118425, 0, 3.40664e-05, 0, 0.0156401}};
+inline constexpr TimeModel kPathTime = {{0, 0, 0.839193, 0, 0.0041085, 0, 0, 0.000944044, 0, 0.00936433, 0, 0, 0, 0}};
 
 }  // namespace awan
