@@ -54,11 +54,20 @@ Result<Planned> plan_still(const Scene& scene, int threads, const Deadline& dead
 Result<Planned> plan_generated(const Scene& scene, ParticleSet made, int threads,
                                const Deadline& deadline, const MachineSpeed& speed,
                                const std::optional<DetailFigures>& detail) {
-    Planned planned;
-    auto particles = timed(planned.times.generate_ms,
-                           [&] { return to_work_on(scene, std::move(made), threads, deadline); });
+    double merge_ms = 0;
+    auto particles =
+        timed(merge_ms, [&] { return to_work_on(scene, std::move(made), threads, deadline); });
     if (!particles.ok()) return particles.error();
-    planned.particles = *std::move(particles);
+    auto planned = plan_particles(scene, *std::move(particles), threads, deadline, speed, detail);
+    if (planned.ok()) planned->times.generate_ms = merge_ms;
+    return planned;
+}
+
+Result<Planned> plan_particles(const Scene& scene, ParticleSet particles, int threads,
+                               const Deadline& deadline, const MachineSpeed& speed,
+                               const std::optional<DetailFigures>& detail) {
+    Planned planned;
+    planned.particles = std::move(particles);
     auto surveyed = timed(planned.times.survey_ms,
                           [&] { return survey(scene, planned.particles, threads, deadline); });
     if (!surveyed.ok()) return surveyed.error();

@@ -53,6 +53,12 @@ Result<Planned> plan_generated(const Scene& scene, ParticleSet made, int threads
                                const Deadline& deadline, const MachineSpeed& speed,
                                const std::optional<DetailFigures>& detail);
 
+// The same of particles that light and eye work on, as an earlier plan of the same clouds has them: many that overlap
+// are merged in it, and detail is not made yet.
+Result<Planned> plan_particles(const Scene& scene, ParticleSet particles, int threads,
+                               const Deadline& deadline, const MachineSpeed& speed,
+                               const std::optional<DetailFigures>& detail);
+
 // Adds to a plan what rendering needs beside it: the tiles of the particles' detail, where the plan has detail on.
 // An error in `planned` is passed on. tiles: keeps what one picture made for the next; may be null.
 Result<Planned> with_detail_made(const Scene& scene, Result<Planned> planned, int threads,

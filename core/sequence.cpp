@@ -286,9 +286,14 @@ Frame frame_at(const Settled& settled, double time) {
 }
 
 Result<Planned> plan_frame(const Frame& frame, int threads, const Deadline& deadline,
-                           const MachineSpeed& speed) {
-    auto planned = plan_still(frame.scene, threads, deadline, speed, frame.detail);
+                           const MachineSpeed& speed, StandingMatter* matter) {
+    auto planned = matter != nullptr && matter->particles
+                       ? plan_particles(frame.scene, *matter->particles, threads, deadline, speed,
+                                        frame.detail)
+                       : plan_still(frame.scene, threads, deadline, speed, frame.detail);
     if (!planned.ok()) return planned;
+    if (matter != nullptr && planned->particles.variant == 0 && !matter->particles)
+        matter->particles = planned->particles;
     planned->survey.seen_from = frame.views;
     planned->is_unmeasured = frame.is_unmeasured;
     TransportSettings& transport = planned->plan.transport;

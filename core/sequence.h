@@ -83,8 +83,14 @@ struct Frame {
 // time: seconds, any of the sequence.
 Frame frame_at(const Settled& settled, double time);
 
-// As plan_still (core/planning.h).
+// The particles of clouds that stand, for the frames after the first: one thread's. EMPTY: not made yet, or there are
+// other ones for every eye.
+struct StandingMatter {
+    std::optional<ParticleSet> particles;
+};
+
+// As plan_still (core/planning.h). matter: of a sequence whose clouds stand (clouds_stand); else null.
 Result<Planned> plan_frame(const Frame& frame, int threads, const Deadline& deadline,
-                           const MachineSpeed& speed);
+                           const MachineSpeed& speed, StandingMatter* matter = nullptr);
 
 }  // namespace awan

@@ -32,9 +32,10 @@ Result<std::string> encode(const Rendered& rendered, const Scene& scene, const s
 Result<Rendered> render_of(const Settled& settled, std::uint64_t number, double time, Work& work,
                            Scene& scene, std::size_t& in_view) {
     Frame frame = frame_at(settled, time);
-    auto planned = with_detail_made(
-        frame.scene, plan_frame(frame, work.command.threads, work.deadline, work.speed),
-        work.command.threads, &work.tiles);
+    auto planned = with_detail_made(frame.scene,
+                                    plan_frame(frame, work.command.threads, work.deadline,
+                                               work.speed, work.matter ? &*work.matter : nullptr),
+                                    work.command.threads, &work.tiles);
     scene = std::move(frame.scene);
     if (planned && work.command.preview) planned = as_preview(scene, *std::move(planned));
     if (planned && work.flown)
@@ -221,7 +222,11 @@ Result<FramesMade> render_frames(const Scene& scene, std::vector<std::uint64_t> 
         if (all->empty()) frames = missing_frames(scene, frames, work);
         if (frames.empty()) return made;
     }
-    if (clouds_stand(*scene)) work.lights.emplace(kLightCacheBytes);
+    work.matter.reset();
+    if (clouds_stand(*scene)) {
+        work.lights.emplace(kLightCacheBytes);
+        work.matter.emplace();
+    }
     work.progress.say("settling the sequence");
     const auto start = Deadline::Clock::now();
     auto settled =

@@ -32,6 +32,8 @@ struct Work {
     DetailTiles tiles;
     // Of frames whose matter is the same. None: each makes its own.
     std::optional<LightCache> lights;
+    // The same of particles.
+    std::optional<StandingMatter> matter;
     // When to stop, with what is done by then.
     Deadline deadline;
     // Told of every frame once its files are written; null: nobody counts.
