@@ -10,6 +10,7 @@
 #include "core/flight_path.h"
 #include "core/generate/generate.h"
 #include "core/light/light_cache.h"
+#include "core/pipeline.h"
 #include "core/scene/combine.h"
 #include "core/scene/fingerprint.h"
 #include "core/scene/spheres.h"
@@ -232,6 +233,29 @@ TEST(CameraKeys, CloudsThatStandAreThoseOfTheFirstFrameAndLitOnce) {
     EXPECT_EQ(light_fingerprint(test::valid(draft)), light);
     draft.sequence->clouds_stand = false;
     EXPECT_NE(light_fingerprint(test::valid(draft)), light);
+}
+
+TEST(CameraKeys, ParticlesOfCloudsThatStandServeAllFrames) {
+    SceneDraft draft = turning();
+    draft.sequence->clouds_stand = true;
+    const Scene scene = test::valid(draft);
+    const Settled settled = settle(scene, Settling::kForecast, {nullptr, 1}, {}).value();
+    const auto picture = [](const Frame& frame, StandingMatter* matter) {
+        auto planned = with_detail_made(frame.scene, plan_frame(frame, 1, {}, {}, matter), 1);
+        return render_planned(frame.scene, *std::move(planned), {nullptr, 1, nullptr, {}, {}}, {})
+            ->image.pixels;
+    };
+    StandingMatter matter;
+    for (const double time : {0.5, 1.0, 2.0}) {
+        const Frame frame = frame_at(settled, time);
+        const auto with = picture(frame, &matter);
+        ASSERT_TRUE(matter.particles);
+        EXPECT_FALSE(matter.particles->detail) << "it is made for each frame's survey";
+        EXPECT_EQ(with, picture(frame, nullptr)) << time;
+    }
+    matter.particles = generate(test::valid(test::table_4_4()), 1, {}).value();
+    EXPECT_NE(picture(frame_at(settled, 1), &matter), picture(frame_at(settled, 1), nullptr))
+        << "they are what is drawn";
 }
 
 TEST(CameraKeys, WhatCannotBeNamesItsPlace) {
