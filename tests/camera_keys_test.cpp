@@ -253,7 +253,7 @@ TEST(CameraKeys, ParticlesOfCloudsThatStandServeAllFrames) {
         EXPECT_FALSE(matter.particles->detail) << "it is made for each frame's survey";
         EXPECT_EQ(with, picture(frame, nullptr)) << time;
     }
-    matter.particles = generate(test::valid(test::table_4_4()), 1, {}).value();
+    matter.particles = generate(test::valid(test::balls({{{0, 0, 0}, 2, 3}})), 1, {}).value();
     EXPECT_NE(picture(frame_at(settled, 1), &matter), picture(frame_at(settled, 1), nullptr))
         << "they are what is drawn";
 }
