@@ -110,6 +110,37 @@ TEST(Accuracy, MeasuresThePictureOfTheScenesTime) {
         }
 }
 
+// A small reference is of the same cloud: with lumps, where the scene's own picture is large enough to show them.
+TEST(Accuracy, TheReferenceHasTheDetailOfTheScenesOwnPicture) {
+    SceneDraft draft = test::table_4_4();
+    draft.detail = kAutomaticDetail;
+    draft.accuracy = {};
+    AccuracyOptions options = quick();
+    options.rungs = {"transport-16"};
+    options.runs = 1;
+    const RenderScene render = [](const Scene& scene, const Deadline& deadline) {
+        return render_scene(scene, {nullptr, 2, nullptr, {}, {}}, deadline);
+    };
+    for (const int width : {640, 32}) {
+        draft.image.width = width;
+        draft.image.height = width * 3 / 4;
+        const Scene scene = valid(draft);
+        const bool lumpy = plan_scene(scene, 2, {})->particles.detail != nullptr;
+        EXPECT_EQ(lumpy, width == 640);
+        bool small = false;
+        const auto report =
+            measure_accuracy(scene, options,
+                             [&](const Scene& asked, const Deadline& deadline) {
+                                 if (asked->image.width <= options.reference_side)
+                                     small = plan_scene(asked, 2, {})->particles.detail != nullptr;
+                                 return render(asked, deadline);
+                             },
+                             {}, {});
+        ASSERT_TRUE(report.ok());
+        EXPECT_EQ(small, lumpy) << width;
+    }
+}
+
 TEST(Accuracy, ALookHasNoErrorToMeasure) {
     SceneDraft draft = test::plain_draft();
     draft.top_level_cubes = false;

@@ -101,14 +101,24 @@ Result<TracingTime> tracing_time(const Scene& scene, const Planned& planned,
     return time;
 }
 
-// Whether the truth of this size shows the detail that the scene asks for.
-Result<bool> shows_detail(const Scene& reference_scene, const Planned& planned,
+// Whether the scene's picture has the detail that it asks for: at its own size, for what is measured is that picture's
+// error, however small the reference is.
+Result<bool> shows_detail(const Scene& scene, const Planned& planned,
                           const AccuracyOptions& options) {
-    SceneDraft as_truth = *reference_scene;
+    SceneDraft as_truth = *scene;
     as_truth.accuracy = {{}, {}, rung_of(RungId::kTruth).name};
     const auto truth_scene = validate(std::move(as_truth));
     if (!truth_scene) return truth_scene.error();
     return plan(*truth_scene, planned.survey, options.threads, options.speed).on(Effect::kDetail);
+}
+
+// A small picture that has the detail which the large one has.
+Result<Scene> with_detail_settled(const Result<Scene>& small, bool detailed) {
+    if (!small) return small;
+    SceneDraft draft = **small;
+    Switch& wanted = draft.effects[static_cast<int>(Effect::kDetail)];
+    if (wanted == Switch::kAuto) wanted = detailed ? Switch::kOn : Switch::kOff;
+    return validate(std::move(draft));
 }
 
 }  // namespace
@@ -142,12 +152,12 @@ Result<ReferenceShape> reference_shape(const Scene& scene, const Planned& planne
 Result<Reference> trace_reference(const Scene& scene, Planned& planned, const ReferenceShape& shape,
                                   const AccuracyOptions& options, const FilmSettings& film,
                                   Steps& steps, const Deadline& deadline) {
-    const auto sized = reference_sized(scene, shape.size);
+    const auto detailed = shows_detail(scene, planned, options);
+    if (!detailed) return detailed.error();
+    const auto sized = with_detail_settled(reference_sized(scene, shape.size), *detailed);
     if (!sized) return sized.error();
     const View view = resolve_view((*sized)->camera, (*sized)->image, planned.survey.bounds);
     Reference reference{*sized, view, {}, {}, {}, ground_below(scene, planned), shape.samples};
-    const auto detailed = shows_detail(reference.scene, planned, options);
-    if (!detailed) return detailed.error();
     planned.particles.detail =
         *detailed ? detail_of(scene, planned.survey, options.threads) : nullptr;
 

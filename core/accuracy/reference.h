@@ -42,7 +42,7 @@ struct Reference {
     double cpu_ms = 0;
 };
 
-// Traces it. planned: of `scene`; gets the detail that shows at the reference's size. film: for `shown`.
+// Traces it. planned: of `scene`; gets the detail that shows at its own size. film: for `shown`.
 // Begins the step "tracing the reference". Errors: of trace_truth.
 Result<Reference> trace_reference(const Scene& scene, Planned& planned, const ReferenceShape& shape,
                                   const AccuracyOptions& options, const FilmSettings& film,
