@@ -101,7 +101,7 @@ TEST(Climb, StricterAsksNeverGiveWorsePictures) {
     for (const double density : {4.0, 0.4, 40.0}) {
         if (density != test::or_fewer(density, 4.0)) continue;
         int cells = 0;
-        for (const double error : {0.5, 0.1, 0.05, 0.03, 0.02}) {
+        for (const double error : {0.2, 0.1, 0.05, 0.03, 0.02}) {
             if (error < test::or_fewer(0.0, 0.04)) continue;
             SceneDraft draft = cumulus(0.6, density);
             draft.accuracy.error = error;
