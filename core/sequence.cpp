@@ -32,13 +32,17 @@ Camera moved_camera(const SceneDraft& draft, const Sequence& sequence, double ti
 // So many tell what all frames see: a turn in steps of 6 degrees.
 constexpr std::uint64_t kMostViews = 60;
 
+View view_at(const SceneDraft& draft, const Sequence& sequence, std::uint64_t frame) {
+    const Camera camera = moved_camera(draft, sequence, frame_time(sequence, frame));
+    return resolve_view(camera, draft.image, {});
+}
+
 std::vector<View> views_of(const SceneDraft& draft, const Sequence& sequence) {
     std::vector<View> views;
     const std::uint64_t count = std::min(sequence.frames, kMostViews);
     for (std::uint64_t k = 0; k < count; ++k) {
         const std::uint64_t frame = count < 2 ? 0 : k * (sequence.frames - 1) / (count - 1);
-        const Camera camera = moved_camera(draft, sequence, frame_time(sequence, frame));
-        views.push_back(resolve_view(camera, draft.image, {}));
+        views.push_back(view_at(draft, sequence, frame));
     }
     return views;
 }
@@ -267,11 +271,8 @@ Result<Settled> settle(const Scene& scene, Settling how, const ClimbTools& tools
 
 std::vector<View> views_of_frames(const Settled& settled) {
     std::vector<View> views;
-    for (std::uint64_t i = 0; i < settled.sequence.frames; ++i) {
-        const Camera camera =
-            moved_camera(settled.draft, settled.sequence, frame_time(settled.sequence, i));
-        views.push_back(resolve_view(camera, settled.draft.image, {}));
-    }
+    for (std::uint64_t i = 0; i < settled.sequence.frames; ++i)
+        views.push_back(view_at(settled.draft, settled.sequence, i));
     return views;
 }
 

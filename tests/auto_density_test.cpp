@@ -40,14 +40,19 @@ double density(const Cloud& cloud) {
     return auto_density(cloud, Fill::kUniform, 7);
 }
 
-Survey surveyed(const Cloud& cloud, double time = 0) {
+Scene scene_of(const Cloud& cloud, double time) {
     SceneDraft draft;
     draft.top_level_cubes = false;
     draft.clouds = {cloud};
     draft.time = time;
     const auto scene = validate(draft);
     EXPECT_TRUE(scene.ok());
-    return *survey(*scene, *generate(*scene, 2, Deadline{}), 2, Deadline{});
+    return *scene;
+}
+
+Survey surveyed(const Cloud& cloud, double time = 0) {
+    const Scene scene = scene_of(cloud, time);
+    return *survey(scene, *generate(scene, 2, Deadline{}), 2, Deadline{});
 }
 
 TEST(AutoDensity, OfOneParticleIsTheClosedForm) {
@@ -156,13 +161,7 @@ TEST(AutoDensity, OfAnAutomatonMakesWhatGrowsAsDeepAsOthers) {
 
 // The mean depth along an axis, weighted by mass, of what a scene shows: of lines evenly through its bounds.
 double mean_depth_of(const Cloud& cloud, double time, int axis) {
-    SceneDraft draft;
-    draft.top_level_cubes = false;
-    draft.clouds = {cloud};
-    draft.time = time;
-    const auto scene = validate(draft);
-    EXPECT_TRUE(scene.ok());
-    const auto set = generate(*scene, 2, Deadline{});
+    const auto set = generate(scene_of(cloud, time), 2, Deadline{});
     EXPECT_TRUE(set.ok());
     const Bounds bounds = bounds_of(*set);
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;

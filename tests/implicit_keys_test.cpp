@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <initializer_list>
 #include <numbers>
 
 #include "core/base/deadline.h"
@@ -105,7 +106,33 @@ TEST(EveryKey, PointsOfASkeleton) {
     expect_same(cloud, 1, bare({s}));
 }
 
-// Nothing of a cloud is outside its box, at no time, whatever its keys change.
+// Nothing of a cloud is outside its box, which is the same at all times, and what is near a place is found from it. At
+// so many places at each time, up to `reach` from the middle.
+void expect_the_box_holds(const ImplicitCloud& cloud, std::initializer_list<double> times,
+                          glm::dvec3 middle, double reach, int places) {
+    const implicit::Box box = box_of(prepare_field(cloud, test::kKey, 0));
+    int inside = 0;
+    for (const double time : times) {
+        const implicit::ImplicitField field = prepare_field(cloud, test::kKey, time);
+        EXPECT_EQ(box_of(field).min, box.min);
+        EXPECT_EQ(box_of(field).max, box.max);
+        all_over(middle, reach, places, [&](glm::dvec3 p) {
+            if (implicit::density_at(field, p) <= 0) return;
+            ++inside;
+            for (int i = 0; i < 3; ++i) {
+                EXPECT_GE(p[i], box.min[i] - 1e-4);
+                EXPECT_LE(p[i], box.max[i] + 1e-4);
+            }
+            implicit::Box here;
+            here.add(p);
+            float one = 0;
+            implicit::row_densities(field, implicit::elements_near(field, here), {p, 0, 1}, &one);
+            EXPECT_NEAR(static_cast<double>(one), implicit::density_at(field, p), 1e-6);
+        });
+    }
+    EXPECT_GT(inside, 50);
+}
+
 TEST(EveryKey, TheBoxHoldsAllTimes) {
     ImplicitPrimitive e = ball({0, 0, 0}, 1);
     e.shape = ImplicitShape::kEllipsoid;
@@ -130,29 +157,7 @@ TEST(EveryKey, TheBoxHoldsAllTimes) {
         cloud.keys[1].jet = glm::dvec3(2, 0, 0);
         cloud.keys[0].jet = glm::dvec3(0, 0, -1);
         cloud.squash = ImplicitSquash{{0.3, 0, 0}, {0.3, 1, 0.2}, 1, {{0, 0.5}, {1, 2}}};
-        const implicit::Box box = box_of(prepare_field(cloud, test::kKey, 0));
-        int inside = 0;
-        for (const double time : {-1.0, 0.0, 0.4, 1.0, 1.5, 2.0}) {
-            const implicit::ImplicitField field = prepare_field(cloud, test::kKey, time);
-            EXPECT_EQ(box_of(field).min, box.min);
-            EXPECT_EQ(box_of(field).max, box.max);
-            all_over({0, 0, 0}, 9, 4000, [&](glm::dvec3 p) {
-                if (implicit::density_at(field, p) <= 0) return;
-                ++inside;
-                for (int i = 0; i < 3; ++i) {
-                    EXPECT_GE(p[i], box.min[i] - 1e-4);
-                    EXPECT_LE(p[i], box.max[i] + 1e-4);
-                }
-                // And what is near a place is found from it.
-                implicit::Box here;
-                here.add(p);
-                float one = 0;
-                implicit::row_densities(field, implicit::elements_near(field, here), {p, 0, 1},
-                                        &one);
-                EXPECT_NEAR(static_cast<double>(one), implicit::density_at(field, p), 1e-6);
-            });
-        }
-        EXPECT_GT(inside, 50);
+        expect_the_box_holds(cloud, {-1.0, 0.0, 0.4, 1.0, 1.5, 2.0}, {0, 0, 0}, 9, 4000);
     }
 }
 
@@ -272,7 +277,6 @@ TEST(EveryKey, OfAGrowthAsItMoves) {
     EXPECT_GT(implicit::grown(fertile, 1, 24).size(), fertile.seeds + 20);
 }
 
-// Nothing is outside the box, at no time, and it is the same at all.
 TEST(EveryKey, TheBoxHoldsAllTimesOfWarpsAndGrowths) {
     ImplicitCloud cloud = bare({});
     cloud.primitives.reset();
@@ -290,27 +294,7 @@ TEST(EveryKey, TheBoxHoldsAllTimesOfWarpsAndGrowths) {
                    {50, glm::dvec3(1, 0, 1), glm::dvec3(0, 0, 1), 400.0, 3.0}};
     cloud.attractors = {attractor};
     cloud.vortices = {vortex};
-    const implicit::Box box = box_of(prepare_field(cloud, test::kKey, 0));
-    int inside = 0;
-    for (const double time : {-1.0, 0.0, 7.0, 20.0, 35.0, 50.0, 70.0}) {
-        const implicit::ImplicitField field = prepare_field(cloud, test::kKey, time);
-        EXPECT_EQ(box_of(field).min, box.min);
-        EXPECT_EQ(box_of(field).max, box.max);
-        all_over({0, 0.5, 0}, 3, 8000, [&](glm::dvec3 p) {
-            if (implicit::density_at(field, p) <= 0) return;
-            ++inside;
-            for (int i = 0; i < 3; ++i) {
-                EXPECT_GE(p[i], box.min[i] - 1e-4);
-                EXPECT_LE(p[i], box.max[i] + 1e-4);
-            }
-            implicit::Box here;
-            here.add(p);
-            float one = 0;
-            implicit::row_densities(field, implicit::elements_near(field, here), {p, 0, 1}, &one);
-            EXPECT_NEAR(static_cast<double>(one), implicit::density_at(field, p), 1e-6);
-        });
-    }
-    EXPECT_GT(inside, 50);
+    expect_the_box_holds(cloud, {-1.0, 0.0, 7.0, 20.0, 35.0, 50.0, 70.0}, {0, 0.5, 0}, 3, 8000);
 }
 
 // Squash and stretch keeps the volume, at every time, with all that the cloud has.

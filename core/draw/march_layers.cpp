@@ -10,6 +10,7 @@
 #include "core/base/exact_math.h"
 #include "core/base/parallel.h"
 #include "core/draw/march_setup.h"
+#include "core/survey/separate_clouds.h"
 
 namespace awan {
 namespace {
@@ -17,19 +18,13 @@ namespace {
 // Rows that a thread lays at a time: whole blocks of the march, and of the haze's squares.
 constexpr int kRows = kBlockSide;
 
-bool overlap(const glm::dvec3& low, const glm::dvec3& high, const Bounds& box) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(low[axis] < box.max[axis] && box.min[axis] < high[axis])) return false;
-    return true;
-}
-
 // Those islands whose light the clouds may be in.
 std::vector<std::uint8_t> islands_of(const TransportLight& light,
                                      const std::vector<Bounds>& boxes) {
     std::vector<std::uint8_t> wanted;
     for (const LightIsland& island : light.islands)
         wanted.push_back(std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) {
-            return overlap(island.low, island.high, box);
+            return overlap({island.low, island.high}, box);
         }));
     return wanted;
 }

@@ -31,12 +31,6 @@ void take(const ParticleSet& particles, std::uint32_t i, SeparateCloud& cloud) {
     cloud.particles.push_back(i);
 }
 
-bool overlap(const Bounds& a, const Bounds& b) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(a.min[axis] < b.max[axis] && b.min[axis] < a.max[axis])) return false;
-    return true;
-}
-
 // The islands below a node.
 void regions_below(const std::vector<IslandNode>& nodes, int node, std::vector<int>& regions) {
     std::vector<int> open{node};
@@ -89,6 +83,12 @@ SeparateCloud joined(std::vector<SeparateCloud>& islands, const std::vector<int>
 }
 
 }  // namespace
+
+bool overlap(const Bounds& a, const Bounds& b) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(a.min[axis] < b.max[axis] && b.min[axis] < a.max[axis])) return false;
+    return true;
+}
 
 SeparateClouds separate_clouds(const ParticleSet& particles, const Islands& islands) {
     SeparateClouds clouds;

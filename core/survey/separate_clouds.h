@@ -31,6 +31,9 @@ struct SeparateClouds {
 // quadratic in the islands (kMostIslands).
 SeparateClouds separate_clouds(const ParticleSet& particles, const Islands& islands);
 
+// Whether two boxes have more in common than a face.
+bool overlap(const Bounds& a, const Bounds& b);
+
 // Indices into list, nearest first.
 std::vector<std::size_t> front_to_back(const SeparateClouds& clouds, const glm::dvec3& eye);
 
