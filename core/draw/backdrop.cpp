@@ -6,6 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/draw/hills_backdrop.h"
+#include "core/draw/sky_behind.h"
 #include "core/survey/ground_view.h"
 
 namespace awan {
@@ -38,24 +39,30 @@ Backdrop make_backdrop(const Scene& scene, const View& view, int width, int heig
     backdrop.rgb.resize(3 * pixels);
     const bool grounded = above_ground(scene, view);
     if (grounded) backdrop.distance.resize(pixels);
-    const SkyDome sky = outside_of(scene).sky;
+    const SkyBehind sky(outside_of(scene).sky, view, width, height, !grounded, threads);
     parallel_for(threads, static_cast<std::size_t>(height), [&](std::size_t row) {
-        const double v = (1 - (static_cast<double>(row) + 0.5) / height * 2) * view.tan_half_fov;
-        for (int x = 0; x < width; ++x) {
-            const double u = ((x + 0.5) / width * 2 - 1) * view.tan_half_fov * view.aspect;
-            const glm::dvec3 d = glm::normalize(view.forward + u * view.right + v * view.up);
-            const std::size_t at =
-                row * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-            double distance = std::numeric_limits<double>::infinity();
-            if (grounded && d.y < 0) distance = (ground.height - view.eye.y) / d.y;
-            const glm::dvec3 seen =
-                std::isinf(distance)
-                    ? sky_radiance(sky, d)
-                    : radiance_at(ground, view.eye.x + distance * d.x, view.eye.z + distance * d.z);
-            for (int c = 0; c < 3; ++c)
-                backdrop.rgb[3 * at + static_cast<std::size_t>(c)] = static_cast<float>(seen[c]);
-            if (grounded) backdrop.distance[at] = static_cast<float>(distance);
+        const std::size_t first = row * static_cast<std::size_t>(width);
+        std::vector<glm::vec3> seen(static_cast<std::size_t>(width));
+        sky.row(static_cast<int>(row), seen);
+        if (grounded) {
+            const double v =
+                (1 - (static_cast<double>(row) + 0.5) / height * 2) * view.tan_half_fov;
+            for (int x = 0; x < width; ++x) {
+                const double u = ((x + 0.5) / width * 2 - 1) * view.tan_half_fov * view.aspect;
+                const glm::dvec3 d = glm::normalize(view.forward + u * view.right + v * view.up);
+                const auto i = static_cast<std::size_t>(x);
+                double distance = std::numeric_limits<double>::infinity();
+                if (d.y < 0) {
+                    distance = (ground.height - view.eye.y) / d.y;
+                    seen[i] = glm::vec3(radiance_at(ground, view.eye.x + distance * d.x,
+                                                    view.eye.z + distance * d.z));
+                }
+                backdrop.distance[first + i] = static_cast<float>(distance);
+            }
         }
+        for (std::size_t i = 0; i < seen.size(); ++i)
+            for (std::size_t c = 0; c < 3; ++c)
+                backdrop.rgb[3 * (first + i) + c] = seen[i][static_cast<int>(c)];
     });
     return backdrop;
 }

@@ -410,6 +410,7 @@ AirSky air_sky(const glm::dvec3& to_sun, double turbidity) {
     all.diffuse = diffuse_of(all.air, all.sun);
     AirSky sky;
     sky.to_sun = to_sun;
+    sky.turbidity = turbidity;
     make_land(all, make_sky(all, sky.sky), sky.land);
     for (const auto& row : sky.sky.even)
         for (const glm::dvec3& xyz : row) sky.shines = sky.shines || xyz.y > 0;

@@ -21,6 +21,7 @@ struct AirSky {
     // Above the horizon, and below it: land in the light of sun and sky, behind the air in front of it.
     Half sky, land;
     glm::dvec3 to_sun{0, 1, 0};  // unit
+    double turbidity = 2;
     // False when no light is left, from about 10 degrees below the horizon on.
     bool shines = false;
 };

@@ -53,7 +53,9 @@ Outside outside_under(const SceneDraft& scene, std::shared_ptr<const AirSky> air
 std::shared_ptr<const AirSky> air_of(const SceneDraft& scene) {
     const Sky& sky = scene.sky;
     if (sky.none || !sky.physical || sky.daylight != Daylight::kScattered) return nullptr;
-    return std::make_shared<const AirSky>(air_sky(sun_direction(scene.sun), sky.turbidity));
+    const glm::dvec3 to_sun = sun_direction(scene.sun);
+    if (sky.air && sky.air->to_sun == to_sun && sky.air->turbidity == sky.turbidity) return sky.air;
+    return std::make_shared<const AirSky>(air_sky(to_sun, sky.turbidity));
 }
 
 Outside outside_of(const SceneDraft& scene) {
@@ -61,7 +63,7 @@ Outside outside_of(const SceneDraft& scene) {
 }
 
 Outside outside_of(const Scene& scene) {
-    return outside_under(*scene, scene.air());
+    return outside_under(*scene, scene->sky.air);
 }
 
 glm::dvec3 physical_radiance(const SkyDome& sky, const glm::dvec3& direction) {

@@ -33,7 +33,8 @@ Outside outside_of(const SceneDraft& scene);
 // The same without computing the sky again.
 Outside outside_of(const Scene& scene);
 
-// The scene's sky where it is scattered light, else none. Some milliseconds.
+// The scene's sky where it is scattered light, else none. Some milliseconds, unless the draft has it from a scene of
+// the same sun and air.
 std::shared_ptr<const AirSky> air_of(const SceneDraft& scene);
 
 // Of a sky that is physical and shines, from a direction (unit): its intensity times air or fits.

@@ -80,23 +80,16 @@ struct SceneDraft {
 template <>
 const Table& table_of<SceneDraft>();
 
-struct AirSky;
-
 // A scene that can be made: every value in range, every request within what this version does.
 class Scene {
   public:
     const SceneDraft* operator->() const { return &draft_; }
     const SceneDraft& operator*() const { return draft_; }
-    // Its sky, where that is scattered light (core/scene/atmosphere.h), else none. It follows from the draft and is
-    // computed once.
-    const std::shared_ptr<const AirSky>& air() const { return air_; }
 
   private:
-    Scene(SceneDraft draft, std::shared_ptr<const AirSky> air)
-        : draft_(std::move(draft)), air_(std::move(air)) {}
+    explicit Scene(SceneDraft draft) : draft_(std::move(draft)) {}
     friend Result<Scene> validate(SceneDraft draft);
     SceneDraft draft_;
-    std::shared_ptr<const AirSky> air_;
 };
 
 // Unit vector towards the sun. Elevation 90 is exactly (0, 1, 0).

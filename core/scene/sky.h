@@ -2,6 +2,8 @@
 // (core/shaders/sky.glsl), or the clear sky that belongs to the sun (core/scene/atmosphere.h), times `intensity`.
 #pragma once
 
+#include <memory>
+
 #include "core/scene/limits.h"
 #include "core/scene/table.h"
 
@@ -21,6 +23,8 @@ inline constexpr double kPhysicalSkyIntensity = 1;
 inline constexpr double kGradientSkyIntensity = 1.7;
 inline constexpr const char* kSkyModelWords[] = {"gradient", "physical"};
 
+struct AirSky;  // atmosphere.h
+
 struct Sky {
     // "none": black, no light.
     bool none = false;
@@ -32,6 +36,8 @@ struct Sky {
     glm::dvec3 horizon{0.44, 0.67, 0.95};
     double intensity = kPhysicalSkyIntensity;
     double turbidity = 2;
+    // What follows from it and the sun; validate() fills it in. Null: it is not scattered light.
+    std::shared_ptr<const AirSky> air;
 };
 
 inline constexpr auto kSkyIsPhysical = [](const void* sky) {
@@ -84,6 +90,7 @@ inline constexpr Field kSkyFields[] = {
                  "sun's intensity.",
          .usual =
              [](const void* sky) { return usual_sky_intensity(*static_cast<const Sky*>(sky)); }}),
+    outside_document<&Sky::air>("follows from the sun and the air"),
 };
 static_assert(covers<Sky>(kSkyFields));
 

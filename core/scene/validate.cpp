@@ -42,8 +42,8 @@ Result<Scene> validate(SceneDraft draft) {
             draft.relief->key = std::move(key);
         }
     }
-    auto air = air_of(draft);
-    return Scene(std::move(draft), std::move(air));
+    draft.sky.air = air_of(draft);
+    return Scene(std::move(draft));
 }
 
 }  // namespace awan
