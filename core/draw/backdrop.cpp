@@ -6,7 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/draw/hills_backdrop.h"
-#include "core/draw/sky_behind.h"
+#include "core/draw/sky_pixels.h"
 #include "core/survey/ground_view.h"
 
 namespace awan {
@@ -39,7 +39,7 @@ Backdrop make_backdrop(const Scene& scene, const View& view, int width, int heig
     backdrop.rgb.resize(3 * pixels);
     const bool grounded = above_ground(scene, view);
     if (grounded) backdrop.distance.resize(pixels);
-    const SkyBehind sky(outside_of(scene).sky, view, width, height, !grounded, threads);
+    const SkyPixels sky(outside_of(scene).sky, view, width, height, !grounded, threads);
     parallel_for(threads, static_cast<std::size_t>(height), [&](std::size_t row) {
         const std::size_t first = row * static_cast<std::size_t>(width);
         std::vector<glm::vec3> seen(static_cast<std::size_t>(width));

@@ -159,7 +159,7 @@ bool place_camera(Dice& dice, SceneDraft& draft, const Bounds& bounds) {
 Planned planned(const SceneDraft& draft) {
     auto scene = validate(draft);
     if (!scene.ok()) give_up(scene.error());
-    auto result = plan_scene(*scene, 2, {});
+    auto result = plan_only(*scene, 2, {}, {});
     if (!result.ok()) give_up(result.error());
     return *std::move(result);
 }
@@ -193,6 +193,19 @@ std::string fill_plainly(Dice& dice, SceneDraft& draft) {
     return "plain";
 }
 
+// As wide as pictures are that people look at.
+constexpr int kShownWidth = 640;
+
+// A plain scene's small picture here has the lumps that its large one has.
+void settle_detail(SceneDraft& draft) {
+    SceneDraft shown = draft;
+    shown.image.height = shown.image.height * kShownWidth / shown.image.width;
+    shown.image.width = kShownWidth;
+    shown.accuracy.rung = rung_of(RungId::kTruth).name;
+    draft.effects[static_cast<int>(Effect::kDetail)] =
+        planned(shown).plan.on(Effect::kDetail) ? Switch::kOn : Switch::kOff;
+}
+
 // What a scene that names all of it has by default is of no concern to it.
 void name_all(SceneDraft& draft) {
     draft.fill = Fill::kUniform;
@@ -213,6 +226,7 @@ NumberedScene numbered_scene(const std::string& set, int index, int width, int h
     draft.image.background = Background::kTransparent;
     if (set.rfind("plain", 0) == 0) {
         scene.kind = fill_plainly(dice, draft);
+        settle_detail(draft);
         return scene;
     }
     name_all(draft);

@@ -1,4 +1,4 @@
-#include "core/draw/sky_behind.h"
+#include "core/draw/sky_pixels.h"
 
 #include <algorithm>
 #include <array>
@@ -20,14 +20,14 @@ constexpr Weights weights_at(float t) {
             t * (0.5f + t * (2 - 1.5f * t)), t * t * (-0.5f + 0.5f * t)};
 }
 
-constexpr std::array<Weights, SkyBehind::kBlock> make_weights() {
-    std::array<Weights, SkyBehind::kBlock> all{};
+constexpr std::array<Weights, SkyPixels::kBlock> make_weights() {
+    std::array<Weights, SkyPixels::kBlock> all{};
     for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = weights_at(static_cast<float>(i) / SkyBehind::kBlock);
+        all[i] = weights_at(static_cast<float>(i) / SkyPixels::kBlock);
     return all;
 }
 
-constexpr std::array<Weights, SkyBehind::kBlock> kWeights = make_weights();
+constexpr std::array<Weights, SkyPixels::kBlock> kWeights = make_weights();
 
 // Pixels of a block that are looked at.
 constexpr std::array<glm::ivec2, 4> kChecks{{{4, 4}, {2, 6}, {6, 3}, {4, 1}}};
@@ -41,12 +41,12 @@ glm::vec3 mix(const Weights& weights, const glm::vec3* first, std::ptrdiff_t apa
 }
 
 int blocks_along(int pixels) {
-    return (pixels + SkyBehind::kBlock - 1) / SkyBehind::kBlock;
+    return (pixels + SkyPixels::kBlock - 1) / SkyPixels::kBlock;
 }
 
 }  // namespace
 
-SkyBehind::SkyBehind(const SkyDome& sky, const View& view, int width, int height, bool below,
+SkyPixels::SkyPixels(const SkyDome& sky, const View& view, int width, int height, bool below,
                      int threads)
     : sky_(sky),
       view_(view),
@@ -72,22 +72,22 @@ SkyBehind::SkyBehind(const SkyDome& sky, const View& view, int width, int height
     });
 }
 
-glm::dvec3 SkyBehind::direction(int x, int y) const {
+glm::dvec3 SkyPixels::direction(int x, int y) const {
     const double u = ((x + 0.5) / width_ * 2 - 1) * view_.tan_half_fov * view_.aspect;
     const double v = (1 - (y + 0.5) / height_ * 2) * view_.tan_half_fov;
     return glm::normalize(view_.forward + u * view_.right + v * view_.up);
 }
 
-glm::vec3 SkyBehind::ray(int x, int y) const {
+glm::vec3 SkyPixels::ray(int x, int y) const {
     return glm::vec3(sky_radiance(sky_, direction(x, y)));
 }
 
 // The first of the four by four rays about a block.
-const glm::vec3* SkyBehind::corner(int block_x, int block_y) const {
+const glm::vec3* SkyPixels::corner(int block_x, int block_y) const {
     return rays_.data() + static_cast<std::ptrdiff_t>(block_y) * rays_x_ + block_x;
 }
 
-glm::vec3 SkyBehind::between(int x, int y) const {
+glm::vec3 SkyPixels::between(int x, int y) const {
     const glm::vec3* const first = corner(x / kBlock, y / kBlock);
     std::array<glm::vec3, 4> columns;
     for (std::size_t i = 0; i < columns.size(); ++i)
@@ -96,7 +96,7 @@ glm::vec3 SkyBehind::between(int x, int y) const {
                     glm::vec3(0));
 }
 
-bool SkyBehind::agrees(int x, int y) const {
+bool SkyPixels::agrees(int x, int y) const {
     const glm::vec3 one = between(x, y), other = ray(x, y);
     for (int c = 0; c < 3; ++c)
         if (!(std::abs(one[c] - other[c]) <= static_cast<float>(kAgreement) * other[c]))
@@ -104,7 +104,7 @@ bool SkyBehind::agrees(int x, int y) const {
     return true;
 }
 
-bool SkyBehind::is_smooth(int block_x, int block_y) const {
+bool SkyPixels::is_smooth(int block_x, int block_y) const {
     const int left = block_x * kBlock, top = block_y * kBlock;
     // All of the rays about it are on one side of the horizon, where the sky has a crease: so is what is between them.
     int above = 0;
@@ -122,7 +122,7 @@ bool SkyBehind::is_smooth(int block_x, int block_y) const {
     });
 }
 
-void SkyBehind::row(int y, std::span<glm::vec3> to) const {
+void SkyPixels::row(int y, std::span<glm::vec3> to) const {
     const Weights& down = kWeights[static_cast<std::size_t>(y % kBlock)];
     for (int i = 0; i < blocks_x_; ++i) {
         const int left = i * kBlock, right = std::min(left + kBlock, width_);
@@ -142,7 +142,7 @@ void SkyBehind::row(int y, std::span<glm::vec3> to) const {
     }
 }
 
-double SkyBehind::smooth_share() const {
+double SkyPixels::smooth_share() const {
     return static_cast<double>(std::count(smooth_.begin(), smooth_.end(), 1)) /
            static_cast<double>(smooth_.size());
 }

@@ -12,7 +12,7 @@
 
 namespace awan {
 
-class SkyBehind {
+class SkyPixels {
   public:
     // Rays stand kBlock pixels apart. Blocks between them are interpolated (Catmull & Rom 1974) where that agrees with
     // four rays of their own within kAgreement of the radiance; each pixel of the others has its own ray: across the
@@ -22,7 +22,7 @@ class SkyBehind {
 
     // Of a picture of so many pixels, each > 0. below: whether rays below the horizon are wanted; radiance of pixels
     // there means nothing else. The same for every number of threads.
-    SkyBehind(const SkyDome& sky, const View& view, int width, int height, bool below, int threads);
+    SkyPixels(const SkyDome& sky, const View& view, int width, int height, bool below, int threads);
 
     // Radiance through the middles of a row's pixels. to: one for each of them.
     void row(int y, std::span<glm::vec3> to) const;

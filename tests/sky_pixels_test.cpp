@@ -1,5 +1,5 @@
 // The sky behind a picture, interpolated between few rays, is that of a ray through every pixel's middle.
-#include "core/draw/sky_behind.h"
+#include "core/draw/sky_pixels.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ SkyDome sky_of(double elevation) {
 }
 
 // The greatest difference of a row's pixel from its own ray, over its radiance.
-double worst(const SkyBehind& behind, const SkyDome& sky, const View& view, const Sight& sight) {
+double worst(const SkyPixels& behind, const SkyDome& sky, const View& view, const Sight& sight) {
     double worst = 0;
     std::vector<glm::vec3> row(static_cast<std::size_t>(sight.width));
     for (int y = 0; y < sight.height; ++y) {
@@ -60,32 +60,32 @@ double worst(const SkyBehind& behind, const SkyDome& sky, const View& view, cons
 }
 
 // Towards the sun, across the horizon, at the zenith, in few pixels and through a telescope.
-TEST(SkyBehind, IsTheSkyThatEveryPixelsOwnRaySees) {
+TEST(SkyPixels, IsTheSkyThatEveryPixelsOwnRaySees) {
     for (const Sight sight :
          {Sight{30, 0.5, 50, 320, 200}, Sight{2, 0.05, 90, 321, 203}, Sight{-4, 0, 60, 200, 160},
           Sight{60, 1.5, 100, 160, 160}, Sight{40, 0.7, 2, 100, 100}, Sight{12, 0.2, 40, 17, 9},
           Sight{12, -0.6, 70, 120, 80}, Sight{85, 0.3, 45, 1, 1}}) {
         const SkyDome sky = sky_of(sight.sun);
         const View view = view_of(sight);
-        const SkyBehind behind(sky, view, sight.width, sight.height, true, 1);
+        const SkyPixels behind(sky, view, sight.width, sight.height, true, 1);
         // Four rays a block are looked at, not all of them.
-        EXPECT_LT(worst(behind, sky, view, sight), 5 * SkyBehind::kAgreement)
+        EXPECT_LT(worst(behind, sky, view, sight), 5 * SkyPixels::kAgreement)
             << "sun " << sight.sun << ", up " << sight.up << ", " << behind.smooth_share();
     }
 }
 
-TEST(SkyBehind, IsInterpolatedNearlyEverywhereInALargePicture) {
+TEST(SkyPixels, IsInterpolatedNearlyEverywhereInALargePicture) {
     const Sight sight{30, 0.4, 40, 800, 600};
-    const SkyBehind behind(sky_of(sight.sun), view_of(sight), sight.width, sight.height, true, 2);
+    const SkyPixels behind(sky_of(sight.sun), view_of(sight), sight.width, sight.height, true, 2);
     EXPECT_GT(behind.smooth_share(), 0.9);
 }
 
-TEST(SkyBehind, IsTheSameForEveryNumberOfThreads) {
+TEST(SkyPixels, IsTheSameForEveryNumberOfThreads) {
     const Sight sight{8, 0.1, 60, 150, 90};
     const SkyDome sky = sky_of(sight.sun);
     const View view = view_of(sight);
-    const SkyBehind one(sky, view, sight.width, sight.height, true, 1);
-    const SkyBehind three(sky, view, sight.width, sight.height, true, 3);
+    const SkyPixels one(sky, view, sight.width, sight.height, true, 1);
+    const SkyPixels three(sky, view, sight.width, sight.height, true, 3);
     std::vector<glm::vec3> a(150), b(150);
     for (int y = 0; y < sight.height; ++y) {
         one.row(y, a);
