@@ -17,6 +17,11 @@ namespace {
 constexpr int kManyChunks = 8192;
 // A chunk whose steps all are below this share of what they may be is followed by longer ones.
 constexpr float kFarTooFine = 0.3f;
+// Wide particles of a chunk that are not worth interpolating.
+constexpr int kFewWide = 3;
+constexpr int kWideSpacing = 2;
+static_assert(kSpacings[kWideSpacing] == kWideApart);
+
 // Tiles of finer rays that a block may have in matter with detail, where lumps may lie in all of it: as many as its
 // squares of 2 x 2 pixels; and again, of pixels that are still uneven.
 constexpr std::size_t kMostSharpOfLumps = 64;
@@ -210,9 +215,18 @@ class BlockMarch {
     }
 
     void fill_profiles(const Chunk& chunk) {
-        kernels_.deposit(room_.particles, room_.active, chunk, room_.tiles);
+        kernels_.deposit(room_.particles, room_.active, chunk, between(), room_.wide, room_.tiles);
         if (block_.detail.field != nullptr) kernels_.detail(block_.detail, chunk, room_.tiles);
         if (scene_.cut) cut_at_ground(chunk);
+    }
+
+    // The weights of tiles between the rays of room_.wide, where enough particles are wide for it to be worth while.
+    const Bilinear* between() const {
+        if (!block_.between) return nullptr;
+        const auto wide = std::count_if(
+            room_.active.begin(), room_.active.end(),
+            [&](const ActiveParticle& a) { return room_.particles.wide[a.index] != 0; });
+        return wide < kFewWide ? nullptr : room_.bilinear[kWideSpacing];
     }
 
     // Takes away what lies beyond the ground.

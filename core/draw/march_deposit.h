@@ -5,6 +5,7 @@
 //     sigma(t) = n exp(-(b^2 + (t - c)^2) / (2 s^2)),     c the ray's closest point to the centre.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -181,7 +182,7 @@ AWAN_INLINE void deposit_samples(const BlockParticles& p, const ActiveParticle& 
 // Where the step changes from `before` to `after`, the terms of the two sides do not cancel. Their difference goes to
 // the chunk's first sample.
 AWAN_INLINE void join(float extinction, float s, float before, float after, const Floats& b2,
-                      const Floats& center, Tile& tile) {
+                      const Floats& center, Floats& sample) {
     const float h2 = before * before - after * after;
     const float h4 = before * before * before * before - after * after * after * after;
     const float per_s = 1.0f / s;
@@ -189,7 +190,7 @@ AWAN_INLINE void join(float extinction, float s, float before, float after, cons
     const Floats value = extinction * simd::exp((b2 * (per_s * per_s) + v * v) * -0.5f);
     const Floats slope = -v * value * per_s;
     const Floats third = (3.0f * v - v * v * v) * value * (per_s * per_s * per_s);
-    tile.profile[0] += slope * (h2 * (1.0f / 24)) - third * (h4 * (7.0f / 5760));
+    sample += slope * (h2 * (1.0f / 24)) - third * (h4 * (7.0f / 5760));
 }
 
 // Mends the sum of a particle's samples where the chunk begins, if it has matter on both sides.
@@ -214,7 +215,8 @@ AWAN_INLINE void join_chunks(const BlockParticles& p, const ActiveParticle& a, c
             tiles[t].profile[0] += (masses ? mass : -mass) * missing;
         }
         join(p.extinction[i], s, s < kLeastRecurrence * chunk.before ? 0.0f : chunk.before,
-             masses ? 0.0f : chunk.step, at.b2, span.center[t] + (at.shift - a.shift[t]), tiles[t]);
+             masses ? 0.0f : chunk.step, at.b2, span.center[t] + (at.shift - a.shift[t]),
+             tiles[t].profile[0]);
     }
 }
 
@@ -230,6 +232,110 @@ AWAN_INLINE void deposit(const BlockParticles& p, const ActiveParticle& a, const
     else
         deposit_samples(p, a, chunk, span, touched, tiles);
     if (chunk.joined) join_chunks(p, a, chunk, span, touched, tiles);
+}
+
+// A wide particle that is wide beside a step, too: samples first..last of the rays in between which tiles are.
+AWAN_INLINE void deposit_between(const BlockParticles& p, const ActiveParticle& a,
+                                 const Chunk& chunk, int first, int last, WideRays& wide) {
+    const std::size_t i = a.index;
+    const float step = chunk.step, per_s = 1.0f / p.s[i], per_s2 = per_s * per_s;
+    const float amplitude = p.extinction[i] * step, ratio = a.ratio;
+    const float u = (static_cast<float>(first) + 0.5f) * step - (p.place[i] - chunk.from);
+    for (WideRays::Row& row : wide.rows) {
+        const Closest at = closest(p, i, row.x, row.y, row.z);
+        const Floats v = u - at.shift;
+        Floats value = amplitude * simd::exp((at.b2 + v * v) * (-0.5f * per_s2));
+        Floats factor = simd::exp((v * step + 0.5f * step * step) * -per_s2);
+        for (int k = first; k <= last; ++k) {
+            row.profile[k] += value;
+            value *= factor;
+            factor *= ratio;
+        }
+    }
+}
+
+// As join_chunks, of a wide particle that is sampled on both sides.
+AWAN_INLINE void join_between(const BlockParticles& p, const ActiveParticle& a, const Chunk& chunk,
+                              WideRays& wide) {
+    const std::size_t i = a.index;
+    for (WideRays::Row& row : wide.rows) {
+        const Closest at = closest(p, i, row.x, row.y, row.z);
+        join(p.extinction[i], p.s[i], chunk.before, chunk.step, at.b2,
+             (p.place[i] - chunk.from) + at.shift, row.profile[0]);
+    }
+}
+
+// Adds what lies between the rays to a tile's samples. b: for rays kWideApart apart.
+AWAN_INLINE void add_between(const WideRays& wide, const Bilinear& b, Tile& tile) {
+    const auto ray = [&](int corner, int k) {
+        return wide.rows[b.corner[corner] / simd::kLanes]
+            .profile[k][b.corner[corner] % simd::kLanes];
+    };
+    for (int k = tile.first; k <= tile.last; ++k)
+        tile.profile[k] += b.weight[0] * ray(0, k) + b.weight[1] * ray(1, k) +
+                           b.weight[2] * ray(2, k) + b.weight[3] * ray(3, k);
+}
+
+// First and last samples with matter of all tiles, a tile a lane, and which of those see anything.
+struct TileSpans {
+    Ints first, last, alive;
+};
+// Takes in a particle's; gives its samples over all tiles. first > last: it has none. before: whether it has matter
+// before the chunk, too.
+struct SpanOfAll {
+    int first, last;
+    bool before;
+};
+AWAN_INLINE SpanOfAll take_in(const ActiveParticle& a, const SampleSpan& span, TileSpans& tiles) {
+    const Ints touched = (a.half > 0.0f) & (span.first <= span.last) & tiles.alive;
+    const Ints first = touched ? span.first : Ints{} + kChunk,
+               last = touched ? span.last : Ints{} - 1;
+    tiles.first = first < tiles.first ? first : tiles.first;
+    tiles.last = last > tiles.last ? last : tiles.last;
+    return {static_cast<int>(simd::smallest(__builtin_convertvector(first, Floats))),
+            static_cast<int>(simd::largest(__builtin_convertvector(last, Floats))),
+            simd::any(touched & (span.low_at < 0))};
+}
+
+// Adds the particles to the profiles of all tiles, the wide ones by way of rays between which tiles are. between: those
+// rays' weights of each tile; null: there is none that is worth it.
+AWAN_INLINE void deposit_all(const BlockParticles& p, const std::vector<ActiveParticle>& active,
+                             const Chunk& chunk, const Bilinear* between, WideRays& wide,
+                             Tile* tiles) {
+    TileSpans spans{Ints{} + kChunk, Ints{} - 1, Ints{}};
+    for (int t = 0; t < kTiles; ++t) {
+        for (auto& sample : tiles[t].profile) sample = Floats{};
+        tiles[t].first = kChunk;
+        tiles[t].last = -1;
+        spans.alive[t] = tiles[t].alive ? -1 : 0;
+    }
+    if (between != nullptr)
+        for (WideRays::Row& row : wide.rows)
+            for (auto& sample : row.profile) sample = Floats{};
+    for (const ActiveParticle& a : active) {
+        if (between == nullptr || p.wide[a.index] == 0 ||
+            p.s[a.index] < kLeastRecurrence * chunk.step) {
+            deposit(p, a, chunk, tiles);
+            continue;
+        }
+        const SampleSpan span = samples_of(a, chunk);
+        const SpanOfAll all = take_in(a, span, spans);
+        if (all.first > all.last) continue;
+        deposit_between(p, a, chunk, all.first, all.last, wide);
+        if (!chunk.joined || !all.before) continue;
+        if (p.s[a.index] < kLeastRecurrence * chunk.before)
+            join_chunks(p, a, chunk, span, touch(a, span, tiles), tiles);
+        else
+            join_between(p, a, chunk, wide);
+    }
+    if (between == nullptr) return;
+    for (int t = 0; t < kTiles; ++t) {
+        Tile& tile = tiles[t];
+        if (!tile.alive) continue;
+        tile.first = std::min<int>(tile.first, spans.first[t]);
+        tile.last = std::max<int>(tile.last, spans.last[t]);
+        add_between(wide, between[t], tile);
+    }
 }
 
 // The first sample of a tile that is deeper than a step may be, or kChunk. `allowed`: scaled depth of a step that

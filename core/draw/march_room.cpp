@@ -18,6 +18,13 @@ constexpr double kFinest = 4096;
 // The closest rays of matter with detail, of a pixel (march_block.cpp): smaller bumps than their gaps are not seen.
 constexpr double kRaysAcross = 4;
 
+// Rays that stand apart by so little of a particle's s, or less, tell what lies between them: linear between them, a
+// Gaussian is wrong by at most (apart / s)^2 / 4 of its middle, too low there and too high at its rim. Where many
+// overlap, as those that wide are do, that is of the sum's curvature, which is less.
+constexpr double kWideParts = 6;
+// Depositing along the rays of WideRays costs as much as in so many tiles; less is not worth it.
+constexpr int kWideTiles = 5;
+
 // A tile of a block's pixels, relative to the block.
 TilePlace pixels_of(int tile) {
     return {static_cast<double>(tile % 4 * kTileSide), static_cast<double>(tile / 4 * kTileSide),
@@ -106,6 +113,25 @@ void place_tiles(const MarchScene& scene, const PlacedBlock& block, double x, do
     }
 }
 
+// Sets the rays between which wide particles are deposited. (x, y): the picture's point that the frame counts pixels
+// from.
+void place_wide(const PlacedBlock& block, double x, double y, WideRays& wide) {
+    float at_x[simd::kLanes], at_y[simd::kLanes];
+    for (int r = 0; r < WideRays::kRows; ++r) {
+        for (int lane = 0; lane < simd::kLanes; ++lane) {
+            const int ray = std::min(r * simd::kLanes + lane, kWideSide * kWideSide - 1);
+            at_x[lane] = static_cast<float>(block.left + ray % kWideSide * kWideApart - x);
+            at_y[lane] = static_cast<float>(block.top + ray / kWideSide * kWideApart - y);
+        }
+        WideRays::Row& row = wide.rows[r];
+        simd::Floats ray[3];
+        march_kernels().rays(block.frame, at_x, at_y, ray);
+        row.x = ray[0];
+        row.y = ray[1];
+        row.z = ray[2];
+    }
+}
+
 // The block's rays in the tile of detail (march_detail.h).
 DetailRays detail_rays(const MarchScene& scene, const BlockFrame& frame, double reference) {
     const DetailField& field = *scene.detail;
@@ -171,6 +197,8 @@ PlacedBlock place_block(const MarchScene& scene, int block_x, int block_y, Block
     block.frame = frame_of(scene, block.left, block.top, block.middle_x, block.middle_y);
     block.sun = sun_in(block.frame, scene);
     place_tiles(scene, block, block.left, block.top, room);
+    place_wide(block, block.left, block.top, room.wide);
+    block.between = true;
     return block;
 }
 
@@ -202,6 +230,8 @@ PlacedBlock place_block(const MarchScene& scene, int block_x, int block_y,
     block.frame = frame_of(scene, block.middle_x, block.middle_y, block.middle_x, block.middle_y);
     block.sun = sun_in(block.frame, scene);
     place_tiles(scene, block, block.middle_x, block.middle_y, room);
+    block.between = block.tiles > kWideTiles;
+    if (block.between) place_wide(block, block.middle_x, block.middle_y, room.wide);
     return block;
 }
 
@@ -225,6 +255,10 @@ void place_particles(const MarchScene& scene, const std::vector<std::uint32_t>& 
         p.s[i] = one.s;
         p.extinction[i] = one.extinction;
         p.reach[i] = one.reach;
+        // Where the rays stand widest apart.
+        const double apart =
+            kWideApart * frame.du * (glm::length(one.q) + 3 * static_cast<double>(one.s));
+        p.wide[i] = static_cast<double>(one.s) > kWideParts * apart ? 1 : 0;
     }
     // A little more than the slope of the block's corners to its middle.
     const double slope = frame.du * kBlockSide * 0.75;

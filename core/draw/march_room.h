@@ -21,6 +21,7 @@ inline constexpr int kMostCorners = 81;
 struct BlockRoom {
     Tile tiles[kTiles];
     TilePlace places[kTiles];
+    WideRays wide;
     TileLight light;
     LightAt corners[kMostCorners][kChunk + 2];
     Bilinear of_pixels[kSpacingCount][kTiles];  // of a block of 16 x 16 pixels
@@ -43,6 +44,7 @@ struct PlacedBlock {
     int left = 0, top = 0;              // of the 16 x 16 pixels that it lies in
     double middle_x = 0, middle_y = 0;  // where the middle ray meets the picture, pixels
     int tiles = kTiles;
+    bool between = false;  // whether particles may be deposited between rays (WideRays)
     BlockFrame frame{};
     SunInBlock sun{};
     DetailRays detail;

@@ -14,15 +14,6 @@ AWAN_INLINE void measure_body(const BlockParticles& p, const Floats* ray, const 
                               ActiveParticle& a) {
     measure(p, ray, spread, a);
 }
-AWAN_INLINE void deposit_body(const BlockParticles& p, const std::vector<ActiveParticle>& active,
-                              const Chunk& chunk, Tile* tiles) {
-    for (int t = 0; t < kTiles; ++t) {
-        for (auto& sample : tiles[t].profile) sample = Floats{};
-        tiles[t].first = kChunk;
-        tiles[t].last = -1;
-    }
-    for (const ActiveParticle& a : active) deposit(p, a, chunk, tiles);
-}
 AWAN_INLINE void detail_body(const DetailRays& rays, const Chunk& chunk, Tile* tiles) {
     for (int t = 0; t < kTiles; ++t)
         if (tiles[t].alive) add_detail(rays, chunk, tiles[t]);
@@ -95,8 +86,8 @@ AWAN_INLINE void finish_air_body(const MarchScene& scene, const AirTile& air, co
     }                                                                                            \
     attribute void deposit_##name(const BlockParticles& p,                                       \
                                   const std::vector<ActiveParticle>& active, const Chunk& chunk, \
-                                  Tile* tiles) {                                                 \
-        deposit_body(p, active, chunk, tiles);                                                   \
+                                  const Bilinear* between, WideRays& wide, Tile* tiles) {        \
+        deposit_all(p, active, chunk, between, wide, tiles);                                     \
     }                                                                                            \
     attribute void detail_##name(const DetailRays& rays, const Chunk& chunk, Tile* tiles) {      \
         detail_body(rays, chunk, tiles);                                                         \

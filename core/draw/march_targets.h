@@ -21,7 +21,8 @@ struct MarchKernels {
                        const BehindPixels&, const Tile&, float (*)[4]);
     void (*measure)(const BlockParticles&, const Floats*, const Floats&, ActiveParticle&);
     void (*ratio)(const BlockParticles&, float, std::vector<ActiveParticle>&);
-    void (*deposit)(const BlockParticles&, const std::vector<ActiveParticle>&, const Chunk&, Tile*);
+    void (*deposit)(const BlockParticles&, const std::vector<ActiveParticle>&, const Chunk&,
+                    const Bilinear*, WideRays&, Tile*);
     void (*detail)(const DetailRays&, const Chunk&, Tile*);
     int (*too_deep)(const Tile&, float, float);
     void (*spread)(const Bilinear&, const LightAt (*)[kChunk + 2], int, int, bool, bool,

@@ -32,8 +32,10 @@ struct BlockParticles {
     std::vector<float> place;  // `along` less the reference
     std::vector<float> near;   // no matter is closer to the eye than this, less the reference
     std::vector<float> s, extinction, reach;  // as in SeenParticle
+    std::vector<std::uint8_t> wide;           // whether it may be deposited between rays (WideRays)
 
     void resize(std::size_t n) {
+        wide.resize(n);
         for (auto member : {&BlockParticles::x, &BlockParticles::y, &BlockParticles::along,
                             &BlockParticles::place, &BlockParticles::near, &BlockParticles::s,
                             &BlockParticles::extinction, &BlockParticles::reach})
@@ -82,6 +84,19 @@ struct alignas(64) Tile {
     simd::Floats red, green, blue;  // radiance so far
     simd::Floats rest_phase;        // p1 of march_phase.h
     simd::Floats seen_air, seen_lost;  // in haze: sums of alpha weight * O and * L (air.h)
+};
+
+// Rays kWideApart pixels apart, from corner to corner of a block: matter that is far wider than that is deposited along
+// them, and interpolated to the pixels' rays between them. Like tiles, a ray a lane, row by row.
+inline constexpr int kWideApart = kTileSide;  // pixels
+inline constexpr int kWideSide = kTiles / kTileSide + 1;
+struct WideRays {
+    static constexpr int kRows = 2;  // of lanes: room for 5 x 5 rays
+    struct alignas(64) Row {
+        simd::Floats x, y, z;          // as of a Tile
+        simd::Floats profile[kChunk];  // as of a Tile
+    };
+    Row rows[kRows];
 };
 
 // Light at four corners, interpolated to a tile's pixels.
