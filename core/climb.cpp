@@ -159,11 +159,11 @@ Result<const Image*> small_picture(const Climb& climb, const TransportLight& lig
 }
 
 // difference: of a transport rung's small picture to the next coarser grid's.
-double stated_error(double difference, const Climb& climb) {
+double stated_error(double difference, const Climb& climb, int cells) {
     const Planned& planned = climb.planned;
     return exact::hypot(
         kErrorOfDifference * difference,
-        known_error(climb.scene, planned.survey, planned.particles.detail != nullptr),
+        known_error(climb.scene, planned.survey, planned.particles.detail != nullptr, cells),
         planned.survey.model_error);
 }
 
@@ -215,7 +215,7 @@ Status measure(const Climb& climb, int cells, Pictures& pictures, Climbed& reach
     const auto start = Clock::now();
     const auto difference = difference_of(climb, *reached.light, cells, pictures);
     if (!difference.ok()) return difference.error();
-    reached.stated = stated_error(*difference, climb);
+    reached.stated = stated_error(*difference, climb, cells);
     const RungForecast* const expected =
         reached.rung != nullptr && has_islands_as_before(climb, cells)
             ? forecast_of(climb.planned.plan, *reached.rung)

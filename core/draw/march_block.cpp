@@ -447,7 +447,7 @@ void march_block(const MarchScene& scene, int block_x, int block_y,
     if (!scene.one_ray)
         march_all(sharp_places(image, left, top, fine, lumps ? kMostSharpOfLumps : kTiles), pixels);
     for (std::size_t first = 0; first < fine.size();) {
-        const FineBatch batch = batch_from(fine, first);
+        const FineBatch batch = batch_from(fine, first, items);
         march_part(batch.places, batch.items, pixels);
         first += batch.places.size();
     }

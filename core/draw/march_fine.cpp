@@ -15,19 +15,21 @@ constexpr double kTogether = 65536;
 // What a particle touches of the picture, pixels.
 struct Touched {
     double left, top, right, bottom;
-    std::uint32_t item;
+    std::uint32_t place;  // in the block's items
     int level;
 };
 
-Touched touched_by(const MarchScene& scene, std::uint32_t item) {
-    const SeenParticle& one = (*scene.seen)[item];
+Touched touched_by(const MarchScene& scene, const std::vector<std::uint32_t>& items,
+                   std::size_t i) {
+    const SeenParticle& one = (*scene.seen)[items[i]];
     const auto reach = static_cast<double>(one.reach);
     const double tan = scene.view.tan_half_fov;
     const PixelSpan x = pixels_between(disc_slopes(one.q.x, one.q.z, reach),
                                        tan * scene.view.aspect, scene.width, false);
     const PixelSpan y =
         pixels_between(disc_slopes(one.q.y, one.q.z, reach), tan, scene.height, true);
-    return {x.low + 0.5, y.low + 0.5, x.high + 0.5, y.high + 0.5, item, one.level};
+    return {x.low + 0.5, y.low + 0.5, x.high + 0.5, y.high + 0.5, static_cast<std::uint32_t>(i),
+            one.level};
 }
 
 // Divides a tile as far as what touches it asks for.
@@ -38,8 +40,8 @@ void divide(const TilePlace& place, int level, const std::vector<Touched>& touch
     for (const Touched& one : touching) wanted = std::max(wanted, one.level);
     if (wanted <= level) {
         FineTile& tile = tiles.emplace_back(FineTile{place, {}});
-        tile.items.reserve(touching.size());
-        for (const Touched& one : touching) tile.items.push_back(one.item);
+        tile.touching.reserve(touching.size());
+        for (const Touched& one : touching) tile.touching.push_back(one.place);
         return;
     }
     const double side = kTileSide * place.gap / 2;
@@ -168,7 +170,7 @@ std::vector<FineTile> fine_tiles(const MarchScene& scene, int block_x, int block
     if (std::none_of(items.begin(), items.end(), narrow)) return tiles;
     std::vector<Touched> all;
     all.reserve(items.size());
-    for (const std::uint32_t item : items) all.push_back(touched_by(scene, item));
+    for (std::size_t i = 0; i < items.size(); ++i) all.push_back(touched_by(scene, items, i));
     std::vector<Touched> touching;
     for (int t = 0; t < kTiles; ++t) {
         const double x = block_x * kBlockSide + t % 4 * kTileSide,
@@ -187,8 +189,10 @@ std::vector<FineTile> fine_tiles(const MarchScene& scene, int block_x, int block
     return tiles;
 }
 
-FineBatch batch_from(const std::vector<FineTile>& tiles, std::size_t first) {
+FineBatch batch_from(const std::vector<FineTile>& tiles, std::size_t first,
+                     const std::vector<std::uint32_t>& items) {
     FineBatch batch;
+    std::vector<bool> touching(items.size());
     double low_x = 1e300, low_y = 1e300, high_x = -1e300, high_y = -1e300, least = 1e300;
     for (std::size_t t = first; t < tiles.size() && batch.places.size() < kTiles; ++t) {
         const TilePlace& place = tiles[t].place;
@@ -200,10 +204,10 @@ FineBatch batch_from(const std::vector<FineTile>& tiles, std::size_t first) {
         least = std::min(least, side);
         if (t > first && std::max(high_x - low_x, high_y - low_y) > kTogether * least) break;
         batch.places.push_back(place);
-        batch.items.insert(batch.items.end(), tiles[t].items.begin(), tiles[t].items.end());
+        for (const std::uint32_t one : tiles[t].touching) touching[one] = true;
     }
-    std::sort(batch.items.begin(), batch.items.end());
-    batch.items.erase(std::unique(batch.items.begin(), batch.items.end()), batch.items.end());
+    for (std::size_t i = 0; i < items.size(); ++i)
+        if (touching[i]) batch.items.push_back(items[i]);
     return batch;
 }
 

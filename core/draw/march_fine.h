@@ -15,7 +15,7 @@ namespace awan {
 
 struct FineTile {
     TilePlace place;
-    std::vector<std::uint32_t> items;  // that touch it, indices into scene.seen, nearest first
+    std::vector<std::uint32_t> touching;  // places in the block's items, ascending: nearest first
 };
 
 // The tiles into which a block's are divided: each so far that its rays are as close as all that touches it asks for.
@@ -27,9 +27,11 @@ std::vector<FineTile> fine_tiles(const MarchScene& scene, int block_x, int block
 // Up to 16 of them in a row that can be marched together, and all that touches them.
 struct FineBatch {
     std::vector<TilePlace> places;
-    std::vector<std::uint32_t> items;  // nearest first, each once
+    std::vector<std::uint32_t> items;  // indices into scene.seen, nearest first, each once
 };
-FineBatch batch_from(const std::vector<FineTile>& tiles, std::size_t first);
+// items: the block's.
+FineBatch batch_from(const std::vector<FineTile>& tiles, std::size_t first,
+                     const std::vector<std::uint32_t>& items);
 
 // Squares of 2 x 2 pixels of a block across which, or beside which, alpha or light changes by so much that their
 // middles stand badly for them: silhouettes, bright rims. Each as a tile with rays half a pixel apart; at most `most`:

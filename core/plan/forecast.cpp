@@ -137,8 +137,8 @@ RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey
     if (!empty) forecast.error = predicted_error(error_model(rung), errors);
     // Of grids, the model is of what they are measured to differ by.
     if (!empty && rung.cells > 0)
-        forecast.error =
-            exact::hypot(forecast.error, known_error(scene, survey, detail_counts(scene, survey)));
+        forecast.error = exact::hypot(
+            forecast.error, known_error(scene, survey, detail_counts(scene, survey), rung.cells));
     double ms = predicted_ms(kPrepareTime, times);
     const double march_speed = stretch(threads, kMarchSerial);
     switch (rung.method) {

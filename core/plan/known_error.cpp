@@ -5,6 +5,8 @@
 #include <glm/common.hpp>
 
 #include "core/base/exact_math.h"
+#include "core/plan/transport_settings.h"
+#include "core/survey/lattice.h"
 
 namespace awan {
 namespace {
@@ -30,6 +32,9 @@ constexpr double kDetailError = 0.028, kDeepDetailError = 0.26, kDeep = 800,
                  kBacklitDetailError = 0.03;
 // Of what is far below a pixel, times its share of the matter (Survey::sub_pixel).
 constexpr double kSubPixelError = 0.01;
+// Of matter in clumps that cells do not see (core/survey/clumps.h), times what is hidden in them to the power of 1.5,
+// less kSeenOfClumps of what a grid with kFinerClumps times the cells would see of it: that, grids differ by.
+constexpr double kClumpError = 0.5, kSeenOfClumps = 1.65, kFinerClumps = 1.5;
 // Of the ground's light where hills stand and a level ground sends it up in their stead, times its share of all
 // (terrain_truth_test).
 constexpr double kHillsError = 0.3;
@@ -44,9 +49,17 @@ double leaving(const Scene& scene, const Survey& survey) {
     return std::min(kTurn * way / (thinnest * kMostLeaving), 1.0);
 }
 
+double clump_error(const Survey& survey, int cells) {
+    const int along = spread_count(survey.bounds.max - survey.bounds.min, cells, kMostGridSpread);
+    const double hidden = survey.clumps.at(along);
+    const double seen = hidden - survey.clumps.at(kFinerClumps * along);
+    const double unseen = std::max(hidden - kSeenOfClumps * seen, 0.0);
+    return kClumpError * unseen * std::sqrt(unseen);
+}
+
 }  // namespace
 
-double known_error(const Scene& scene, const Survey& survey, bool detailed) {
+double known_error(const Scene& scene, const Survey& survey, bool detailed, int cells) {
     const double g = asymmetry(scene->medium), depth = survey.optical_depth_eye;
     const double behind = std::clamp(-2 * survey.sun_cosine - 1, 0.0, 1.0);
     const double into_sun = std::max(survey.sun_cosine, 0.0);
@@ -67,6 +80,7 @@ double known_error(const Scene& scene, const Survey& survey, bool detailed) {
     }
     if (has_terrain(*scene))
         known = exact::hypot(known, kHillsError * survey.ground.light / (1 + survey.ground.light));
+    known = exact::hypot(known, clump_error(survey, cells));
     return exact::hypot(known, kSubPixelError * survey.sub_pixel);
 }
 

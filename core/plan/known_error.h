@@ -8,7 +8,7 @@
 namespace awan {
 
 // Relative, as RungForecast::error; without Survey::model_error. detailed: whether detail (core/generate/detail.h) is
-// seen.
-double known_error(const Scene& scene, const Survey& survey, bool detailed);
+// seen. cells: of the rung, along the longest side.
+double known_error(const Scene& scene, const Survey& survey, bool detailed, int cells);
 
 }  // namespace awan

@@ -142,6 +142,7 @@ Result<Survey> survey(const Scene& scene, const ParticleSet& particles, int thre
     for (const float cell : survey.volume.extinction)
         survey.max_extinction = std::max(survey.max_extinction, static_cast<double>(cell));
     survey.detail.extinction = typical_extinction(survey.volume);
+    survey.clumps = find_clumps(particles, survey.islands, threads);
     survey.haze = haze_figures(scene, survey);
     survey.ground = ground_view(scene, particles, survey, threads);
     if (auto error = deadline.over()) return *error;

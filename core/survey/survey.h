@@ -9,6 +9,7 @@
 #include "core/generate/detail.h"
 #include "core/generate/particle_set.h"
 #include "core/scene/scene.h"
+#include "core/survey/clumps.h"
 #include "core/survey/islands.h"
 
 namespace awan {
@@ -69,6 +70,7 @@ struct Survey {
     View view;
     DensityVolume volume;
     Islands islands;  // empty for a single cloud
+    Clumps clumps;
     // Integral of extinction over space, unit^2.
     double total_mass = 0;
     double max_extinction = 0;  // largest cell mean, 1/unit

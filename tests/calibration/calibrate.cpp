@@ -189,9 +189,10 @@ void write_row(const Options& options, int index, const std::string& name, const
         truth.reference.noise, truth.reference.samples, rendered.plan.predicted.error, made.time_ms,
         rendered.times.light_ms, rendered.times.draw_ms, rendered.times.measure_ms,
         rendered.plan.predicted.time_ms, rendered.stated_error,
-        rung.cells > 0 ? std::hypot(known_error(scene, survey, detail_counts(scene, survey)),
-                                    survey.model_error)
-                       : 0.0,
+        rung.cells > 0
+            ? std::hypot(known_error(scene, survey, detail_counts(scene, survey), rung.cells),
+                         survey.model_error)
+            : 0.0,
         difference, made.cpu_ms, rung.name);
     for (const double figure : error_figures(rung, scene, survey))
         std::fprintf(out, ",%.6g", figure);
