@@ -17,7 +17,7 @@ namespace {
 using simd::Floats;
 using simd::kLanes;
 
-constexpr std::size_t kPairs = std::size_t{1} << 18, kFewest = 8, kMost = 128;
+constexpr std::size_t kPairs = std::size_t{1} << 17, kFewest = 8, kMost = 64;
 
 // The variance along an axis of what a cell of side 1 does to matter: its own, and that of interpolating between cells.
 constexpr double kCellVariance = 1.0 / 12 + 1.0 / 6;

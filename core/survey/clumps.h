@@ -22,7 +22,7 @@ struct Clumps {
     double at(double cells) const;
 };
 
-// From so many of the particles as make 2^18 pairs with all of them, 8 to 128: a few ms, of a million particles 50. The
+// From so many of the particles as make 2^17 pairs with all of them, 8 to 64: some ms, of a million particles 50. The
 // same for every number of threads. Precondition: particles are not empty.
 Clumps find_clumps(const ParticleSet& particles, const Islands& islands, int threads);
 
