@@ -6,6 +6,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 
+#include "core/base/catmull_rom.h"
 #include "core/base/exact_math.h"
 
 namespace awan {
@@ -132,20 +133,14 @@ Rgb4 texel(const Image& texels, int column, int row) {
     return value;
 }
 
-std::array<float, 4> cubic(float t) {
-    const float t2 = t * t, t3 = t2 * t;
-    return {0.5F * (2 * t2 - t - t3), 1 + 0.5F * (3 * t3 - 5 * t2), 0.5F * (t + 4 * t2 - 3 * t3),
-            0.5F * (t3 - t2)};
-}
-
 // Beyond the picture there is nothing.
 Rgb4 between_texels(const Image& texels, double column, double row) {
     const double left = std::floor(column), top = std::floor(row);
     if (!(left >= 1 && top >= 1 && left < texels.width - 2 && top < texels.height - 2))
         return Rgb4{};
     const auto x = static_cast<int>(left), y = static_cast<int>(top);
-    const std::array<float, 4> across = cubic(static_cast<float>(column - left)),
-                               down = cubic(static_cast<float>(row - top));
+    const std::array<float, 4> across = catmull_rom(static_cast<float>(column - left)),
+                               down = catmull_rom(static_cast<float>(row - top));
     Rgb4 sum{};
     for (int j = 0; j < 4; ++j) {
         Rgb4 line{};

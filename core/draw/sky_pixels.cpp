@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "core/base/catmull_rom.h"
 #include "core/base/parallel.h"
 
 namespace awan {
@@ -14,16 +15,10 @@ namespace {
 
 using Weights = std::array<float, 4>;
 
-// Of four neighbours, t = 0..1 from the second to the third.
-constexpr Weights weights_at(float t) {
-    return {t * (-0.5f + t * (1 - 0.5f * t)), 1 + t * t * (-2.5f + 1.5f * t),
-            t * (0.5f + t * (2 - 1.5f * t)), t * t * (-0.5f + 0.5f * t)};
-}
-
 constexpr std::array<Weights, SkyPixels::kBlock> make_weights() {
     std::array<Weights, SkyPixels::kBlock> all{};
     for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = weights_at(static_cast<float>(i) / SkyPixels::kBlock);
+        all[i] = catmull_rom(static_cast<float>(i) / SkyPixels::kBlock);
     return all;
 }
 

@@ -72,11 +72,6 @@ double cells_in(const glm::dvec3& size, int count) {
     return cubes_in(size, spread_count(size, count, kMostGridSpread));
 }
 
-// Cells along its longest side.
-int grid_count(const Survey& survey, int cells) {
-    return spread_count(survey.bounds.max - survey.bounds.min, cells, kMostGridSpread);
-}
-
 // Of an island without its fringe, as Survey::bounds are.
 glm::dvec3 island_size(const Island& island) {
     const double fringe = 4 * island.s_sums[1] / std::max(island.s_sums[0], 1.0);
@@ -126,6 +121,10 @@ double nodes_in(const glm::dvec3& size, int asked) {
 }
 
 }  // namespace
+
+int grid_count(const Survey& survey, int cells) {
+    return spread_count(survey.bounds.max - survey.bounds.min, cells, kMostGridSpread);
+}
 
 IslandWork island_work(const TransportSettings& settings, const Scene& scene,
                        const Survey& survey) {

@@ -22,6 +22,9 @@ struct IslandWork {
 };
 IslandWork island_work(const TransportSettings& settings, const Scene& scene, const Survey& survey);
 
+// Cells along the longest side of the grid of a rung that has so many by its name (spread_count).
+int grid_count(const Survey& survey, int cells);
+
 inline constexpr std::array kErrorFigureNames = {
     "one",     "thin",       "thick",         "cell_depth", "g",           "g2",
     "backlit", "g2_backlit", "coarseness",    "inside",     "sun_share",   "absorbed",

@@ -5,8 +5,7 @@
 #include <glm/common.hpp>
 
 #include "core/base/exact_math.h"
-#include "core/plan/transport_settings.h"
-#include "core/survey/lattice.h"
+#include "core/plan/forecast_figures.h"
 
 namespace awan {
 namespace {
@@ -50,7 +49,7 @@ double leaving(const Scene& scene, const Survey& survey) {
 }
 
 double clump_error(const Survey& survey, int cells) {
-    const int along = spread_count(survey.bounds.max - survey.bounds.min, cells, kMostGridSpread);
+    const int along = grid_count(survey, cells);
     const double hidden = survey.clumps.at(along);
     const double seen = hidden - survey.clumps.at(kFinerClumps * along);
     const double unseen = std::max(hidden - kSeenOfClumps * seen, 0.0);

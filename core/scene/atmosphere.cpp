@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
+#include "core/base/catmull_rom.h"
 #include "core/base/exact_math.h"
 #include "core/scene/daylight.h"
 
@@ -304,12 +305,6 @@ double aerosol_phase(double cos_gamma) {
            (base * std::sqrt(base));
 }
 
-// Weights of four neighbours, the second and third being those between which t = 0..1 is: Catmull & Rom 1974.
-std::array<double, 4> spline(double t) {
-    return {t * (-0.5 + t * (1 - 0.5 * t)), 1 + t * t * (-2.5 + 1.5 * t),
-            t * (0.5 + t * (2 - 1.5 * t)), t * t * (-0.5 + 0.5 * t)};
-}
-
 // Everything that is the same for all rays.
 struct Surroundings {
     Air air;
@@ -429,7 +424,7 @@ glm::dvec3 radiance(const AirSky& sky, const glm::dvec3& direction) {
         exact::acos(std::clamp(cos_azimuth, -1.0, 1.0)) / kTurn * (AirSky::kColumns - 1);
     const int i = std::min(static_cast<int>(row), AirSky::kRows - 2);
     const int j = std::min(static_cast<int>(column), AirSky::kColumns - 2);
-    const std::array<double, 4> down = spline(row - i), along = spline(column - j);
+    const std::array<double, 4> down = catmull_rom(row - i), along = catmull_rom(column - j);
     const double phase = aerosol_phase(std::clamp(glm::dot(direction, sky.to_sun), -1.0, 1.0));
     glm::dvec3 xyz(0);
     for (int a = 0; a < 4; ++a) {

@@ -10,6 +10,7 @@
 #include "core/base/float_lanes.h"
 #include "core/base/parallel.h"
 #include "core/generate/gaussian.h"
+#include "core/survey/lattice.h"
 
 namespace awan {
 namespace {
@@ -83,10 +84,6 @@ Seen seen_at(const Gaussians& all, const glm::vec3& point,
     return seen;
 }
 
-double longest_side(const glm::dvec3& size) {
-    return std::max({size.x, size.y, size.z});
-}
-
 double hidden_of(double depth) {
     return depth > 1e-6 ? 1 + exact::expm1(-depth) / depth : depth / 2;
 }
@@ -119,7 +116,7 @@ Clumps find_clumps(const ParticleSet& particles, const Islands& islands, int thr
                 islands.list[static_cast<std::size_t>(island_at(islands, particles.center[i]))];
             size = island.high - island.low;
         }
-        const double side = longest_side(size) / Clumps::kFewestCells;
+        const double side = longest(size) / Clumps::kFewestCells;
         std::array<float, Clumps::kGrids> more{};
         for (std::size_t g = 0; g < more.size(); ++g) {
             const double cell = side / static_cast<double>(1u << g);
