@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <list>
+#include <optional>
 #include <utility>
 
 #include "core/base/exact_math.h"
@@ -23,10 +24,10 @@ namespace {
 constexpr double kErrorOfDifference = 1.25;
 // The same, of pictures without a grid to one with it.
 constexpr double kErrorOfPicture = 1.1;
-// An error of at most this share of another adds 2% to it.
-constexpr double kMuchLess = 0.2;
-// With which power of a cell's side errors fall, at least: from 1.3 to 1.6 was measured on smooth clouds.
-constexpr double kOrder = 1.3;
+// An error of at most this share of another adds 6% to it.
+constexpr double kMuchLess = 0.35;
+// With which power of a cell's side errors fall, at least and at most, as measured on smooth clouds.
+constexpr double kOrder = 1.3, kMostOrder = 1.6;
 using Clock = Deadline::Clock;
 
 // The transport rung whose grid has so many cells; null: the grid is only on the way.
@@ -56,14 +57,14 @@ struct Climb {
     const Planned& planned;
     const ClimbTools& tools;
     const Deadline& deadline;
-    Scene small;
+    Scene measured;              // as pictures that measure show it
     TransportSettings settings;  // of the finest grid that may be reached
 };
 
 Result<Climb> climb_to(int cells, const Scene& scene, const Planned& planned,
                        const ClimbTools& tools, const Deadline& deadline) {
-    auto small = in_small(scene);
-    if (!small.ok()) return small.error();
+    auto measured = for_measuring(scene);
+    if (!measured.ok()) return measured.error();
     TransportSettings settings = planned.plan.transport;
     const Rung* const rung = rung_with(cells);
     if (settings.cells != cells && rung != nullptr) {
@@ -73,7 +74,7 @@ Result<Climb> climb_to(int cells, const Scene& scene, const Planned& planned,
         settings.last = own.last;
         settings.islands = island_cells(settings, planned.survey);
     }
-    return Climb{scene, planned, tools, deadline, *std::move(small), std::move(settings)};
+    return Climb{scene, planned, tools, deadline, *std::move(measured), std::move(settings)};
 }
 
 std::string key_of(const Climb& climb, const TransportSettings& settings) {
@@ -138,27 +139,30 @@ Status step(const Climb& climb, int cells, const Deadline& deadline, Climbed& re
     return std::nullopt;
 }
 
+// A sample of the picture's blocks, the same ones of every light.
 Result<Image> picture_of(const Climb& climb, const Scene& scene, const TransportLight& light) {
     MarchSettings settings;
     settings.eye_effects = climb.planned.plan.eye_effects();
+    settings.one_ray = true;
+    settings.sampled_blocks = kMeasuredBlocks;
     return march(scene, climb.planned.particles, climb.planned.survey.view, light, settings,
                  climb.tools.threads, climb.deadline);
 }
 
-// Small pictures of lights, each made once.
+// Pictures of lights that measure, each made once.
 using Pictures = std::list<std::pair<const TransportLight*, Image>>;
 
-Result<const Image*> small_picture(const Climb& climb, const TransportLight& light,
-                                   Pictures& pictures) {
+Result<const Image*> measured_picture(const Climb& climb, const TransportLight& light,
+                                      Pictures& pictures) {
     for (const auto& [of, picture] : pictures)
         if (of == &light) return &picture;
-    auto made = picture_of(climb, climb.small, light);
+    auto made = picture_of(climb, climb.measured, light);
     if (!made.ok()) return made.error();
     pictures.emplace_back(&light, *std::move(made));
     return &pictures.back().second;
 }
 
-// difference: of a transport rung's small picture to the next coarser grid's.
+// difference: of a transport rung's picture to the next coarser grid's.
 double stated_error(double difference, const Climb& climb, int cells) {
     const Planned& planned = climb.planned;
     return exact::hypot(
@@ -177,9 +181,9 @@ Result<double> difference_of(const Climb& climb, const TransportLight& light, in
     double difference = 0, shrinks = 1;
     for (std::size_t i = grids.size(); i-- > 1 && i + 3 > grids.size() && finer->coarser;) {
         if (i + 1 < grids.size() && rung_with(grids[i]) == nullptr) break;
-        const auto own = small_picture(climb, *finer, pictures);
+        const auto own = measured_picture(climb, *finer, pictures);
         if (!own.ok()) return own.error();
-        const auto before = small_picture(climb, *finer->coarser, pictures);
+        const auto before = measured_picture(climb, *finer->coarser, pictures);
         if (!before.ok()) return before.error();
         difference = std::max(difference, shrinks * picture_difference(**before, **own));
         shrinks *= exact::pow(static_cast<double>(grids[i - 1]) / grids[i], kOrder);
@@ -225,29 +229,27 @@ Status measure(const Climb& climb, int cells, Pictures& pictures, Climbed& reach
     return std::nullopt;
 }
 
-// How many times longer the march of the scene's picture is expected to take than that of the small one.
+// How many times longer the march of the scene's picture is expected to take than that of one that measures.
 double draw_ratio(const Climb& climb, const Rung& rung) {
-    const Survey& survey = climb.planned.survey;
-    const auto draw_ms = [&](const Scene& scene) {
-        return forecast(rung, scene, survey, 0, climb.tools.threads, {}).draw_ms;
-    };
-    return draw_ms(climb.scene) / std::max(draw_ms(climb.small), 1e-3);
+    const RungForecast expected =
+        forecast(rung, climb.scene, climb.planned.survey, 0, climb.tools.threads, {});
+    return expected.draw_ms * kMeasuringPictures / std::max(expected.measure_ms, 1e-3);
 }
 
-// `small` plus what the pixels of `picture` that are nearest to its own have more than `with_behind`, a picture of its
-// size.
-Image moved_by(const Image& small, const Image& with_behind, const Image& picture) {
-    Image moved = small;
+// `measured` plus what the pixels of `picture` that are nearest to its own have more than `with_behind`, a picture of
+// its size.
+Image moved_by(const Image& measured, const Image& with_behind, const Image& picture) {
+    Image moved = measured;
     const auto nearest = [](int at, int of, int from) {
         return static_cast<std::size_t>(
             std::min(static_cast<int>((at + 0.5) * from / of), from - 1));
     };
     std::size_t to = 0;
-    for (int y = 0; y < small.height; ++y)
-        for (int x = 0; x < small.width; ++x, ++to) {
-            const std::size_t from =
-                nearest(y, small.height, picture.height) * static_cast<std::size_t>(picture.width) +
-                nearest(x, small.width, picture.width);
+    for (int y = 0; y < measured.height; ++y)
+        for (int x = 0; x < measured.width; ++x, ++to) {
+            const std::size_t from = nearest(y, measured.height, picture.height) *
+                                         static_cast<std::size_t>(picture.width) +
+                                     nearest(x, measured.width, picture.width);
             for (std::size_t c = 0; c < 3; ++c)
                 moved.pixels[4 * to + c] +=
                     picture.pixels[4 * from + c] - with_behind.pixels[4 * to + c];
@@ -261,6 +263,44 @@ Clock::time_point in_ms(double ms) {
     if (!(ms < kLong)) return Clock::time_point::max();
     return Clock::now() + std::chrono::duration_cast<Clock::duration>(
                               std::chrono::duration<double, std::milli>(ms));
+}
+
+// By how much a picture that was made without a grid differs from that of a grid's light.
+Result<double> difference_to_picture(const Climb& climb, const Image& picture,
+                                     const TransportLight& light, Pictures& pictures) {
+    const auto own = measured_picture(climb, light, pictures);
+    if (!own.ok()) return own.error();
+    const Image& measured = **own;
+    // What stands behind is the same in both: with it, they differ by the cloud alone.
+    Image with_behind = measured;
+    if (climb.scene->image.background != Background::kTransparent) {
+        SceneDraft draft = *climb.measured;
+        draft.image.background = climb.scene->image.background;
+        const auto over_it = validate(std::move(draft));
+        if (!over_it.ok()) return over_it.error();
+        if (climb.scene->haze) {
+            auto drawn = picture_of(climb, *over_it, light);
+            if (!drawn.ok()) return drawn.error();
+            with_behind = *std::move(drawn);
+        } else {
+            lay_under(with_behind,
+                      make_backdrop(*over_it, climb.planned.survey.view, measured.width,
+                                    measured.height, light.ground, climb.tools.threads));
+        }
+    }
+    return picture_difference(moved_by(measured, with_behind, picture), measured);
+}
+
+// What is expected of a grid up to the coarsest rung's; nothing: the plan tells nothing of it.
+std::optional<double> expected_error(const Climb& climb, int cells) {
+    const int coarsest = grids_of_ladder().coarsest;
+    const RungForecast* const expected = forecast_of(climb.planned.plan, *rung_with(coarsest));
+    if (expected == nullptr || !(expected->error > 0)) return std::nullopt;
+    const Planned& planned = climb.planned;
+    const double known =
+        known_error(climb.scene, planned.survey, planned.particles.detail != nullptr, cells);
+    return std::max(known,
+                    expected->error * exact::pow(static_cast<double>(coarsest) / cells, kMostOrder));
 }
 
 // As many of the grids as there is time for; the coarsest rung in any case. The error is measured if that fits too.
@@ -303,7 +343,7 @@ Status climb_in_time(const Climb& climb, const std::vector<int>& grids, Climbed&
         const RungForecast* const expected = forecast_of(plan, *reached.rung);
         time.measure = expected != nullptr ? expected->measure_ms : 0;
         if (climb.planned.is_preview || !time.is_left_to_measure()) return std::nullopt;
-        // Its small pictures tell what drawing will take, and measuring again.
+        // Its pictures tell what drawing will take, and measuring again.
         const auto measuring = Clock::now();
         if (Status wrong = measure(climb, cells, pictures, reached)) return wrong;
         time.measure = ms_since(measuring);
@@ -390,47 +430,30 @@ Result<Climbed> climb(const Scene& scene, const Planned& planned, const ClimbToo
 
 Result<double> error_of_picture(const Scene& scene, const Planned& planned, const Image& picture,
                                 const ClimbTools& tools, const Deadline& deadline) {
-    const int cells = grids_of_ladder().coarsest;
-    auto begun = climb_to(cells, scene, planned, tools, deadline);
+    const int coarsest = grids_of_ladder().coarsest;
+    auto begun = climb_to(coarsest, scene, planned, tools, deadline);
     if (!begun.ok()) return begun.error();
-    auto aligned = in_small_aligned(scene);
-    if (!aligned.ok()) return aligned.error();
-    begun->small = *std::move(aligned);
+    const double rung_error = planned.plan.predicted.error;
     Climbed reached;
-    for (const int step_cells : nested_cells(cells)) {
-        if (Status failed = step(*begun, step_cells, deadline, reached)) return *failed;
-    }
     Pictures pictures;
-    const auto own = small_picture(*begun, *reached.light, pictures);
-    if (!own.ok()) return own.error();
-    const Image& small = **own;
-    // What stands behind is the same in both: with it, they differ by the cloud alone.
-    Image with_behind = small;
-    if (scene->image.background != Background::kTransparent) {
-        SceneDraft draft = *begun->small;
-        draft.image.background = scene->image.background;
-        const auto over_it = validate(std::move(draft));
-        if (!over_it.ok()) return over_it.error();
-        if (scene->haze) {
-            auto drawn = picture_of(*begun, *over_it, *reached.light);
-            if (!drawn.ok()) return drawn.error();
-            with_behind = *std::move(drawn);
-        } else {
-            lay_under(with_behind,
-                      make_backdrop(*over_it, planned.survey.view, small.width, small.height,
-                                    reached.light->ground, tools.threads));
+    for (const int cells : nested_cells(coarsest)) {
+        if (Status failed = step(*begun, cells, deadline, reached)) return *failed;
+        // Where the rung leaves out much, how far off the grid is matters little: as is expected will do.
+        const std::optional<double> expected = expected_error(*begun, cells);
+        const bool is_last = cells == coarsest;
+        if (!is_last && !(expected && *expected < kMuchLess * rung_error)) continue;
+        const auto difference = difference_to_picture(*begun, picture, *reached.light, pictures);
+        if (!difference.ok()) return difference.error();
+        if (expected && *expected < kMuchLess * *difference) {
+            reached.stated = *expected;
+        } else if (!is_last) {
+            continue;
+        } else if (Status failed = measure(*begun, cells, pictures, reached)) {
+            return *failed;
         }
+        return kErrorOfPicture * exact::hypot(*difference, reached.stated);
     }
-    const Image other = moved_by(small, with_behind, picture);
-    const double difference = picture_difference(other, small);
-    // Where the rung leaves out much, how far off the grid is matters little: as the plan expects will do.
-    const RungForecast* const expected = forecast_of(planned.plan, *rung_with(cells));
-    if (expected != nullptr && expected->error > 0 && expected->error < kMuchLess * difference) {
-        reached.stated = expected->error;
-    } else if (Status failed = measure(*begun, cells, pictures, reached)) {
-        return *failed;
-    }
-    return kErrorOfPicture * exact::hypot(difference, reached.stated);
+    return reached.stated;  // never: the last grid returns
 }
 
 }  // namespace awan

@@ -15,6 +15,9 @@ struct MarchSettings {
     EyeEffects eye_effects{};
     // One ray a pixel, even where the picture is uneven: edges are jagged.
     bool one_ray = false;
+    // Above 0: of the blocks of pixels that may see matter only so many are marched, spread evenly over them; all other
+    // pixels stay empty. Which ones depends on the particles, the view and the picture's size alone.
+    int sampled_blocks = 0;
 };
 
 // The sun's light and the sky's, each as the matter scatters it exactly once (core/light/once_scattered.h).

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/exact_math.h"
+#include "core/base/morton.h"
 #include "core/base/parallel.h"
 #include "core/draw/march_levels.h"
 #include "core/generate/gaussian.h"
@@ -91,6 +92,10 @@ std::vector<NarrowParticle> narrow_of(const std::vector<std::vector<Own>>& parts
     return narrow;
 }
 
+int blocks_in(int pixels) {
+    return (pixels + kBlockSide - 1) / kBlockSide;
+}
+
 }  // namespace
 
 std::vector<SeenParticle> see_particles(const ParticleSet& particles, const View& view, int width,
@@ -125,9 +130,8 @@ std::vector<SeenParticle> see_particles(const ParticleSet& particles, const View
 }
 
 void for_each_block(const std::vector<SeenParticle>& seen, int width, int height, int threads,
-                    const BlockWork& work) {
-    const int across = (width + kBlockSide - 1) / kBlockSide;
-    const int down = (height + kBlockSide - 1) / kBlockSide;
+                    const BlockWork& work, std::span<const std::uint8_t> wanted) {
+    const int across = blocks_in(width), down = blocks_in(height);
     std::vector<std::size_t> of_row(static_cast<std::size_t>(down) + 1);
     for (const SeenParticle& particle : seen) {  // differences, then sums
         ++of_row[static_cast<std::size_t>(particle.blocks.first_y)];
@@ -152,6 +156,10 @@ void for_each_block(const std::vector<SeenParticle>& seen, int width, int height
         }
         const auto count = static_cast<std::size_t>(end - top) * static_cast<std::size_t>(across);
         parallel_for(threads, count, [&](std::size_t block) {
+            if (!wanted.empty() &&
+                wanted[static_cast<std::size_t>(top) * static_cast<std::size_t>(across) + block] ==
+                    0)
+                return;
             const std::size_t row = block / static_cast<std::size_t>(across);
             const int x = static_cast<int>(block % static_cast<std::size_t>(across));
             std::vector<std::uint32_t> items;
@@ -161,6 +169,48 @@ void for_each_block(const std::vector<SeenParticle>& seen, int width, int height
         });
         top = end;
     }
+}
+
+std::vector<std::uint8_t> sample_blocks(const std::vector<SeenParticle>& seen, int width,
+                                        int height, int count) {
+    const int across = blocks_in(width), down = blocks_in(height);
+    const auto columns = static_cast<std::size_t>(across) + 1;
+    // How many particles touch each block: differences along both axes, then sums.
+    std::vector<std::int32_t> touching(columns * (static_cast<std::size_t>(down) + 1));
+    const auto at = [&](int x, int y) -> std::int32_t& {
+        return touching[static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x)];
+    };
+    for (const SeenParticle& particle : seen) {
+        const BlockBox& box = particle.blocks;
+        ++at(box.first_x, box.first_y);
+        --at(box.last_x + 1, box.first_y);
+        --at(box.first_x, box.last_y + 1);
+        ++at(box.last_x + 1, box.last_y + 1);
+    }
+    for (int y = 0; y < down; ++y)
+        for (int x = 1; x < across; ++x) at(x, y) += at(x - 1, y);
+    for (int y = 1; y < down; ++y)
+        for (int x = 0; x < across; ++x) at(x, y) += at(x, y - 1);
+    struct Touched {
+        std::uint64_t place;
+        std::size_t block;
+    };
+    std::vector<Touched> touched;
+    for (int y = 0; y < down; ++y)
+        for (int x = 0; x < across; ++x)
+            if (at(x, y) > 0)
+                touched.push_back(
+                    {morton_place(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)),
+                     static_cast<std::size_t>(y) * static_cast<std::size_t>(across) +
+                         static_cast<std::size_t>(x)});
+    std::sort(touched.begin(), touched.end(),
+              [](const Touched& a, const Touched& b) { return a.place < b.place; });
+    std::vector<std::uint8_t> chosen(static_cast<std::size_t>(across) *
+                                     static_cast<std::size_t>(down));
+    const std::size_t most = std::min(touched.size(), static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < most; ++i)
+        chosen[touched[(2 * i + 1) * touched.size() / (2 * most)].block] = 1;
+    return chosen;
 }
 
 }  // namespace awan

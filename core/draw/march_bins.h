@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "core/base/deadline.h"
@@ -39,9 +40,15 @@ std::vector<SeenParticle> see_particles(const ParticleSet& particles, const View
                                         int height, int threads, double share_of_work = 1);
 
 // Calls work(block x, block y, indices into `seen`) for every block of pixels, in no order, on several threads. Lists
-// are made for a few rows of blocks at a time: they hold at most 2^23 entries, or those of one row.
+// are made for a few rows of blocks at a time: they hold at most 2^23 entries, or those of one row. wanted: of each
+// block, row by row, whether it is called for; EMPTY: all are.
 using BlockWork = std::function<void(int, int, const std::vector<std::uint32_t>& items)>;
 void for_each_block(const std::vector<SeenParticle>& seen, int width, int height, int threads,
-                    const BlockWork& work);
+                    const BlockWork& work, std::span<const std::uint8_t> wanted = {});
+
+// `count` > 0 of the blocks that particles touch, or all where they are fewer; evenly along Morton's curve, so that
+// every part of a cloud is among them: 1 for each, row by row.
+std::vector<std::uint8_t> sample_blocks(const std::vector<SeenParticle>& seen, int width,
+                                        int height, int count);
 
 }  // namespace awan

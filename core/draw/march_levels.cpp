@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/morton.h"
 #include "core/draw/march_tile.h"
 
 namespace awan {
@@ -45,16 +46,6 @@ class Groups {
     std::vector<std::uint32_t> above_;
 };
 
-// The bits of x with a 0 after each.
-std::uint64_t spread_bits(std::uint32_t x) {
-    std::uint64_t b = x;
-    b = (b | b << 16) & 0x0000ffff0000ffffu;
-    b = (b | b << 8) & 0x00ff00ff00ff00ffu;
-    b = (b | b << 4) & 0x0f0f0f0f0f0f0f0fu;
-    b = (b | b << 2) & 0x3333333333333333u;
-    return (b | b << 1) & 0x5555555555555555u;
-}
-
 // The tile of the finest level that holds a particle's centre, as a place on Morton's curve: two bits a level.
 std::uint64_t place_on_curve(const glm::dvec3& q, const View& view, int width, int height) {
     const auto tile = [](double slope, double tangent, int pixels) {
@@ -63,8 +54,8 @@ std::uint64_t place_on_curve(const glm::dvec3& q, const View& view, int width, i
         return static_cast<std::uint32_t>(
             std::clamp(std::ldexp(std::clamp(at, 0.0, most), kMostLevel), 0.0, 4294967295.0));
     };
-    return spread_bits(tile(q.x / q.z, view.tan_half_fov * view.aspect, width)) |
-           spread_bits(tile(-q.y / q.z, view.tan_half_fov, height)) << 1;
+    return morton_place(tile(q.x / q.z, view.tan_half_fov * view.aspect, width),
+                        tile(-q.y / q.z, view.tan_half_fov, height));
 }
 
 struct Group {

@@ -1,6 +1,7 @@
 // What all blocks of a picture share while they are marched. Values, and the directions of a picture's rays.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -64,7 +65,8 @@ struct MarchScene {
     bool measures = false;
     // In haze: what the haze sends from behind the matter is left out, so that pixels are of the matter alone.
     bool alone = false;
-    bool one_ray = false;  // a pixel, even where it is uneven
+    bool one_ray = false;              // a pixel, even where it is uneven
+    std::vector<std::uint8_t> wanted;  // whether a block is marched, row by row; EMPTY: all are
     bool cut = false;  // whether rays end at backdrop->distance: there is matter below the ground
 };
 

@@ -202,17 +202,19 @@ bool march_blocks(const MarchScene& scene, int threads, const Deadline& deadline
                   std::span<MarchedAlong> along, const BlockChoice& only) {
     Rooms rooms;
     std::atomic<bool> late = false;
-    for_each_block(*scene.seen, image.width, image.height, threads,
-                   [&](int x, int y, const std::vector<std::uint32_t>& items) {
-                       if (late || deadline.over()) {
-                           late = true;
-                           return;
-                       }
-                       if (only && !only(x, y, !items.empty())) return;
-                       BlockRoomPtr room = rooms.take();
-                       march_block(scene, x, y, items, *room, image, along);
-                       rooms.give(std::move(room));
-                   });
+    for_each_block(
+        *scene.seen, image.width, image.height, threads,
+        [&](int x, int y, const std::vector<std::uint32_t>& items) {
+            if (late || deadline.over()) {
+                late = true;
+                return;
+            }
+            if (only && !only(x, y, !items.empty())) return;
+            BlockRoomPtr room = rooms.take();
+            march_block(scene, x, y, items, *room, image, along);
+            rooms.give(std::move(room));
+        },
+        scene.wanted);
     return !late;
 }
 

@@ -10,35 +10,20 @@
 namespace awan {
 namespace {
 
-// As kSmallPixels, where their middles are to be those of other pixels.
-constexpr double kMostAligned = 5000;
 // Of the largest alpha: pixels below are not cloud.
 constexpr float kCloud = 0.05F;
 
-Result<Scene> of_size(const Scene& scene, int width, int height) {
-    SceneDraft draft = *scene;
-    draft.image.width = width;
-    draft.image.height = height;
-    draft.image.background = Background::kTransparent;
-    return validate(std::move(draft));
-}
-
 }  // namespace
 
-Result<Scene> in_small(const Scene& scene) {
-    const double pixels = static_cast<double>(scene->image.width) * scene->image.height;
-    const double smaller = std::min(1.0, std::sqrt(kSmallPixels / pixels));
-    const auto shrunk = [&](int side) {
-        return std::max(1, static_cast<int>(std::lround(side * smaller)));
-    };
-    return of_size(scene, shrunk(scene->image.width), shrunk(scene->image.height));
-}
-
-Result<Scene> in_small_aligned(const Scene& scene) {
+Result<Scene> for_measuring(const Scene& scene) {
     const int width = scene->image.width, height = scene->image.height;
     int apart = 1;
-    while (static_cast<double>(width / apart) * (height / apart) > kMostAligned) apart += 2;
-    return of_size(scene, std::max(width / apart, 1), std::max(height / apart, 1));
+    while (static_cast<double>(width / apart) * (height / apart) > kMostMeasuredPixels) apart += 2;
+    SceneDraft draft = *scene;
+    draft.image.width = std::max(width / apart, 1);
+    draft.image.height = std::max(height / apart, 1);
+    draft.image.background = Background::kTransparent;
+    return validate(std::move(draft));
 }
 
 double picture_difference(const Image& x, const Image& truth) {

@@ -34,9 +34,14 @@ struct RungForecast {
     double picture_ms() const { return time_ms - measure_ms; }
 };
 
-// Pixels of the small pictures with which errors are measured (core/climb.h): a mean over so many is known to 3%, and
-// three of them take a tenth of the time of a picture of 640 x 480.
-inline constexpr double kSmallPixels = 2000;
+// The most pixels of a picture with which errors are measured (core/climb.h); of a larger one every third, fifth, ... of
+// each row is looked at.
+inline constexpr double kMostMeasuredPixels = 640 * 480;
+// Blocks of 16 x 16 of them that are marched: lights on two grids differ alike over some pixels, so that the mean over so
+// many places is known to a tenth.
+inline constexpr int kMeasuredBlocks = 128;
+// Pictures that are made for it, at most: of a grid and the two before it.
+inline constexpr int kMeasuringPictures = 3;
 
 // Of one rung; `samples`: paths a pixel, for rung truth only. threads: of the march and the paths.
 RungForecast forecast(const Rung& rung, const Scene& scene, const Survey& survey,
