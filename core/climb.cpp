@@ -10,6 +10,7 @@
 
 #include "core/base/exact_math.h"
 #include "core/draw/backdrop.h"
+#include "core/draw/march_bins.h"
 #include "core/draw/picture_difference.h"
 #include "core/light/transport.h"
 #include "core/plan/island_settings.h"
@@ -24,10 +25,14 @@ namespace {
 constexpr double kErrorOfDifference = 1.25;
 // The same, of pictures without a grid to one with it.
 constexpr double kErrorOfPicture = 1.1;
-// An error of at most this share of another adds 6% to it.
-constexpr double kMuchLess = 0.35;
-// With which power of a cell's side errors fall, at least and at most, as measured on smooth clouds.
-constexpr double kOrder = 1.3, kMostOrder = 1.6;
+// The same as kErrorOfDifference, of grids that are only on the way to the coarsest rung.
+constexpr double kErrorOnTheWay = 2;
+// An error of at most this share of another adds 12% to it.
+constexpr double kMuchLess = 0.5;
+// What a rung leaves out that has no grid, it leaves out all over the picture: fewer blocks show it.
+constexpr int kBlocksOfPicture = 32;
+// With which power of a cell's side errors fall, at least: from 1.3 to 1.6 was measured on smooth clouds.
+constexpr double kOrder = 1.3;
 using Clock = Deadline::Clock;
 
 // The transport rung whose grid has so many cells; null: the grid is only on the way.
@@ -57,8 +62,9 @@ struct Climb {
     const Planned& planned;
     const ClimbTools& tools;
     const Deadline& deadline;
-    Scene measured;              // as pictures that measure show it
-    TransportSettings settings;  // of the finest grid that may be reached
+    Scene measured;                // as pictures that measure show it
+    TransportSettings settings;    // of the finest grid that may be reached
+    int blocks = kMeasuredBlocks;  // of pictures that measure
 };
 
 Result<Climb> climb_to(int cells, const Scene& scene, const Planned& planned,
@@ -139,27 +145,36 @@ Status step(const Climb& climb, int cells, const Deadline& deadline, Climbed& re
     return std::nullopt;
 }
 
+// Pictures of lights that measure, each made once, and the particles as all of them see them.
+struct Pictures {
+    std::vector<SeenParticle> seen;
+    std::list<std::pair<const TransportLight*, Image>> made;
+};
+
 // A sample of the picture's blocks, the same ones of every light.
-Result<Image> picture_of(const Climb& climb, const Scene& scene, const TransportLight& light) {
+Result<Image> picture_of(const Climb& climb, const Scene& scene, const TransportLight& light,
+                         Pictures& pictures) {
+    const ParticleSet& particles = climb.planned.particles;
+    const View& view = climb.planned.survey.view;
+    if (pictures.seen.empty())
+        pictures.seen = see_particles(particles, view, scene->image.width, scene->image.height,
+                                      climb.tools.threads);
     MarchSettings settings;
+    settings.seen = &pictures.seen;
     settings.eye_effects = climb.planned.plan.eye_effects();
     settings.one_ray = true;
-    settings.sampled_blocks = kMeasuredBlocks;
-    return march(scene, climb.planned.particles, climb.planned.survey.view, light, settings,
-                 climb.tools.threads, climb.deadline);
+    settings.sampled_blocks = climb.blocks;
+    return march(scene, particles, view, light, settings, climb.tools.threads, climb.deadline);
 }
-
-// Pictures of lights that measure, each made once.
-using Pictures = std::list<std::pair<const TransportLight*, Image>>;
 
 Result<const Image*> measured_picture(const Climb& climb, const TransportLight& light,
                                       Pictures& pictures) {
-    for (const auto& [of, picture] : pictures)
+    for (const auto& [of, picture] : pictures.made)
         if (of == &light) return &picture;
-    auto made = picture_of(climb, climb.measured, light);
+    auto made = picture_of(climb, climb.measured, light, pictures);
     if (!made.ok()) return made.error();
-    pictures.emplace_back(&light, *std::move(made));
-    return &pictures.back().second;
+    pictures.made.emplace_back(&light, *std::move(made));
+    return &pictures.made.back().second;
 }
 
 // difference: of a transport rung's picture to the next coarser grid's.
@@ -265,6 +280,17 @@ Clock::time_point in_ms(double ms) {
                               std::chrono::duration<double, std::milli>(ms));
 }
 
+// Blocks in which there is something to see: 1 for each, row by row.
+std::vector<std::uint8_t> blocks_with_alpha(const Image& image) {
+    const auto across = static_cast<std::size_t>(blocks_in(image.width));
+    std::vector<std::uint8_t> blocks(across * static_cast<std::size_t>(blocks_in(image.height)));
+    const auto width = static_cast<std::size_t>(image.width);
+    for (std::size_t i = 0; i < image.pixel_count(); ++i)
+        if (image.pixels[4 * i + 3] > 0)
+            blocks[i / width / kBlockSide * across + i % width / kBlockSide] = 1;
+    return blocks;
+}
+
 // By how much a picture that was made without a grid differs from that of a grid's light.
 Result<double> difference_to_picture(const Climb& climb, const Image& picture,
                                      const TransportLight& light, Pictures& pictures) {
@@ -279,28 +305,31 @@ Result<double> difference_to_picture(const Climb& climb, const Image& picture,
         const auto over_it = validate(std::move(draft));
         if (!over_it.ok()) return over_it.error();
         if (climb.scene->haze) {
-            auto drawn = picture_of(climb, *over_it, light);
+            auto drawn = picture_of(climb, *over_it, light, pictures);
             if (!drawn.ok()) return drawn.error();
             with_behind = *std::move(drawn);
         } else {
             lay_under(with_behind,
                       make_backdrop(*over_it, climb.planned.survey.view, measured.width,
-                                    measured.height, light.ground, climb.tools.threads));
+                                    measured.height, light.ground, climb.tools.threads, nullptr,
+                                    nullptr, blocks_with_alpha(measured)));
         }
     }
     return picture_difference(moved_by(measured, with_behind, picture), measured);
 }
 
-// What is expected of a grid up to the coarsest rung's; nothing: the plan tells nothing of it.
-std::optional<double> expected_error(const Climb& climb, int cells) {
-    const int coarsest = grids_of_ladder().coarsest;
-    const RungForecast* const expected = forecast_of(climb.planned.plan, *rung_with(coarsest));
-    if (expected == nullptr || !(expected->error > 0)) return std::nullopt;
-    const Planned& planned = climb.planned;
-    const double known =
-        known_error(climb.scene, planned.survey, planned.particles.detail != nullptr, cells);
-    return std::max(known,
-                    expected->error * exact::pow(static_cast<double>(coarsest) / cells, kMostOrder));
+// How far off a grid on the way to the coarsest rung may be, beside what all grids share: by how much it differs from
+// the one before, generously. Infinity where there is none.
+Result<double> error_on_the_way(const Climb& climb, const TransportLight& light, int cells,
+                                Pictures& pictures) {
+    if (!light.coarser) return std::numeric_limits<double>::infinity();
+    const auto own = measured_picture(climb, light, pictures);
+    if (!own.ok()) return own.error();
+    const auto before = measured_picture(climb, *light.coarser, pictures);
+    if (!before.ok()) return before.error();
+    return exact::hypot(kErrorOnTheWay * picture_difference(**before, **own),
+                        known_error(climb.scene, climb.planned.survey,
+                                    climb.planned.particles.detail != nullptr, cells));
 }
 
 // As many of the grids as there is time for; the coarsest rung in any case. The error is measured if that fits too.
@@ -347,8 +376,8 @@ Status climb_in_time(const Climb& climb, const std::vector<int>& grids, Climbed&
         const auto measuring = Clock::now();
         if (Status wrong = measure(climb, cells, pictures, reached)) return wrong;
         time.measure = ms_since(measuring);
-        time.draw =
-            time.measure / static_cast<double>(pictures.size()) * draw_ratio(climb, *reached.rung);
+        time.draw = time.measure / static_cast<double>(pictures.made.size()) *
+                    draw_ratio(climb, *reached.rung);
     }
     if (reached.light == first) return std::nullopt;
     reached.stated = std::numeric_limits<double>::quiet_NaN();
@@ -433,27 +462,27 @@ Result<double> error_of_picture(const Scene& scene, const Planned& planned, cons
     const int coarsest = grids_of_ladder().coarsest;
     auto begun = climb_to(coarsest, scene, planned, tools, deadline);
     if (!begun.ok()) return begun.error();
-    const double rung_error = planned.plan.predicted.error;
-    Climbed reached;
+    begun->blocks = kBlocksOfPicture;
     Pictures pictures;
+    Climbed reached;
     for (const int cells : nested_cells(coarsest)) {
         if (Status failed = step(*begun, cells, deadline, reached)) return *failed;
-        // Where the rung leaves out much, how far off the grid is matters little: as is expected will do.
-        const std::optional<double> expected = expected_error(*begun, cells);
-        const bool is_last = cells == coarsest;
-        if (!is_last && !(expected && *expected < kMuchLess * rung_error)) continue;
-        const auto difference = difference_to_picture(*begun, picture, *reached.light, pictures);
+        const TransportLight& light = *reached.light;
+        if (cells != coarsest && !light.coarser) continue;
+        const auto difference = difference_to_picture(*begun, picture, light, pictures);
         if (!difference.ok()) return difference.error();
-        if (expected && *expected < kMuchLess * *difference) {
-            reached.stated = *expected;
-        } else if (!is_last) {
-            continue;
-        } else if (Status failed = measure(*begun, cells, pictures, reached)) {
-            return *failed;
+        if (cells == coarsest) {
+            if (Status failed = measure(*begun, cells, pictures, reached)) return *failed;
+            return kErrorOfPicture * exact::hypot(*difference, reached.stated);
         }
-        return kErrorOfPicture * exact::hypot(*difference, reached.stated);
+        // Where the rung leaves out much, how far off the grid is matters little.
+        const auto of_grid = error_on_the_way(*begun, light, cells, pictures);
+        if (!of_grid.ok()) return of_grid.error();
+        if (*of_grid < kMuchLess * *difference)
+            return kErrorOfPicture *
+                   exact::hypot(*difference, *of_grid, planned.survey.model_error);
     }
-    return reached.stated;  // never: the last grid returns
+    return std::numeric_limits<double>::quiet_NaN();  // never: the coarsest rung is among the grids
 }
 
 }  // namespace awan

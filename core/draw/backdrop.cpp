@@ -6,6 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/draw/hills_backdrop.h"
+#include "core/draw/march_bins.h"
 #include "core/draw/sky_pixels.h"
 #include "core/survey/ground_view.h"
 
@@ -25,7 +26,7 @@ bool wants_backdrop(const Scene& scene, const View& view) {
 
 Backdrop make_backdrop(const Scene& scene, const View& view, int width, int height,
                        const GroundLight& ground, int threads, const Air* air,
-                       const ReliefLight* hills) {
+                       const ReliefLight* hills, std::span<const std::uint8_t> wanted) {
     if (ground.relief) {
         if (hills != nullptr)
             return hills_backdrop(scene, view, width, height, ground, hills, air, threads);
@@ -47,7 +48,12 @@ Backdrop make_backdrop(const Scene& scene, const View& view, int width, int heig
         if (grounded) {
             const double v =
                 (1 - (static_cast<double>(row) + 0.5) / height * 2) * view.tan_half_fov;
+            const std::size_t blocks =
+                row / kBlockSide * static_cast<std::size_t>(blocks_in(width));
             for (int x = 0; x < width; ++x) {
+                if (!wanted.empty() &&
+                    wanted[blocks + static_cast<std::size_t>(x / kBlockSide)] == 0)
+                    continue;
                 const double u = ((x + 0.5) / width * 2 - 1) * view.tan_half_fov * view.aspect;
                 const glm::dvec3 d = glm::normalize(view.forward + u * view.right + v * view.up);
                 const auto i = static_cast<std::size_t>(x);

@@ -76,6 +76,7 @@ void set_detail(const SplatDetail& detail, const SplatWindow& window) {
     set(18, detail.to_bumps);
     glUniform3f(22, detail.keep, kSoftness, detail.bump / static_cast<float>(window.gap()));
     glUniform1f(23, static_cast<float>(std::sqrt(2 * std::numbers::pi)) * detail.edge);
+    glUniform3f(24, detail.aside.x, detail.aside.y, detail.aside.z);
     detail.extinction.bind(3);
     detail.bumps.bind(4);
 }
@@ -277,8 +278,9 @@ Result<Image> draw(const Scene& scene, const ParticleSet& particles, const View&
     }
     std::optional<SplatDetail> detail;
     if (!textures && particles.detail && plan.on(Effect::kDetail) && particles.size() > 0)
-        detail.emplace(timed_for(took, Effect::kDetail,
-                                 [&] { return splat_detail(particles, view, threads); }));
+        detail.emplace(timed_for(took, Effect::kDetail, [&] {
+            return splat_detail(particles, view, scene->image.height, threads);
+        }));
     const bool coarse = in_passing && !textures;
     const Drawing drawing{scene,
                           plan,

@@ -89,8 +89,10 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     const bool behind = scene->image.background == Background::kSky;
     Image image{scene->image.width, scene->image.height, behind, {}};
     image.pixels.resize(4 * image.pixel_count());
-    const std::vector<SeenParticle> seen =
-        see_particles(particles, view, image.width, image.height, threads);
+    std::vector<SeenParticle> own;
+    if (settings.seen == nullptr)
+        own = see_particles(particles, view, image.width, image.height, threads);
+    const std::vector<SeenParticle>& seen = settings.seen != nullptr ? *settings.seen : own;
     MarchScene march =
         march_scene(scene, view, light, particles, seen, settings.step_error, threads);
     march.one_ray = settings.one_ray;

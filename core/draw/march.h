@@ -2,12 +2,16 @@
 // the light of the grid, and the sun's beam. No GL.
 #pragma once
 
+#include <vector>
+
 #include "core/base/image.h"
 #include "core/light/transport.h"
 #include "core/plan/effect_times.h"
 #include "core/plan/eye_effects.h"
 
 namespace awan {
+
+struct SeenParticle;  // march_bins.h
 
 struct MarchSettings {
     // About how much the steps may cost, as a share of a pixel's radiance.
@@ -18,6 +22,8 @@ struct MarchSettings {
     // Above 0: of the blocks of pixels that may see matter only so many are marched, spread evenly over them; all other
     // pixels stay empty. Which ones depends on the particles, the view and the picture's size alone.
     int sampled_blocks = 0;
+    // What see_particles (march_bins.h) finds in this picture, for several of one view; null: it is found out.
+    const std::vector<SeenParticle>* seen = nullptr;
 };
 
 // The sun's light and the sky's, each as the matter scatters it exactly once (core/light/once_scattered.h).

@@ -92,11 +92,11 @@ std::vector<NarrowParticle> narrow_of(const std::vector<std::vector<Own>>& parts
     return narrow;
 }
 
+}  // namespace
+
 int blocks_in(int pixels) {
     return (pixels + kBlockSide - 1) / kBlockSide;
 }
-
-}  // namespace
 
 std::vector<SeenParticle> see_particles(const ParticleSet& particles, const View& view, int width,
                                         int height, int threads, double share_of_work) {

@@ -14,6 +14,8 @@
 namespace awan {
 
 inline constexpr int kBlockSide = 16;  // pixels
+// That hold so many pixels in a row.
+int blocks_in(int pixels);
 
 // Blocks, both ends included.
 struct BlockBox {

@@ -21,9 +21,12 @@
 namespace awan {
 namespace {
 
-// Least reach of a particle, in standard deviations; 0.2% of the mass lies beyond.
-constexpr double kMinReach = 3.5;
-constexpr double kFaintDepth = 5e-4;  // optical depth at which a particle is cut
+// Where particles are cut: their least reach, in standard deviations, beyond which 0.2% of the mass lies (of many, that
+// cover each other's edges, 1.1%); and the optical depth that the lines there have.
+struct Cut {
+    double min_reach, faint_depth;
+};
+constexpr Cut kCut{3.5, 5e-4}, kCutOfMany{3, 4e-3};
 
 LightSources light_sources(const Scene& scene, const Plan& plan) {
     const Outside outside = outside_of(scene);
@@ -116,8 +119,9 @@ gl::TileBox tiles_of(const Seen& seen, const SplatWindow& window) {
     return box;
 }
 
-double reach_of(double tau) {
-    return std::max(kMinReach, std::sqrt(2 * exact::log(std::max(1.0, tau / kFaintDepth))));
+double reach_of(double tau, const ParticleSet& particles) {
+    const Cut& cut = particles.size() >= kManySplats ? kCutOfMany : kCut;
+    return std::max(cut.min_reach, std::sqrt(2 * exact::log(std::max(1.0, tau / cut.faint_depth))));
 }
 
 Seen see(const ParticleSet& particles, std::size_t i, const View& view, const SplatWindow& window) {
@@ -131,7 +135,7 @@ Seen see(const ParticleSet& particles, std::size_t i, const View& view, const Sp
     if (!own.seen) return seen;
     seen.tau = widened_depth(own.tau, seen.s / own.s);
     if (!(seen.tau > 0)) return seen;
-    const double cut = reach_of(seen.tau);
+    const double cut = reach_of(seen.tau, particles);
     seen.reach = seen.s * cut;
     // In the picture's plane exp(-cut^2 / 2) of a Gaussian lies beyond the cut.
     seen.tau /= -exact::expm1(-cut * cut / 2);
@@ -276,7 +280,7 @@ Footprint footprint_of(const ParticleSet& particles, std::size_t i, const View& 
     own.s = gaussian_s(particles, i);
     own.tau = central_depth(particles, i);
     own.seen = own.s > 0 && own.tau > 0;
-    own.reach = own.s * reach_of(own.tau);
+    own.reach = own.s * reach_of(own.tau, particles);
     return own;
 }
 

@@ -150,12 +150,13 @@ void TextureArray::bind(GLuint binding) const {
 
 namespace {
 
-GLuint make_volume(GLenum format, glm::ivec3 size, GLint beyond) {
+GLuint make_volume(GLenum format, glm::ivec3 size, GLint beyond, BetweenVoxels between) {
+    const GLint filter = between == BetweenVoxels::kLinear ? GL_LINEAR : GL_NEAREST;
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_3D, 1, &name);
     glTextureStorage3D(name, 1, format, size.x, size.y, size.z);
-    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, filter);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, filter);
     for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
         glTextureParameteri(name, axis, beyond);
     return name;
@@ -163,13 +164,14 @@ GLuint make_volume(GLenum format, glm::ivec3 size, GLint beyond) {
 
 }  // namespace
 
-VolumeTexture::VolumeTexture(int width, int height, int depth, std::span<const float> values)
-    : name_(make_volume(GL_R16F, {width, height, depth}, GL_CLAMP_TO_BORDER)) {
+VolumeTexture::VolumeTexture(int width, int height, int depth, std::span<const float> values,
+                             BetweenVoxels between)
+    : name_(make_volume(GL_R16F, {width, height, depth}, GL_CLAMP_TO_BORDER, between)) {
     glTextureSubImage3D(name_, 0, 0, 0, 0, width, height, depth, GL_RED, GL_FLOAT, values.data());
 }
 
-VolumeTexture::VolumeTexture(int side, std::span<const std::uint8_t> bytes)
-    : name_(make_volume(GL_R8, glm::ivec3(side), GL_REPEAT)) {
+VolumeTexture::VolumeTexture(int side, std::span<const std::uint8_t> bytes, BetweenVoxels between)
+    : name_(make_volume(GL_R8, glm::ivec3(side), GL_REPEAT, between)) {
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTextureSubImage3D(name_, 0, 0, 0, 0, side, side, side, GL_RED, GL_UNSIGNED_BYTE,
                         bytes.data());

@@ -85,13 +85,18 @@ class TextureArray {
     int channels_ = 1;
 };
 
-// A volume of one channel, interpolated between its voxels. Beyond its sides it is 0, or begins again.
+// What a volume is between the middles of its voxels: linear, or what the nearest one is, which llvmpipe looks up in a
+// quarter of the time.
+enum class BetweenVoxels { kLinear, kNearest };
+
+// A volume of one channel. Beyond its sides it is 0, or begins again.
 class VolumeTexture {
   public:
     // One value a voxel, x fastest, kept as half floats.
-    VolumeTexture(int width, int height, int depth, std::span<const float> values);
+    VolumeTexture(int width, int height, int depth, std::span<const float> values,
+                  BetweenVoxels between);
     // A byte a voxel, 255 is 1; begins again on all sides.
-    VolumeTexture(int side, std::span<const std::uint8_t> bytes);
+    VolumeTexture(int side, std::span<const std::uint8_t> bytes, BetweenVoxels between);
     VolumeTexture(VolumeTexture&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
     VolumeTexture& operator=(VolumeTexture&&) = delete;
     VolumeTexture(const VolumeTexture&) = delete;

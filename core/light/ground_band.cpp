@@ -77,7 +77,7 @@ void add(LightBand& to, const LightBand& from, double times) {
 // What a cloud sends down to the ground, less what it hides of `sky` (null: nothing). With hills on it, `above` is that
 // at the heights of these.
 GroundChange sent_down(const GroundExchange& exchange, std::span<const LightBand> bands,
-                       const BeamSource& beam, const SkyDome* sky,
+                       const BeamSource& beam, const SkyDome* sky, int rays,
                        std::vector<GroundLight::ChangeAbove>* above = nullptr) {
     const CloudAbove cloud = coarser(cloud_above(exchange.cloud, bands, beam), kMostCells);
     GroundChange change = nodes_under(cloud, exchange.ground.height);
@@ -85,9 +85,9 @@ GroundChange sent_down(const GroundExchange& exchange, std::span<const LightBand
         for (const double share : kHeights) {
             const double y = exchange.ground.height + share * exchange.ground.relief->highest;
             above->push_back({y, change});
-            gather(cloud, sky, y, exchange.threads, above->back().change);
+            gather(cloud, sky, y, rays, exchange.threads, above->back().change);
         }
-    gather(cloud, sky, exchange.ground.height, exchange.threads, change);
+    gather(cloud, sky, exchange.ground.height, rays, exchange.threads, change);
     return change;
 }
 
@@ -120,7 +120,7 @@ Result<Bounce> bounce(const GroundExchange& exchange, const GroundLight& from,
         made.back.present = true;
         made.back.height = exchange.ground.height;
         made.back.albedo = exchange.ground.albedo;
-        made.back.change = sent_down(exchange, made.bands, BeamSource{}, nullptr);
+        made.back.change = sent_down(exchange, made.bands, BeamSource{}, nullptr, kFewGatherRays);
     }
     return made;
 }
@@ -182,8 +182,8 @@ Result<GroundAndCloud> ground_and_cloud(const GroundExchange& exchange,
         return std::move(result);
     };
     if (exchange.shadow)
-        ground.change =
-            sent_down(exchange, exchange.bands, exchange.beam, &exchange.sky, &ground.above);
+        ground.change = sent_down(exchange, exchange.bands, exchange.beam, &exchange.sky,
+                                  exchange.rays, &ground.above);
     if (!exchange.into_cloud || ground.albedo == glm::dvec3(0)) return finished();
     const std::vector<Part> parts = parts_of(ground, exchange.cloud, exchange.colored);
     if (parts.empty()) return finished();

@@ -49,6 +49,7 @@ struct GroundExchange {
     bool colored;     // whether the matter differs from channel to channel
     bool into_cloud;  // whether the ground lights the cloud
     bool shadow;      // whether the cloud shades and lights the ground
+    int rays;         // with which what it sends down is gathered (ground_gather.h)
     int threads;
 };
 

@@ -17,7 +17,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kRays = 160;           // a node
 constexpr int kSide = 33;            // nodes
 constexpr double kOpaque = 12;       // scaled optical depth behind which nothing is seen
 constexpr double kParallel = 1e-12;  // a direction's component that counts as 0
@@ -123,12 +122,15 @@ Seen look(const CloudAbove& cloud, const glm::dvec3& p, const glm::dvec3& d) {
         if (passed > 0) {
             const double weight = exact::exp(-depth) * -exact::expm1(-passed) / cloud.scaled;
             const float* const source = cloud.source[cell].data();
-            for (int c = 0; c < 3; ++c) {
-                float sum = 0;
-                for (std::size_t i = 0; i < kHarmonics; ++i)
-                    sum += source[static_cast<std::size_t>(c) * kHarmonics + i] * towards[i];
-                seen.light[c] += weight * static_cast<double>(std::max(sum, 0.F));
+            // Side by side: no sum waits for another.
+            float red = 0, green = 0, blue = 0;
+            for (std::size_t i = 0; i < kHarmonics; ++i) {
+                red += source[i] * towards[i];
+                green += source[kHarmonics + i] * towards[i];
+                blue += source[2 * kHarmonics + i] * towards[i];
             }
+            seen.light +=
+                weight * glm::dvec3(std::max(red, 0.F), std::max(green, 0.F), std::max(blue, 0.F));
             depth += passed;
         }
         t = until;
@@ -143,7 +145,7 @@ Seen look(const CloudAbove& cloud, const glm::dvec3& p, const glm::dvec3& d) {
 // are spread evenly over the cone around that ball. Back in true proportions a direction d of the scaled space stands
 // for its solid angle times (product of the half sides) / |half sides * d|^3. From within or near the ball: over the
 // whole upper half of the sphere, by cosine.
-glm::dvec3 gathered(const CloudAbove& cloud, const SkyDome* sky, const glm::dvec3& p) {
+glm::dvec3 gathered(const CloudAbove& cloud, const SkyDome* sky, const glm::dvec3& p, int rays) {
     const glm::dvec3 middle = 0.5 * glm::dvec3(cloud.cells), half = middle * sides_of(cloud);
     const glm::dvec3 to = (middle - p) / middle;
     const double distance = glm::length(to), radius = std::numbers::sqrt3;
@@ -152,10 +154,10 @@ glm::dvec3 gathered(const CloudAbove& cloud, const SkyDome* sky, const glm::dvec
     const glm::dvec3 axis = cone ? to / distance : glm::dvec3(0, 1, 0);
     const SideAxes side = side_axes(axis);
     glm::dvec3 sum(0);
-    for (int i = 0; i < kRays; ++i) {
-        const Spiral s = spiral(i, kRays);
+    for (int i = 0; i < rays; ++i) {
+        const Spiral s = spiral(i, rays);
         glm::dvec3 d;
-        double weight = pi / kRays;  // cosine * solid angle
+        double weight = pi / rays;  // cosine * solid angle
         if (cone) {
             const double along = 1 - s.along * (1 - cosine), flat = std::sqrt(1 - along * along);
             const glm::dvec3 scaled = along * axis + flat * exact::cos(s.turn) * side.u +
@@ -164,7 +166,7 @@ glm::dvec3 gathered(const CloudAbove& cloud, const SkyDome* sky, const glm::dvec
             const double length = glm::length(d);
             d /= length;
             if (!(d.y > 0)) continue;
-            weight = 2 * pi * (1 - cosine) / kRays * half.x * half.y * half.z /
+            weight = 2 * pi * (1 - cosine) / rays * half.x * half.y * half.z /
                      (length * length * length) * d.y;
         } else {
             const double flat = std::sqrt(s.along);
@@ -223,7 +225,7 @@ GroundChange nodes_under(const CloudAbove& cloud, double height) {
     return change;
 }
 
-void gather(const CloudAbove& cloud, const SkyDome* sky, double height, int threads,
+void gather(const CloudAbove& cloud, const SkyDome* sky, double height, int rays, int threads,
             GroundChange& change) {
     const auto place = [&](int node) {
         const double t = 2.0 * node / (kSide - 1) - 1;
@@ -234,7 +236,7 @@ void gather(const CloudAbove& cloud, const SkyDome* sky, double height, int thre
         for (int i = 1; i < kSide - 1; ++i) {
             const glm::dvec2 at = change.center + change.reach * glm::dvec2(place(i), place(j));
             const glm::dvec3 p = (glm::dvec3(at.x, height, at.y) - cloud.origin) / cloud.cell;
-            const glm::dvec3 sum = gathered(cloud, sky, p);
+            const glm::dvec3 sum = gathered(cloud, sky, p, rays);
             std::array<float, 3>& to = change.irradiance[static_cast<std::size_t>(j * kSide + i)];
             for (std::size_t c = 0; c < 3; ++c)
                 to[c] += static_cast<float>(sum[static_cast<int>(c)]);

@@ -27,8 +27,12 @@ CloudAbove coarser(CloudAbove cloud, int most);
 GroundChange nodes_under(const CloudAbove& cloud, double height);
 
 // Adds to each node of `change` the irradiance of the cloud's own light, less what the cloud hides of `sky` (null: it
-// hides nothing), by 160 rays a node, spread over the cone that holds the cloud.
-void gather(const CloudAbove& cloud, const SkyDome* sky, double height, int threads,
+// hides nothing), by so many rays a node, spread over the cone that holds the cloud.
+void gather(const CloudAbove& cloud, const SkyDome* sky, double height, int rays, int threads,
             GroundChange& change);
+
+// Rays a node of what is seen, and of what is weak beside it or only on the way to it: there a quarter of the rays
+// moves the ground's light by less than one in a thousand.
+inline constexpr int kGatherRays = 160, kFewGatherRays = 40;
 
 }  // namespace awan

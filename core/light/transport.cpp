@@ -152,6 +152,14 @@ Status add_bands_of_whole_ground(const PartSolve& solve, TransportLight& light) 
     return std::nullopt;
 }
 
+// Of grids that are only on the way to those of rungs, what goes down is a beginning.
+int gather_rays(const TransportSettings& settings) {
+    if (settings.cells == 0) return kGatherRays;
+    for (const Rung& rung : ladder())
+        if (rung.cells > 0 && rung.cells <= settings.cells) return kGatherRays;
+    return kFewGatherRays;
+}
+
 // The light between the cloud and the ground below it. Its solves are timed as ground_light, the rest, which is what
 // the cloud sends down, as ground_shadow.
 Status add_own_ground(const PartSolve& solve, TransportLight& light) {
@@ -190,6 +198,7 @@ Status add_own_ground(const PartSolve& solve, TransportLight& light) {
                                   .colored = solve.colored,
                                   .into_cloud = solve.settings.ground,
                                   .shadow = solve.settings.ground_shadow,
+                                  .rays = gather_rays(solve.settings),
                                   .threads = solve.threads};
     auto exchanged = ground_and_cloud(exchange, lit_from_below);
     if (!exchanged.ok()) return exchanged.error();

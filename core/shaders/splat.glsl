@@ -65,6 +65,8 @@ layout(location = 18) uniform mat4x3 to_bumps;
 layout(location = 22) uniform vec3 lump;
 // sqrt(2 pi) times the extinction below which detail gathers matter, 1/unit.
 layout(location = 23) uniform float gathered_below;
+// How far a particle looks `extinction` up aside, at most (draw/splat_detail.h).
+layout(location = 24) uniform vec3 at_most_aside;
 #endif
 #ifdef TINTED
 layout(binding = 3) uniform sampler2DArray hues;
@@ -123,6 +125,9 @@ struct Column {
     float X, local, aside, y0, a, m, along;
     // Two linear functions of Y, x + y Y: direct sunlight, and the factor on the other light.
     vec2 direct, change;
+#ifdef DETAIL
+    vec3 looked_aside;  // aside_of
+#endif
 #ifdef PAINTED
     // The same of what the texture's coordinates are times d q, and of that product.
     vec2 across, up, to_center;
@@ -224,9 +229,16 @@ vec4 gathered(vec4 u, vec4 n) {
     return mix(gain, vec4(1.0), greaterThanEqual(u, vec4(1.0)));
 }
 
+// Where the particle looks `extinction` up, in its coordinates, from where it is: the same for all of it, and evenly
+// spread over particles (Roberts 2018, the R3 sequence).
+vec3 aside_of(uint item) {
+    return (fract(float(item) * vec3(0.8191725, 0.6710436, 0.5497005)) - 0.5) * at_most_aside;
+}
+
 // At the points t (X, Y, 1) of four rays. own: the particle's own extinction there.
-vec4 detail_at(vec4 t, float X, vec4 Y, vec4 own) {
+vec4 detail_at(vec4 t, float X, vec4 Y, vec4 own, vec3 aside) {
     mat4x3 e = to_extinction, b = to_bumps;
+    e[3] += aside;
     vec3 e0 = e[0] * X + e[2], b0 = b[0] * X + b[2];
     vec4 u, n;
     u.x = texture(extinction, e[3] + t.x * (e0 + Y.x * e[1])).x;
@@ -299,7 +311,7 @@ void blend(Splat p, Column k, inout Pixels px) {
 #ifndef INTERIOR
     vec4 t = (k.along + (p.place.y + p.place.z * middle.y) * px.Y) * px.per_d2;
 #endif
-    tau *= detail_at(max(t, 0.0), k.X, px.Y, tau * (sqrt(2.0 * p.place.w) / gathered_below));
+    tau *= detail_at(max(t, 0.0), k.X, px.Y, tau * (sqrt(2.0 * p.place.w) / gathered_below), k.looked_aside);
 #endif
     vec4 alpha = one_minus_exp(tau);
 #ifdef PAINTED
@@ -376,6 +388,9 @@ void main() {
     for (uint i = first; i < end; ++i) {
         Splat p = fetch(int(tile_items[i]) * 5);
         Column k = on_column(p, local, p3.Y.w, p0.Y.x);
+#ifdef DETAIL
+        k.looked_aside = aside_of(tile_items[i]);
+#endif
 #ifdef PAINTED
         paint(int(tile_items[i]), p, k);
 #endif
