@@ -29,8 +29,6 @@ constexpr double kErrorOfPicture = 1.1;
 constexpr double kErrorOnTheWay = 2;
 // An error of at most this share of another adds 12% to it.
 constexpr double kMuchLess = 0.5;
-// What a rung leaves out that has no grid, it leaves out all over the picture: fewer blocks show it.
-constexpr int kBlocksOfPicture = 32;
 // With which power of a cell's side errors fall, at least: from 1.3 to 1.6 was measured on smooth clouds.
 constexpr double kOrder = 1.3;
 using Clock = Deadline::Clock;
@@ -462,7 +460,7 @@ Result<double> error_of_picture(const Scene& scene, const Planned& planned, cons
     const int coarsest = grids_of_ladder().coarsest;
     auto begun = climb_to(coarsest, scene, planned, tools, deadline);
     if (!begun.ok()) return begun.error();
-    begun->blocks = kBlocksOfPicture;
+    begun->blocks = kMeasuredBlocksWithoutGrid;
     Pictures pictures;
     Climbed reached;
     for (const int cells : nested_cells(coarsest)) {

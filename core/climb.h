@@ -2,7 +2,8 @@
 // that error is small enough.
 //
 // A grid's light goes on from those of all coarser grids (core/light/nested_grids.h). After each grid that is a rung's,
-// a sample of the picture shows by how much it differs from the one before: from that difference the error is stated. All wishes climb the same steps, so a stricter one never ends at a coarser grid.
+// a sample of the picture's blocks shows by how much it differs from the one before: from that difference the error is
+// stated. All wishes climb the same steps, so a stricter one never ends at a coarser grid.
 #pragma once
 
 #include "core/base/image.h"
@@ -49,8 +50,9 @@ Planned planned_for_grids(const Scene& scene, Planned planned, int threads);
 Result<Climbed> climb(const Scene& scene, const Planned& planned, const ClimbTools& tools,
                       const Deadline& deadline);
 
-// The error of a picture that was made without a grid: by how much it differs from that of the coarsest grid that is
-// expected to be much nearer to the truth, or of the coarsest transport rung, and how far off that one is. Errors: kOverDeadline, kCancelled.
+// The error of a picture that was made without a grid: by how much it differs from that of the first grid that is much
+// nearer to the truth, the coarsest rung's at the latest, and how far off that one is.
+// Errors: kOverDeadline, kCancelled.
 Result<double> error_of_picture(const Scene& scene, const Planned& planned, const Image& picture,
                                 const ClimbTools& tools, const Deadline& deadline);
 

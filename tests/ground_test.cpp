@@ -146,6 +146,32 @@ TEST(Ground, ThePeaksLightComesThroughAsFarAsItIsNotAbsorbed) {
         }
 }
 
+// What is weak is gathered with a quarter of the rays: what the ground gets changes by a share of it that is not seen.
+TEST(Ground, FewRaysGatherWhatManyDo) {
+    CloudAbove cloud;
+    cloud.cells = {16, 3, 12};
+    cloud.cell = glm::dvec3(0.5);
+    cloud.origin = {-4, 2, -3};
+    for (int i = 0; i < 16 * 3 * 12; ++i) {
+        const bool matter = i % 16 > 2 && (i / 16 + i % 5) % 4 != 0;
+        cloud.depth.push_back(matter ? 0.3F + 0.1F * static_cast<float>(i % 7) : 0.F);
+        auto& source = cloud.source.emplace_back();
+        for (std::size_t c = 0; c < 3; ++c) source[c * kHarmonics] = matter ? 1.F : 0.F;
+    }
+    GroundChange many = nodes_under(cloud, 0), few = many;
+    gather(cloud, nullptr, 0, kGatherRays, 2, many);
+    gather(cloud, nullptr, 0, kFewGatherRays, 2, few);
+    double square = 0, most = 0;
+    for (std::size_t i = 0; i < many.irradiance.size(); ++i) {
+        const double from_many = static_cast<double>(many.irradiance[i][1]);
+        const double off = static_cast<double>(few.irradiance[i][1]) - from_many;
+        square += off * off / static_cast<double>(many.irradiance.size());
+        most = std::max(most, from_many);
+    }
+    EXPECT_GT(most, 0);
+    EXPECT_LT(std::sqrt(square), 0.04 * most);
+}
+
 TEST(Ground, InAWhiteFurnaceNothingIsSeen) {
     SceneDraft draft = test::over_ground(1, 1.5);
     draft.medium.albedo = 1;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/draw/splats.h"
+#include "core/generate/generate.h"
 #include "core/light/light.h"
 #include "core/scene/automaton.h"
 #include "tests/scenes.h"
@@ -101,6 +103,24 @@ TEST(SplatPicture, InPassingIsTheSameButCoarser) {
     ASSERT_EQ(passing->image.pixels.size(), whole.pixels.size());
     EXPECT_GT(apart(passing->image, whole), 0);
     EXPECT_LT(apart(passing->image, whole), 0.02);
+}
+
+// Many splats look their lumps up with less care, and are cut closer to their middles.
+TEST(SplatPicture, OfManyHasTheLumpsOfTheMarch) {
+    SceneDraft draft = table("harris");
+    draft.top_level_cubes = false;
+    draft.clouds.push_back({});
+    draft.clouds[0].model = CloudModel::kAutomaton;
+    auto automaton = std::make_shared<AutomatonCloud>();
+    automaton->most_particles = 4 * kManySplats;
+    draft.clouds[0].automaton = automaton;
+    const Scene smooth = test::valid(draft);
+    ASSERT_GT(generate(smooth, 2, {})->size(), kManySplats);
+    SceneDraft lumpy = draft, marched = draft;
+    lumpy.detail = marched.detail = Detail{};
+    marched.accuracy.rung = "transport-16";
+    const Image splats = test::render(lumpy).image, march = test::render(marched).image;
+    EXPECT_LT(apart(splats, march), 0.6 * apart(test::render(draft).image, march));
 }
 
 TEST(SplatPicture, OfAnAutomatonInPassingHasFewSplats) {

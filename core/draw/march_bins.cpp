@@ -207,9 +207,15 @@ std::vector<std::uint8_t> sample_blocks(const std::vector<SeenParticle>& seen, i
               [](const Touched& a, const Touched& b) { return a.place < b.place; });
     std::vector<std::uint8_t> chosen(static_cast<std::size_t>(across) *
                                      static_cast<std::size_t>(down));
+    // One of each share of the curve, in none at the same place: the curve repeats itself, and clouds might.
     const std::size_t most = std::min(touched.size(), static_cast<std::size_t>(count));
-    for (std::size_t i = 0; i < most; ++i)
-        chosen[touched[(2 * i + 1) * touched.size() / (2 * most)].block] = 1;
+    const double share = static_cast<double>(touched.size()) / static_cast<double>(most);
+    constexpr double kGolden = 0.618033988749895;
+    for (std::size_t i = 0; i < most; ++i) {
+        const double within = kGolden * static_cast<double>(i) + 0.5;
+        const double at = share * (static_cast<double>(i) + within - std::floor(within));
+        chosen[touched[std::min(static_cast<std::size_t>(at), touched.size() - 1)].block] = 1;
+    }
     return chosen;
 }
 

@@ -6,8 +6,9 @@
 
 namespace awan {
 
-// The scene with its picture over nothing. A picture of too many pixels is one of fewer, whose pixels' middles are those
-// of every third, fifth, ... of the scene's own, from the second, third, ... on.
+// The scene with its picture over nothing. A picture of too many pixels (kMostMeasuredPixels of plan/forecast.h) is one
+// of fewer, whose pixels' middles are those of every third, fifth, ... of the scene's own, from the second, third, ...
+// on.
 Result<Scene> for_measuring(const Scene& scene);
 
 // Root of the mean squared difference over the mean of `truth`, over all pixels whose alpha in `truth` is at least 5%

@@ -40,8 +40,9 @@ Lattice lattice_of(const ParticleSet& particles, int threads) {
     return within_work(particles, box, count, kMostWork, cubic_cells);
 }
 
-// The widest voxels of bumps whose sides are not seen where particles are many, pixels. Pictures of the automata and the implicit clouds change by .3% to .5% of their range (root mean
-// square), and are drawn in 40% to 60% of the time; one of 9,000 particles has ragged edges.
+// The widest voxels of bumps whose sides are not seen where particles are many, pixels. Pictures of the automata and
+// the implicit clouds change by .3% to .5% of their range (root mean square) where volumes are not interpolated, and
+// are drawn in 40% to 60% of the time; one of 9,000 particles has ragged edges, and voxels of many pixels are seen.
 constexpr double kSmallVoxel = 2;
 
 // Of the bumps' voxels, as seen where the eye is nearest to the box; infinity within it.

@@ -89,9 +89,9 @@ double measuring_ms(const Rung& rung, const Scene& scene, const Survey& survey, 
     const Rung& grid = rung.cells > 0 ? rung : rung_of(RungId::kTransport16);
     TimeFigures times = time_figures(grid, scene, survey, 0);
     double ms = rung.cells > 0 ? 0 : predicted_ms(kMarchLightTime, times);
-    constexpr double kSampled = kMeasuredBlocks * 256.0;  // pixels
+    const double blocks = rung.cells > 0 ? kMeasuredBlocks : kMeasuredBlocksWithoutGrid;
     const double covered = times[1], pixels = times[4];
-    const double sampled = kOneRay * std::min(1.0, kSampled / std::max(covered, 1.0));
+    const double sampled = kOneRay * std::min(1.0, 256 * blocks / std::max(covered, 1.0));
     const double looked_up = std::min(covered, kMostLookedUp);
     for (const std::size_t of_rays : {1, 3, 8, 9}) times[of_rays] *= sampled;
     times[4] *= std::min(1.0, kMostMeasuredPixels / std::max(pixels, 1.0));

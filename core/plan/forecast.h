@@ -34,12 +34,12 @@ struct RungForecast {
     double picture_ms() const { return time_ms - measure_ms; }
 };
 
-// The most pixels of a picture with which errors are measured (core/climb.h); of a larger one every third, fifth, ... of
-// each row is looked at.
+// The most pixels of a picture with which errors are measured (core/climb.h); of a larger one every third, fifth, ...
+// of each row is looked at.
 inline constexpr double kMostMeasuredPixels = 640 * 480;
-// Blocks of 16 x 16 of them that are marched: lights on two grids differ alike over some pixels, so that the mean over so
-// many places is known to a tenth.
-inline constexpr int kMeasuredBlocks = 128;
+// Blocks of 16 x 16 of them that are marched: lights on two grids differ alike over some pixels, so that the mean over
+// so many places is known to a tenth. A rung without a grid leaves out what it does all over the picture: fewer do.
+inline constexpr int kMeasuredBlocks = 128, kMeasuredBlocksWithoutGrid = 32;
 // Pictures that are made for it, at most: of a grid and the two before it.
 inline constexpr int kMeasuringPictures = 3;
 

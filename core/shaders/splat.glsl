@@ -126,7 +126,7 @@ struct Column {
     // Two linear functions of Y, x + y Y: direct sunlight, and the factor on the other light.
     vec2 direct, change;
 #ifdef DETAIL
-    vec3 looked_aside;  // aside_of
+    vec3 looked_aside;
 #endif
 #ifdef PAINTED
     // The same of what the texture's coordinates are times d q, and of that product.

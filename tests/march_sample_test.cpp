@@ -1,0 +1,116 @@
+// Pictures of which only some blocks are marched: what errors are measured with.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "core/base/morton.h"
+#include "core/draw/march_bins.h"
+#include "core/draw/picture_difference.h"
+#include "tests/march_lights.h"
+
+namespace awan {
+namespace {
+
+using test::Ball;
+
+constexpr int kWidth = 330, kHeight = 250;  // no whole number of blocks
+
+// A long cloud, low in the picture, and a small one above it.
+test::Stage two_clouds() {
+    std::vector<Ball> list;
+    for (int i = 0; i < 40; ++i) list.push_back({{0.2 * i - 4, -1.2, 0.1 * (i % 7)}, 0.7, 2});
+    list.push_back({{2.5, 1.6, 0}, 0.5, 5});
+    SceneDraft draft = test::balls(list);
+    draft.image.background = Background::kTransparent;
+    draft.image.width = kWidth;
+    draft.image.height = kHeight;
+    draft.camera.eye = {0, 0, 9};
+    draft.camera.target = {0, 0, 0};
+    return test::stage(draft);
+}
+
+std::vector<std::uint8_t> sampled(const test::Stage& stage, int count) {
+    return sample_blocks(see_particles(stage.particles, stage.view, kWidth, kHeight, 1), kWidth,
+                         kHeight, count);
+}
+
+TEST(Morton, NeighboursAreInterleaved) {
+    EXPECT_EQ(morton_place(0, 0), 0u);
+    EXPECT_EQ(morton_place(1, 0), 1u);
+    EXPECT_EQ(morton_place(0, 1), 2u);
+    EXPECT_EQ(morton_place(3, 5), 0b100111u);
+    EXPECT_EQ(morton_place(0xffffffffu, 0xffffffffu), ~0ull);
+}
+
+// Block by block as in the whole picture, or empty; in any light, on any threads.
+TEST(MarchSample, HasThePicturesOwnBlocks) {
+    const test::Stage stage = two_clouds();
+    const TransportLight light = test::grid_light(stage.scene, stage.particles, 16, 1,
+                                                  [](glm::dvec3 p) { return 2 + std::sin(p.x); });
+    MarchSettings settings;
+    settings.one_ray = true;
+    const Image whole = test::marched(stage, light, 2, settings);
+    settings.sampled_blocks = 24;
+    const Image sample = test::marched(stage, light, 1, settings);
+    EXPECT_EQ(sample.pixels, test::marched(stage, light, 3, settings).pixels);
+    const std::vector<std::uint8_t> blocks = sampled(stage, 24);
+    EXPECT_EQ(std::count(blocks.begin(), blocks.end(), 1), 24);
+    double seen = 0;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const bool is_wanted = blocks[static_cast<std::size_t>(
+                                       y / kBlockSide * blocks_in(kWidth) + x / kBlockSide)] == 1;
+            const test::Pixel is = test::pixel(sample, x, y), all = test::pixel(whole, x, y);
+            seen += is.a;
+            ASSERT_EQ(is.r, is_wanted ? all.r : 0) << x << ' ' << y;
+            ASSERT_EQ(is.a, is_wanted ? all.a : 0) << x << ' ' << y;
+        }
+    EXPECT_GT(seen, 1000);
+}
+
+TEST(MarchSample, IsSpreadOverAllThatThereIs) {
+    const test::Stage stage = two_clouds();
+    const auto all = sampled(stage, 1 << 20), some = sampled(stage, 24);
+    const auto touched = std::count(all.begin(), all.end(), 1);
+    EXPECT_GT(touched, 80);
+    EXPECT_LT(touched, static_cast<std::ptrdiff_t>(all.size()) * 3 / 4);
+    // Left and right half of the long cloud, and the small one.
+    int left = 0, right = 0, above = 0;
+    const int across = blocks_in(kWidth), down = blocks_in(kHeight);
+    for (int y = 0; y < down; ++y)
+        for (int x = 0; x < across; ++x) {
+            const auto at = static_cast<std::size_t>(y * across + x);
+            if (some[at] == 0) continue;
+            EXPECT_EQ(all[at], 1);
+            ++(y < down / 2 ? above : x < across / 2 ? left : right);
+        }
+    EXPECT_GE(left, 6);
+    EXPECT_GE(right, 6);
+    EXPECT_GE(above, 1);
+}
+
+TEST(MarchSample, OfNothingIsNothing) {
+    const std::vector<std::uint8_t> none = sample_blocks({}, 40, 20, 8);
+    EXPECT_EQ(none, std::vector<std::uint8_t>(6, 0));
+}
+
+// What the sample says of two lights is what the whole picture says.
+TEST(MarchSample, TellsHowLightsDiffer) {
+    const test::Stage stage = two_clouds();
+    const auto light = [&](double slope) {
+        return test::grid_light(stage.scene, stage.particles, 16, 1,
+                                [=](glm::dvec3 p) { return 2 + slope * std::sin(1.3 * p.x); });
+    };
+    MarchSettings settings;
+    settings.one_ray = true;
+    const auto difference = [&](int blocks) {
+        settings.sampled_blocks = blocks;
+        return picture_difference(test::marched(stage, light(0.5), 2, settings),
+                                  test::marched(stage, light(0.3), 2, settings));
+    };
+    EXPECT_NEAR(difference(40) / difference(0), 1, 0.15);
+}
+
+}  // namespace
+}  // namespace awan
