@@ -466,19 +466,24 @@ Result<double> error_of_picture(const Scene& scene, const Planned& planned, cons
     for (const int cells : nested_cells(coarsest)) {
         if (Status failed = step(*begun, cells, deadline, reached)) return *failed;
         const TransportLight& light = *reached.light;
-        if (cells != coarsest && !light.coarser) continue;
+        const bool is_last = cells == coarsest;
+        double of_grid = 0;
+        if (!is_last) {
+            const auto found = error_on_the_way(*begun, light, cells, pictures);
+            if (!found.ok()) return found.error();
+            of_grid = *found;
+            // The picture is hardly so much farther off than was expected.
+            if (of_grid > kMuchLess * planned.plan.predicted.error) continue;
+        }
         const auto difference = difference_to_picture(*begun, picture, light, pictures);
         if (!difference.ok()) return difference.error();
-        if (cells == coarsest) {
+        if (is_last) {
             if (Status failed = measure(*begun, cells, pictures, reached)) return *failed;
             return kErrorOfPicture * exact::hypot(*difference, reached.stated);
         }
         // Where the rung leaves out much, how far off the grid is matters little.
-        const auto of_grid = error_on_the_way(*begun, light, cells, pictures);
-        if (!of_grid.ok()) return of_grid.error();
-        if (*of_grid < kMuchLess * *difference)
-            return kErrorOfPicture *
-                   exact::hypot(*difference, *of_grid, planned.survey.model_error);
+        if (of_grid < kMuchLess * *difference)
+            return kErrorOfPicture * exact::hypot(*difference, of_grid, planned.survey.model_error);
     }
     return std::numeric_limits<double>::quiet_NaN();  // never: the coarsest rung is among the grids
 }

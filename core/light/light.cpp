@@ -56,13 +56,14 @@ GainCurve gain_curve(double gain, double whole) {
     return {start, std::max(0.0, (start * whole / depth - 1) / whole)};
 }
 
-OnGrid put_on_grid(const ParticleSet& particles, std::size_t i, const LightGrid& grid,
-                   double gain) {
+// within_reach: the share of a Gaussian within kReach.
+OnGrid put_on_grid(const ParticleSet& particles, std::size_t i, const LightGrid& grid, double gain,
+                   double within_reach) {
     const double s = gaussian_s(particles, i), tau = central_depth(particles, i);
     const glm::dvec3 place = grid.place(particles.center[i]);
     const double across = std::max(s / grid.texel, 0.6), along = std::max(s / grid.slab, 0.4);
     const double narrowing = s / grid.texel / across;
-    const double thinned = tau * narrowing * narrowing / -exact::expm1(-kReach * kReach / 2);
+    const double thinned = tau * narrowing * narrowing / within_reach;
     const GainCurve curve = gain_curve(gain, thinned);
     const double wide = kReach * across, deep = kSpread * along;
     const auto tile = [](double cell, int count) {
@@ -110,8 +111,9 @@ PlacedParticles place_particles(const ParticleSet& particles, const OneLight& li
     placed.particles.resize(particles.size());
     placed.tiles.resize(particles.size());
     placed.points.resize(particles.size());
+    const double within_reach = -exact::expm1(-kReach * kReach / 2);
     for (std::size_t i = 0; i < particles.size(); ++i) {
-        const OnGrid on = put_on_grid(particles, i, placed.grid, light.gain);
+        const OnGrid on = put_on_grid(particles, i, placed.grid, light.gain, within_reach);
         placed.particles[i] = on.gpu;
         placed.tiles[i] = on.tiles;
         placed.points[i] =
