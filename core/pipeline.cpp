@@ -41,6 +41,7 @@ Result<std::optional<ParticleSet>> merged_for_splats(const Scene& scene, const P
     auto fewer =
         merged(particles, sun_direction(scene->sun), kSplatMergingError, threads, deadline);
     if (!fewer.ok()) return fewer.error();
+    fewer->detail = particles.detail;
     return std::optional<ParticleSet>(*std::move(fewer));
 }
 

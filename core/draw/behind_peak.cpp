@@ -57,12 +57,17 @@ double share_within(const std::vector<double>& kept, double angle) {
     return 0.5 * sum;
 }
 
-// A direction's neighbours, and what their light is.
+// Of the light around a direction, as light is turned that went through the peak once, and often.
+struct Means {
+    glm::vec3 once, often;
+};
+
+// A direction's neighbours, and what their light is. Rings of `once` and `often` are the same but for their shares.
 class Around {
   public:
     Around(const Scene& scene, const SkyDome& sky, const View& view, const GroundLight& ground,
-           const std::vector<Ring>& rings, bool from_sky, bool from_ground,
-           const ReliefLight* hills)
+           const std::vector<Ring>& once, const std::vector<Ring>& often, bool from_sky,
+           bool from_ground, const ReliefLight* hills)
         : eye_(view.eye),
           ground_(ground),
           sky_(sky),
@@ -72,22 +77,28 @@ class Around {
         if (hills != nullptr && ground.relief && grounded_)
             hills_.emplace(scene, view, ground, hills);
         double turn = 0;
-        for (const Ring& ring : rings) {
+        for (std::size_t i = 0; i < once.size(); ++i) {
+            const double angle = once[i].angle;
             for (int s = 0; s < kSpokes; ++s) {
                 const double at = 2 * std::numbers::pi * (s + turn) / kSpokes;
-                turns_.push_back({{exact::sin(ring.angle) * exact::cos(at),
-                                   exact::sin(ring.angle) * exact::sin(at), exact::cos(ring.angle)},
-                                  ring.share / kSpokes});
+                turns_.push_back({{exact::sin(angle) * exact::cos(at),
+                                   exact::sin(angle) * exact::sin(at), exact::cos(angle)},
+                                  once[i].share / kSpokes,
+                                  often[i].share / kSpokes});
             }
             turn += kTurn;
         }
     }
-    glm::vec3 mean(const glm::dvec3& direction) const {
+    Means mean(const glm::dvec3& direction) const {
         const SideAxes side = side_axes(direction);
-        glm::dvec3 sum(0);
-        for (const auto& [turn, share] : turns_)
-            sum += share * radiance(turn.x * side.u + turn.y * side.v + turn.z * direction);
-        return glm::vec3(sum);
+        glm::dvec3 once(0), often(0);
+        for (const Turn& turn : turns_) {
+            const glm::dvec3 light =
+                radiance(turn.to.x * side.u + turn.to.y * side.v + turn.to.z * direction);
+            once += turn.once * light;
+            often += turn.often * light;
+        }
+        return {glm::vec3(once), glm::vec3(often)};
     }
 
   private:
@@ -109,7 +120,7 @@ class Around {
     std::optional<HillsInView> hills_;
     struct Turn {
         glm::dvec3 to;
-        double share;
+        double once, often;  // share
     };
     std::vector<Turn> turns_;
 };
@@ -143,18 +154,9 @@ std::vector<Ring> rings_of_peak(const Medium& medium, const Peak& peak, double x
 
 namespace {
 
-// The means of what stands around the pixels' middle rays, taken on a grid of directions and linear between them.
-std::vector<float> means_around(const Around& around, const View& view, int width, int height,
-                                int threads) {
-    const double tan = view.tan_half_fov, wide = tan * view.aspect;
-    const int across = points_along(wide), down = points_along(tan);
-    std::vector<glm::vec3> means(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
-    parallel_for(threads, means.size(), [&](std::size_t i) {
-        const auto columns = static_cast<std::size_t>(across);
-        const double u = (2.0 * static_cast<double>(i % columns) / (across - 1) - 1) * wide,
-                     v = (1 - 2.0 * static_cast<double>(i / columns) / (down - 1)) * tan;
-        means[i] = around.mean(glm::normalize(view.forward + u * view.right + v * view.up));
-    });
+// Of a grid of directions, on every pixel: linear between them.
+std::vector<float> on_pixels(const std::vector<glm::vec3>& means, int across, int down, int width,
+                             int height, int threads) {
     const auto columns = static_cast<std::size_t>(width);
     std::vector<float> rgb(3 * columns * static_cast<std::size_t>(height));
     const auto between = [](std::size_t pixel, int pixels, int points) {
@@ -183,12 +185,24 @@ BehindPeak behind_through_peak(const Scene& scene, const View& view, int width, 
                                const GroundLight& ground, const Peak& peak, bool from_sky,
                                bool from_ground, int threads, const ReliefLight* hills) {
     const SkyDome sky = outside_of(scene).sky;
-    const auto behind = [&](double x) {
-        const Around around(scene, sky, view, ground, rings_of_peak(scene->medium, peak, x, kRings),
-                            from_sky, from_ground, hills);
-        return means_around(around, view, width, height, threads);
-    };
-    return {behind(0), behind(depth_of_most(scene->medium, peak))};
+    const double most = depth_of_most(scene->medium, peak);
+    const Around around(scene, sky, view, ground, rings_of_peak(scene->medium, peak, 0, kRings),
+                        rings_of_peak(scene->medium, peak, most, kRings), from_sky, from_ground,
+                        hills);
+    const double tan = view.tan_half_fov, wide = tan * view.aspect;
+    const int across = points_along(wide), down = points_along(tan);
+    const auto columns = static_cast<std::size_t>(across);
+    std::vector<glm::vec3> once(columns * static_cast<std::size_t>(down)), often(once.size());
+    parallel_for(threads, once.size(), [&](std::size_t i) {
+        const double u = (2.0 * static_cast<double>(i % columns) / (across - 1) - 1) * wide,
+                     v = (1 - 2.0 * static_cast<double>(i / columns) / (down - 1)) * tan;
+        const Means means =
+            around.mean(glm::normalize(view.forward + u * view.right + v * view.up));
+        once[i] = means.once;
+        often[i] = means.often;
+    });
+    return {on_pixels(once, across, down, width, height, threads),
+            on_pixels(often, across, down, width, height, threads)};
 }
 
 }  // namespace awan

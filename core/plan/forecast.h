@@ -39,7 +39,7 @@ struct RungForecast {
 inline constexpr double kMostMeasuredPixels = 640 * 480;
 // Blocks of 16 x 16 of them that are marched: lights on two grids differ alike over some pixels, so that the mean over
 // so many places is known to a tenth. A rung without a grid leaves out what it does all over the picture: fewer do.
-inline constexpr int kMeasuredBlocks = 128, kMeasuredBlocksWithoutGrid = 32;
+inline constexpr int kMeasuredBlocks = 128, kMeasuredBlocksWithoutGrid = 64;
 // Pictures that are made for it, at most: of a grid and the two before it.
 inline constexpr int kMeasuringPictures = 3;
 

@@ -240,11 +240,11 @@ vec4 detail_at(vec4 t, float X, vec4 Y, vec4 own, vec3 aside) {
     mat4x3 e = to_extinction, b = to_bumps;
     e[3] += aside;
     vec3 e0 = e[0] * X + e[2], b0 = b[0] * X + b[2];
-    vec4 u, n;
-    u.x = texture(extinction, e[3] + t.x * (e0 + Y.x * e[1])).x;
-    u.y = texture(extinction, e[3] + t.y * (e0 + Y.y * e[1])).x;
-    u.z = texture(extinction, e[3] + t.z * (e0 + Y.z * e[1])).x;
-    u.w = texture(extinction, e[3] + t.w * (e0 + Y.w * e[1])).x;
+    vec4 n;
+    // Its voxels are as wide as particles are: four pixels in a row differ evenly.
+    float first = texture(extinction, e[3] + t.x * (e0 + Y.x * e[1])).x;
+    float last = texture(extinction, e[3] + t.w * (e0 + Y.w * e[1])).x;
+    vec4 u = mix(vec4(first), vec4(last), vec4(0.0, 1.0, 2.0, 3.0) / 3.0);
     n.x = texture(bumps, b[3] + t.x * (b0 + Y.x * b[1])).x;
     n.y = texture(bumps, b[3] + t.y * (b0 + Y.y * b[1])).x;
     n.z = texture(bumps, b[3] + t.z * (b0 + Y.z * b[1])).x;
