@@ -461,6 +461,11 @@ Result<double> error_of_picture(const Scene& scene, const Planned& planned, cons
     auto begun = climb_to(coarsest, scene, planned, tools, deadline);
     if (!begun.ok()) return begun.error();
     begun->blocks = kMeasuredBlocksWithoutGrid;
+    const RungForecast* const forecast = forecast_of(planned.plan, *rung_with(coarsest));
+    const double of_coarsest =
+        forecast != nullptr ? forecast->error : std::numeric_limits<double>::infinity();
+    // Where the picture is far off, how far off the grid is matters little.
+    const double much_less = kMuchLess * planned.plan.predicted.error;
     Pictures pictures;
     Climbed reached;
     for (const int cells : nested_cells(coarsest)) {
@@ -469,21 +474,25 @@ Result<double> error_of_picture(const Scene& scene, const Planned& planned, cons
         const bool is_last = cells == coarsest;
         double of_grid = 0;
         if (!is_last) {
+            const double coarser = exact::pow(static_cast<double>(coarsest) / cells, kOrder);
+            if (kErrorOnTheWay / kErrorOfDifference * coarser * of_coarsest > much_less) continue;
             const auto found = error_on_the_way(*begun, light, cells, pictures);
             if (!found.ok()) return found.error();
             of_grid = *found;
-            // The picture is hardly so much farther off than was expected.
-            if (of_grid > kMuchLess * planned.plan.predicted.error) continue;
+            if (of_grid > much_less) continue;
         }
         const auto difference = difference_to_picture(*begun, picture, light, pictures);
         if (!difference.ok()) return difference.error();
+        const auto stated = [&](double grid_and_model) {
+            return kErrorOfPicture * exact::hypot(*difference, grid_and_model);
+        };
         if (is_last) {
+            if (of_coarsest < kMuchLess * *difference) return stated(of_coarsest);
             if (Status failed = measure(*begun, cells, pictures, reached)) return *failed;
-            return kErrorOfPicture * exact::hypot(*difference, reached.stated);
+            return stated(reached.stated);
         }
-        // Where the rung leaves out much, how far off the grid is matters little.
         if (of_grid < kMuchLess * *difference)
-            return kErrorOfPicture * exact::hypot(*difference, of_grid, planned.survey.model_error);
+            return stated(exact::hypot(of_grid, planned.survey.model_error));
     }
     return std::numeric_limits<double>::quiet_NaN();  // never: the coarsest rung is among the grids
 }

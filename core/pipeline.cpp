@@ -27,7 +27,8 @@
 namespace awan {
 namespace {
 
-constexpr std::size_t kFewSplats = 1u << 14;
+// Fewer are drawn in the time that it takes to find out what merging them would cost.
+constexpr std::size_t kFewSplats = 1u << 17;
 // What merging them may cost of a picture: small beside what the passes themselves leave out.
 constexpr double kSplatMergingError = 0.1;
 

@@ -22,11 +22,11 @@ namespace awan {
 namespace {
 
 // Where particles are cut: their least reach, in standard deviations, beyond which 0.2% of the mass lies (of many, that
-// cover each other's edges, 1.1%); and the optical depth that the lines there have.
+// cover each other's edges, 3.4%); and the optical depth that the lines there have.
 struct Cut {
     double min_reach, faint_depth;
 };
-constexpr Cut kCut{3.5, 5e-4}, kCutOfMany{3, 4e-3};
+constexpr Cut kCut{3.5, 5e-4}, kCutOfMany{2.6, 1e-2};
 
 LightSources light_sources(const Scene& scene, const Plan& plan) {
     const Outside outside = outside_of(scene);

@@ -14,9 +14,6 @@
 
 namespace awan {
 
-// So many particles cover each other's edges: they are drawn with less care.
-inline constexpr std::size_t kManySplats = 16384;
-
 inline constexpr int kDepthLevels = 64;
 // From the deepest billboard down to what is so many times as thin, in equal ratios: a depth is off by 5.7% at most.
 // Thinner ones are the thinnest, and so much less opaque, which is exact for them.
@@ -92,7 +89,7 @@ std::vector<std::uint32_t> drawing_order(const Scene& scene, const ParticleSet& 
                                          const View& view, const Plan& plan);
 
 // The given particles, as far as they are in the window. A Gaussian is cut off where the optical depth of lines through
-// it falls below 5e-4, but not within 3.5 s (of kManySplats particles and more 4e-3 and 3 s), and scaled so that its
+// it falls below 5e-4, but not within 3.5 s (of kManySplats particles and more .01 and 2.6 s), and scaled so that its
 // mass stays whole. One whose s is below 0.6 of the
 // window's pixels is widened to that, the area that it covers kept (survey/narrow.h): exact where such particles stand
 // independently of each other, too much where they overlap. That is why draw() draws such matter in finer windows.

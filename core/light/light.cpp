@@ -17,9 +17,9 @@ namespace awan {
 namespace {
 
 constexpr int kTile = 8;  // texels a side, as in light_columns.glsl
-// Where a particle is cut off, in standard deviations. What lies beyond, 0.4% of its mass, is added to what lies
-// within.
-constexpr double kReach = 3.3;
+// Where a particle is cut off, in standard deviations, where there are few or many. What lies beyond, 0.4% of its mass
+// or 2.6%, is added to what lies within.
+constexpr double kReach = 3.3, kReachOfMany = 2.7;
 // Half width, in s, of the smooth step that stands for a Gaussian's mass (light_columns.glsl).
 constexpr double kSpread = 1.88;
 constexpr int kShadowCells = 64;  // along the cloud's longest side, of its shadow on the ground
@@ -56,16 +56,16 @@ GainCurve gain_curve(double gain, double whole) {
     return {start, std::max(0.0, (start * whole / depth - 1) / whole)};
 }
 
-// within_reach: the share of a Gaussian within kReach.
+// within_reach: the share of a Gaussian within `reach`.
 OnGrid put_on_grid(const ParticleSet& particles, std::size_t i, const LightGrid& grid, double gain,
-                   double within_reach) {
+                   double reach, double within_reach) {
     const double s = gaussian_s(particles, i), tau = central_depth(particles, i);
     const glm::dvec3 place = grid.place(particles.center[i]);
     const double across = std::max(s / grid.texel, 0.6), along = std::max(s / grid.slab, 0.4);
     const double narrowing = s / grid.texel / across;
     const double thinned = tau * narrowing * narrowing / within_reach;
     const GainCurve curve = gain_curve(gain, thinned);
-    const double wide = kReach * across, deep = kSpread * along;
+    const double wide = reach * across, deep = kSpread * along;
     const auto tile = [](double cell, int count) {
         return static_cast<std::int32_t>(
             std::clamp(std::floor(cell / kTile), 0.0, static_cast<double>((count - 1) / kTile)));
@@ -111,9 +111,10 @@ PlacedParticles place_particles(const ParticleSet& particles, const OneLight& li
     placed.particles.resize(particles.size());
     placed.tiles.resize(particles.size());
     placed.points.resize(particles.size());
-    const double within_reach = -exact::expm1(-kReach * kReach / 2);
+    const double reach = particles.size() >= kManySplats ? kReachOfMany : kReach;
+    const double within_reach = -exact::expm1(-reach * reach / 2);
     for (std::size_t i = 0; i < particles.size(); ++i) {
-        const OnGrid on = put_on_grid(particles, i, placed.grid, light.gain, within_reach);
+        const OnGrid on = put_on_grid(particles, i, placed.grid, light.gain, reach, within_reach);
         placed.particles[i] = on.gpu;
         placed.tiles[i] = on.tiles;
         placed.points[i] =
