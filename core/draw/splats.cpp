@@ -21,8 +21,8 @@
 namespace awan {
 namespace {
 
-// Where particles are cut: their least reach, in standard deviations, beyond which 0.2% of the mass lies (of many, that
-// cover each other's edges, 3.4%); and the optical depth that the lines there have.
+// Where particles are cut: their least reach, in standard deviations, beyond which 0.2% of the mass lies (of many with
+// detail, that cover each other's edges, 3.4%); and the optical depth that the lines there have.
 struct Cut {
     double min_reach, faint_depth;
 };
@@ -120,7 +120,8 @@ gl::TileBox tiles_of(const Seen& seen, const SplatWindow& window) {
 }
 
 double reach_of(double tau, const ParticleSet& particles) {
-    const Cut& cut = particles.size() >= kManySplats ? kCutOfMany : kCut;
+    const bool is_many = particles.detail != nullptr && particles.size() >= kManySplats;
+    const Cut& cut = is_many ? kCutOfMany : kCut;
     return std::max(cut.min_reach, std::sqrt(2 * exact::log(std::max(1.0, tau / cut.faint_depth))));
 }
 

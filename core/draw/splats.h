@@ -89,7 +89,7 @@ std::vector<std::uint32_t> drawing_order(const Scene& scene, const ParticleSet& 
                                          const View& view, const Plan& plan);
 
 // The given particles, as far as they are in the window. A Gaussian is cut off where the optical depth of lines through
-// it falls below 5e-4, but not within 3.5 s (of kManySplats particles and more .01 and 2.6 s), and scaled so that its
+// it falls below 5e-4, but not within 3.5 s (of kManySplats and more with detail .01 and 2.6 s), and scaled so that its
 // mass stays whole. One whose s is below 0.6 of the
 // window's pixels is widened to that, the area that it covers kept (survey/narrow.h): exact where such particles stand
 // independently of each other, too much where they overlap. That is why draw() draws such matter in finer windows.
