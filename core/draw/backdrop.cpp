@@ -29,9 +29,9 @@ Backdrop make_backdrop(const Scene& scene, const View& view, int width, int heig
                        const ReliefLight* hills, std::span<const std::uint8_t> wanted) {
     if (ground.relief) {
         if (hills != nullptr)
-            return hills_backdrop(scene, view, width, height, ground, hills, air, threads);
+            return hills_backdrop(scene, view, width, height, ground, hills, air, threads, wanted);
         const ReliefLight light = relief_light(scene, ground, threads);
-        return hills_backdrop(scene, view, width, height, ground, &light, air, threads);
+        return hills_backdrop(scene, view, width, height, ground, &light, air, threads, wanted);
     }
     Backdrop backdrop;
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/parallel.h"
+#include "core/draw/march_bins.h"
 #include "core/scene/outside.h"
 #include "core/survey/relief_ray.h"
 
@@ -55,7 +56,7 @@ glm::dvec3 HillsInView::radiance(const glm::dvec3& direction, double distance,
 
 Backdrop hills_backdrop(const Scene& scene, const View& view, int width, int height,
                         const GroundLight& ground, const ReliefLight* light, const Air* air,
-                        int threads) {
+                        int threads, std::span<const std::uint8_t> wanted) {
     const HillsInView hills(scene, view, ground, light);
     const PictureRays picture = picture_rays(view, width, height);
     const auto sample_at = [&](double x, double y, const glm::dvec2& aside) {
@@ -78,10 +79,16 @@ Backdrop hills_backdrop(const Scene& scene, const View& view, int width, int hei
 
     const auto across = static_cast<std::size_t>(width), down = static_cast<std::size_t>(height);
     std::vector<BackdropSample> middles(across * down);
+    const auto is_wanted = [&](std::size_t x, std::size_t y) {
+        return wanted.empty() ||
+               wanted[y / kBlockSide * static_cast<std::size_t>(blocks_in(width)) +
+                      x / kBlockSide] != 0;
+    };
     parallel_for(threads, down, [&](std::size_t row) {
         for (std::size_t x = 0; x < across; ++x)
-            middles[row * across + x] = sample_at(static_cast<double>(x) + 0.5,
-                                                  static_cast<double>(row) + 0.5, glm::dvec2(0));
+            if (is_wanted(x, row))
+                middles[row * across + x] = sample_at(
+                    static_cast<double>(x) + 0.5, static_cast<double>(row) + 0.5, glm::dvec2(0));
     });
 
     Backdrop backdrop;
@@ -92,6 +99,7 @@ Backdrop hills_backdrop(const Scene& scene, const View& view, int width, int hei
     std::vector<std::size_t> which;
     for (std::size_t y = 0; y < down; ++y)
         for (std::size_t x = 0; x < across; ++x) {
+            if (!is_wanted(x, y)) continue;
             const std::size_t at = y * across + x;
             const bool uneven = (x > 0 && differ(middles[at], middles[at - 1])) ||
                                 (x + 1 < across && differ(middles[at], middles[at + 1])) ||

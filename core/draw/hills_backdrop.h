@@ -1,6 +1,8 @@
 // What stands behind the clouds where the ground has hills: every pixel's ray meets hills, the level ground or the sky.
 #pragma once
 
+#include <span>
+
 #include "core/draw/air.h"
 #include "core/draw/backdrop.h"
 #include "core/light/relief_light.h"
@@ -28,9 +30,9 @@ class HillsInView {
 };
 
 // As make_backdrop. Each pixel by its middle's ray, or, where that differs much from its neighbours', by four; with the
-// haze before it where there is some. air, light: may be null.
+// haze before it where there is some. air, light: may be null. wanted: as there; elsewhere nothing is looked at.
 Backdrop hills_backdrop(const Scene& scene, const View& view, int width, int height,
                         const GroundLight& ground, const ReliefLight* light, const Air* air,
-                        int threads);
+                        int threads, std::span<const std::uint8_t> wanted = {});
 
 }  // namespace awan

@@ -183,10 +183,11 @@ void set_behind(const Scene& scene, const TransportLight& light, const MarchSett
         if (ground.relief && (behind || has_peak))
             around.hills = relief_light(scene, ground, threads);
         const ReliefLight* const lit = around.hills ? &*around.hills : nullptr;
-        around.backdrop = ground.relief ? hills_backdrop(scene, view, width, height, ground,
-                                                         behind ? lit : nullptr, march.air, threads)
-                                        : make_backdrop(scene, view, width, height, ground, threads,
-                                                        nullptr, nullptr, march.wanted);
+        around.backdrop =
+            ground.relief ? hills_backdrop(scene, view, width, height, ground,
+                                           behind ? lit : nullptr, march.air, threads, march.wanted)
+                          : make_backdrop(scene, view, width, height, ground, threads, nullptr,
+                                          nullptr, march.wanted);
         march.sky.backdrop = &around.backdrop;
         if (ground.relief) took.of(Effect::kTerrain) += ms_since(start);
     }
