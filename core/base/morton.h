@@ -1,4 +1,4 @@
-// Morton's curve (1966): places that are close together along it are close together in the plane.
+// The curve of Morton 1966: places that are close together along it are close together in the plane.
 #pragma once
 
 #include <cstdint>
