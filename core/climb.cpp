@@ -184,6 +184,16 @@ double stated_error(double difference, const Climb& climb, int cells) {
         planned.survey.model_error);
 }
 
+// Between the pictures of a light and of the next coarser grid's, which is there.
+Result<double> difference_to_coarser(const Climb& climb, const TransportLight& light,
+                                     Pictures& pictures) {
+    const auto own = measured_picture(climb, light, pictures);
+    if (!own.ok()) return own.error();
+    const auto before = measured_picture(climb, *light.coarser, pictures);
+    if (!before.ok()) return before.error();
+    return picture_difference(**before, **own);
+}
+
 // By how much grids differ, as far as it tells how far off the finest is: two can be near to each other by luck. Then
 // what the two before differ by says more, as errors fall about with the cells' side; but not of grids that are only
 // on the way to the coarsest rung, whose cells are too large for that. cells: of the finest.
@@ -194,11 +204,9 @@ Result<double> difference_of(const Climb& climb, const TransportLight& light, in
     double difference = 0, shrinks = 1;
     for (std::size_t i = grids.size(); i-- > 1 && i + 3 > grids.size() && finer->coarser;) {
         if (i + 1 < grids.size() && rung_with(grids[i]) == nullptr) break;
-        const auto own = measured_picture(climb, *finer, pictures);
-        if (!own.ok()) return own.error();
-        const auto before = measured_picture(climb, *finer->coarser, pictures);
-        if (!before.ok()) return before.error();
-        difference = std::max(difference, shrinks * picture_difference(**before, **own));
+        const auto one = difference_to_coarser(climb, *finer, pictures);
+        if (!one.ok()) return one.error();
+        difference = std::max(difference, shrinks * *one);
         shrinks *= exact::pow(static_cast<double>(grids[i - 1]) / grids[i], kOrder);
         finer = finer->coarser.get();
     }
@@ -321,11 +329,9 @@ Result<double> difference_to_picture(const Climb& climb, const Image& picture,
 Result<double> error_on_the_way(const Climb& climb, const TransportLight& light, int cells,
                                 Pictures& pictures) {
     if (!light.coarser) return std::numeric_limits<double>::infinity();
-    const auto own = measured_picture(climb, light, pictures);
-    if (!own.ok()) return own.error();
-    const auto before = measured_picture(climb, *light.coarser, pictures);
-    if (!before.ok()) return before.error();
-    return exact::hypot(kErrorOnTheWay * picture_difference(**before, **own),
+    const auto difference = difference_to_coarser(climb, light, pictures);
+    if (!difference.ok()) return difference.error();
+    return exact::hypot(kErrorOnTheWay * *difference,
                         known_error(climb.scene, climb.planned.survey,
                                     climb.planned.particles.detail != nullptr, cells));
 }
@@ -462,8 +468,9 @@ Result<double> error_of_picture(const Scene& scene, const Planned& planned, cons
     if (!begun.ok()) return begun.error();
     begun->blocks = kMeasuredBlocksWithoutGrid;
     const RungForecast* const forecast = forecast_of(planned.plan, *rung_with(coarsest));
-    const double of_coarsest =
-        forecast != nullptr ? forecast->error : std::numeric_limits<double>::infinity();
+    const double of_coarsest = forecast != nullptr && forecast->error > 0
+                                   ? forecast->error
+                                   : std::numeric_limits<double>::infinity();
     // Where the picture is far off, how far off the grid is matters little.
     const double much_less = kMuchLess * planned.plan.predicted.error;
     Pictures pictures;

@@ -48,12 +48,8 @@ Backdrop make_backdrop(const Scene& scene, const View& view, int width, int heig
         if (grounded) {
             const double v =
                 (1 - (static_cast<double>(row) + 0.5) / height * 2) * view.tan_half_fov;
-            const std::size_t blocks =
-                row / kBlockSide * static_cast<std::size_t>(blocks_in(width));
             for (int x = 0; x < width; ++x) {
-                if (!wanted.empty() &&
-                    wanted[blocks + static_cast<std::size_t>(x / kBlockSide)] == 0)
-                    continue;
+                if (!is_wanted(wanted, width, static_cast<std::size_t>(x), row)) continue;
                 const double u = ((x + 0.5) / width * 2 - 1) * view.tan_half_fov * view.aspect;
                 const glm::dvec3 d = glm::normalize(view.forward + u * view.right + v * view.up);
                 const auto i = static_cast<std::size_t>(x);

@@ -79,14 +79,9 @@ Backdrop hills_backdrop(const Scene& scene, const View& view, int width, int hei
 
     const auto across = static_cast<std::size_t>(width), down = static_cast<std::size_t>(height);
     std::vector<BackdropSample> middles(across * down);
-    const auto is_wanted = [&](std::size_t x, std::size_t y) {
-        return wanted.empty() ||
-               wanted[y / kBlockSide * static_cast<std::size_t>(blocks_in(width)) +
-                      x / kBlockSide] != 0;
-    };
     parallel_for(threads, down, [&](std::size_t row) {
         for (std::size_t x = 0; x < across; ++x)
-            if (is_wanted(x, row))
+            if (is_wanted(wanted, width, x, row))
                 middles[row * across + x] = sample_at(
                     static_cast<double>(x) + 0.5, static_cast<double>(row) + 0.5, glm::dvec2(0));
     });
@@ -99,7 +94,7 @@ Backdrop hills_backdrop(const Scene& scene, const View& view, int width, int hei
     std::vector<std::size_t> which;
     for (std::size_t y = 0; y < down; ++y)
         for (std::size_t x = 0; x < across; ++x) {
-            if (!is_wanted(x, y)) continue;
+            if (!is_wanted(wanted, width, x, y)) continue;
             const std::size_t at = y * across + x;
             const bool uneven = (x > 0 && differ(middles[at], middles[at - 1])) ||
                                 (x + 1 < across && differ(middles[at], middles[at + 1])) ||

@@ -16,6 +16,14 @@ namespace awan {
 inline constexpr int kBlockSide = 16;  // pixels
 // That hold so many pixels in a row.
 int blocks_in(int pixels);
+// Whether a pixel is in a block that is wanted. wanted: 1 for each that is, row by row; EMPTY: all are. width: of the
+// picture, pixels.
+inline bool is_wanted(std::span<const std::uint8_t> wanted, int width, std::size_t x,
+                      std::size_t y) {
+    return wanted.empty() ||
+           wanted[y / kBlockSide * static_cast<std::size_t>(blocks_in(width)) + x / kBlockSide] !=
+               0;
+}
 
 // Blocks, both ends included.
 struct BlockBox {

@@ -91,8 +91,7 @@ std::vector<std::uint8_t> affordable_levels(const std::vector<NarrowParticle>& n
                                             const View& view, int width, int height, double share) {
     std::vector<std::uint8_t> levels(narrow.size());
     if (narrow.empty()) return levels;
-    const int across = (width + kBlockSide - 1) / kBlockSide;
-    const int down = (height + kBlockSide - 1) / kBlockSide;
+    const int across = blocks_in(width), down = blocks_in(height);
     Groups groups(across, down);
     for (const NarrowParticle& one : narrow) groups.join(one.blocks);
 

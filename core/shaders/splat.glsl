@@ -126,6 +126,7 @@ struct Column {
     // Two linear functions of Y, x + y Y: direct sunlight, and the factor on the other light.
     vec2 direct, change;
 #ifdef DETAIL
+    // What aside_of gives for it.
     vec3 looked_aside;
 #endif
 #ifdef PAINTED
