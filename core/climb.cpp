@@ -10,12 +10,14 @@
 
 #include "core/base/exact_math.h"
 #include "core/draw/backdrop.h"
+#include "core/draw/behind_peak.h"
 #include "core/draw/march_bins.h"
 #include "core/draw/picture_difference.h"
 #include "core/light/transport.h"
 #include "core/plan/island_settings.h"
 #include "core/plan/known_error.h"
 #include "core/plan/step_times.h"
+#include "core/scene/outside.h"
 #include "core/scene/validate.h"
 
 namespace awan {
@@ -25,10 +27,11 @@ namespace {
 constexpr double kErrorOfDifference = 1.25;
 // The same, of pictures without a grid to one with it.
 constexpr double kErrorOfPicture = 1.1;
-// The same as kErrorOfDifference, of grids that are only on the way to the coarsest rung.
-constexpr double kErrorOnTheWay = 2;
 // An error of at most this share of another adds 12% to it.
 constexpr double kMuchLess = 0.5;
+// Of what it is added to, an error that the plan expects need not be measured: were it off by a third, the sum would be
+// by 12%.
+constexpr double kForecastWillDo = 0.8;
 // With which power of a cell's side errors fall, at least: from 1.3 to 1.6 was measured on smooth clouds.
 constexpr double kOrder = 1.3;
 using Clock = Deadline::Clock;
@@ -143,9 +146,11 @@ Status step(const Climb& climb, int cells, const Deadline& deadline, Climbed& re
     return std::nullopt;
 }
 
-// Pictures of lights that measure, each made once, and the particles as all of them see them.
+// Pictures of lights that measure, each made once, and what all of them see.
 struct Pictures {
     std::vector<SeenParticle> seen;
+    // Of the sky alone: a ground is lit by each light in its own way.
+    std::optional<BehindPeak> through_peak;
     std::list<std::pair<const TransportLight*, Image>> made;
 };
 
@@ -159,6 +164,13 @@ Result<Image> picture_of(const Climb& climb, const Scene& scene, const Transport
                                       climb.tools.threads);
     MarchSettings settings;
     settings.seen = &pictures.seen;
+    if (!scene->ground && light.sky && light.peak_share > 0 && outside_of(scene).sky.shines) {
+        if (!pictures.through_peak)
+            pictures.through_peak = behind_through_peak(
+                scene, view, scene->image.width, scene->image.height, light.ground,
+                {light.peak_from, light.peak_share}, true, false, climb.tools.threads);
+        settings.through_peak = &*pictures.through_peak;
+    }
     settings.eye_effects = climb.planned.plan.eye_effects();
     settings.one_ray = true;
     settings.sampled_blocks = climb.blocks;
@@ -258,7 +270,7 @@ double draw_ratio(const Climb& climb, const Rung& rung) {
 }
 
 // `measured` plus what the pixels of `picture` that are nearest to its own have more than `with_behind`, a picture of
-// its size.
+// its size; of those in which it has something, as only these are compared.
 Image moved_by(const Image& measured, const Image& with_behind, const Image& picture) {
     Image moved = measured;
     const auto nearest = [](int at, int of, int from) {
@@ -268,6 +280,7 @@ Image moved_by(const Image& measured, const Image& with_behind, const Image& pic
     std::size_t to = 0;
     for (int y = 0; y < measured.height; ++y)
         for (int x = 0; x < measured.width; ++x, ++to) {
+            if (!(measured.pixels[4 * to + 3] > 0)) continue;
             const std::size_t from = nearest(y, measured.height, picture.height) *
                                          static_cast<std::size_t>(picture.width) +
                                      nearest(x, measured.width, picture.width);
@@ -322,18 +335,6 @@ Result<double> difference_to_picture(const Climb& climb, const Image& picture,
         }
     }
     return picture_difference(moved_by(measured, with_behind, picture), measured);
-}
-
-// How far off a grid on the way to the coarsest rung may be, beside what all grids share: by how much it differs from
-// the one before, generously. Infinity where there is none.
-Result<double> error_on_the_way(const Climb& climb, const TransportLight& light, int cells,
-                                Pictures& pictures) {
-    if (!light.coarser) return std::numeric_limits<double>::infinity();
-    const auto difference = difference_to_coarser(climb, light, pictures);
-    if (!difference.ok()) return difference.error();
-    return exact::hypot(kErrorOnTheWay * *difference,
-                        known_error(climb.scene, climb.planned.survey,
-                                    climb.planned.particles.detail != nullptr, cells));
 }
 
 // As many of the grids as there is time for; the coarsest rung in any case. The error is measured if that fits too.
@@ -471,35 +472,27 @@ Result<double> error_of_picture(const Scene& scene, const Planned& planned, cons
     const double of_coarsest = forecast != nullptr && forecast->error > 0
                                    ? forecast->error
                                    : std::numeric_limits<double>::infinity();
-    // Where the picture is far off, how far off the grid is matters little.
-    const double much_less = kMuchLess * planned.plan.predicted.error;
     Pictures pictures;
     Climbed reached;
     for (const int cells : nested_cells(coarsest)) {
         if (Status failed = step(*begun, cells, deadline, reached)) return *failed;
         const TransportLight& light = *reached.light;
         const bool is_last = cells == coarsest;
-        double of_grid = 0;
-        if (!is_last) {
-            const double coarser = exact::pow(static_cast<double>(coarsest) / cells, kOrder);
-            if (kErrorOnTheWay / kErrorOfDifference * coarser * of_coarsest > much_less) continue;
-            const auto found = error_on_the_way(*begun, light, cells, pictures);
-            if (!found.ok()) return found.error();
-            of_grid = *found;
-            if (of_grid > much_less) continue;
-        }
+        const double expected =
+            of_coarsest * exact::pow(static_cast<double>(coarsest) / cells, kOrder);
+        // Where the picture is far off, how far off the grid is matters little.
+        if (!is_last && expected > kMuchLess * planned.plan.predicted.error) continue;
         const auto difference = difference_to_picture(*begun, picture, light, pictures);
         if (!difference.ok()) return difference.error();
         const auto stated = [&](double grid_and_model) {
             return kErrorOfPicture * exact::hypot(*difference, grid_and_model);
         };
-        if (is_last) {
-            if (of_coarsest < kMuchLess * *difference) return stated(of_coarsest);
-            if (Status failed = measure(*begun, cells, pictures, reached)) return *failed;
-            return stated(reached.stated);
-        }
-        if (of_grid < kMuchLess * *difference)
-            return stated(exact::hypot(of_grid, planned.survey.model_error));
+        // The model's is in what is expected.
+        if (expected < (is_last ? kForecastWillDo : kMuchLess) * *difference)
+            return stated(expected);
+        if (!is_last) continue;
+        if (Status failed = measure(*begun, cells, pictures, reached)) return *failed;
+        return stated(reached.stated);
     }
     return std::numeric_limits<double>::quiet_NaN();  // never: the coarsest rung is among the grids
 }

@@ -112,7 +112,7 @@ TEST(SplatPicture, OfManyHasTheLumpsOfTheMarch) {
     draft.clouds.push_back({});
     draft.clouds[0].model = CloudModel::kAutomaton;
     auto automaton = std::make_shared<AutomatonCloud>();
-    automaton->most_particles = 4 * kManySplats;
+    automaton->most_particles = 65536;
     draft.clouds[0].automaton = automaton;
     const Scene smooth = test::valid(draft);
     ASSERT_GT(generate(smooth, 2, {})->size(), kManySplats);

@@ -40,7 +40,7 @@ Backdrop make_backdrop(const Scene& scene, const View& view, int width, int heig
     backdrop.rgb.resize(3 * pixels);
     const bool grounded = above_ground(scene, view);
     if (grounded) backdrop.distance.resize(pixels);
-    const SkyPixels sky(outside_of(scene).sky, view, width, height, !grounded, threads);
+    const SkyPixels sky(outside_of(scene).sky, view, width, height, !grounded, threads, wanted);
     parallel_for(threads, static_cast<std::size_t>(height), [&](std::size_t row) {
         const std::size_t first = row * static_cast<std::size_t>(width);
         std::vector<glm::vec3> seen(static_cast<std::size_t>(width));

@@ -44,7 +44,7 @@ struct ReliefLight;  // core/light/relief_light.h
 // The same for every number of threads. Pixels are point samples, those of the ground, too; where it has hills, those
 // differ from their neighbours are means of four. Then they are seen through `air` (null: clear), and lit as `hills`
 // says (null: that is found out here, too). wanted: of blocks of kBlockSide x kBlockSide pixels (march_bins.h), row by
-// row, whether the ground is wanted there; elsewhere it is black. EMPTY: everywhere.
+// row, whether something is wanted there; elsewhere all is black. EMPTY: everywhere.
 Backdrop make_backdrop(const Scene& scene, const View& view, int width, int height,
                        const GroundLight& ground, int threads, const Air* air = nullptr,
                        const ReliefLight* hills = nullptr,

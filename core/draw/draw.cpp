@@ -158,18 +158,14 @@ Result<Image> draw_splats(const Drawing& drawing, const SplatWindow& window,
         drawing.plan.on(Effect::kInterior) ||
         (list.reaches_eye &&
          drawing.scene->effects[static_cast<int>(Effect::kInterior)] != Switch::kOff);
-    if (drawing.textures != nullptr) {
-        const auto painted = programs.painted(half_lines, drawing.colors != nullptr);
-        if (!painted.ok()) return painted.error();
-        (*painted)->use();
-    } else if (drawing.detail != nullptr) {
-        const auto detailed = programs.detailed(half_lines);
-        if (!detailed.ok()) return detailed.error();
-        (*detailed)->use();
-        set_detail(*drawing.detail, window);
-    } else {
-        (half_lines ? programs.splat_interior : programs.splat).use();
-    }
+    const bool with_detail = drawing.textures == nullptr && drawing.detail != nullptr;
+    const auto program = drawing.textures != nullptr
+                             ? programs.painted(half_lines, drawing.colors != nullptr)
+                         : with_detail ? programs.detailed(half_lines)
+                                       : programs.plain(half_lines);
+    if (!program.ok()) return program.error();
+    (*program)->use();
+    if (with_detail) set_detail(*drawing.detail, window);
     set_uniforms(drawing, window);
     std::vector<float> spare;
     const auto status = gl::for_each_region(

@@ -11,6 +11,7 @@
 
 namespace awan {
 
+struct BehindPeak;    // behind_peak.h
 struct SeenParticle;  // march_bins.h
 
 struct MarchSettings {
@@ -24,6 +25,8 @@ struct MarchSettings {
     int sampled_blocks = 0;
     // What see_particles (march_bins.h) finds in this picture, for several of one view; null: it is found out.
     const std::vector<SeenParticle>* seen = nullptr;
+    // What behind_through_peak (behind_peak.h) finds there; null: it is found out.
+    const BehindPeak* through_peak = nullptr;
 };
 
 // The sun's light and the sky's, each as the matter scatters it exactly once (core/light/once_scattered.h).

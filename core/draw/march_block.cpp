@@ -140,8 +140,8 @@ class BlockMarch {
             if (!sky.backdrop->quarters_of.empty()) take_hills(t, backdrop, opacity, lost);
         }
         if (sky.peak) {
-            take_pixels(t, sky.through_peak.once, once);
-            take_pixels(t, sky.through_peak.often, often);
+            take_pixels(t, sky.through_peak->once, once);
+            take_pixels(t, sky.through_peak->often, often);
             behind.once = once;
             behind.often = often;
         }

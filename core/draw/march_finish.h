@@ -124,7 +124,7 @@ AWAN_INLINE void finish_in_air(const MarchScene& scene, const AirTile& air, cons
                              simd::max(haze - tile.seen_lost - clear * lost, simd::Floats{});
     const simd::Floats often = often_scattered(scene, tile.depth);
     simd::Floats zenith{};
-    if (behind.pixels.backdrop == nullptr) zenith = zenith_share(behind.up);
+    if (behind.pixels.backdrop == nullptr && sky.behind) zenith = zenith_share(behind.up);
     const simd::Floats radiance[3] = {tile.red, tile.green, tile.blue};
     simd::Floats channels[4];
     for (int c = 0; c < 3; ++c)

@@ -165,7 +165,7 @@ class LayeredFrame {
                                                     -exact::expm1(-(1 - scaled) * depth) * dimmed);
             const float often =
                 std::min((1 - bare_.scaled) / bare_.most_peak * static_cast<float>(depth), 1.0F);
-            const BehindPeak& behind = bare_.sky.through_peak;
+            const BehindPeak& behind = *bare_.sky.through_peak;
             for (std::size_t c = 0; c < 3; ++c) {
                 const float once = behind.once[3 * at + c];
                 peak[c] = through * (once + often * (behind.often[3 * at + c] - once));

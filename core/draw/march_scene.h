@@ -26,7 +26,7 @@ struct SkyBehind {
     bool peak = false;                      // it is seen through the forward peak, too
     // What stands behind instead of the gradient; null: nothing.
     const Backdrop* backdrop = nullptr;
-    BehindPeak through_peak;  // EMPTY without `peak`
+    const BehindPeak* through_peak = nullptr;  // null without `peak`
 };
 
 // What stands behind the pixels of a tile.

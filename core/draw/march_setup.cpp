@@ -176,12 +176,16 @@ void set_behind(const Scene& scene, const TransportLight& light, const MarchSett
     march.sky = gradient_behind(scene);
     around.air = air_of(scene, view, light, settings, threads, took);
     if (around.air) march.air = &*around.air;
-    if ((behind || has_peak || march.cut) && wants_backdrop(scene, view)) {
+    const GroundLight& ground = light.ground;
+    // How hills are lit matters where they are seen; and where haze ends at them, how far away they are.
+    if (ground.relief && (behind || has_peak) && wants_backdrop(scene, view)) {
         const auto start = Deadline::Clock::now();
-        const GroundLight& ground = light.ground;
-        // How hills are lit matters where they are seen.
-        if (ground.relief && (behind || has_peak))
-            around.hills = relief_light(scene, ground, threads);
+        around.hills = relief_light(scene, ground, threads);
+        took.of(Effect::kTerrain) += ms_since(start);
+    }
+    const bool ends_haze = ground.relief && march.air != nullptr;
+    if ((behind || march.cut || ends_haze) && wants_backdrop(scene, view)) {
+        const auto start = Deadline::Clock::now();
         const ReliefLight* const lit = around.hills ? &*around.hills : nullptr;
         around.backdrop =
             ground.relief ? hills_backdrop(scene, view, width, height, ground,
@@ -193,10 +197,13 @@ void set_behind(const Scene& scene, const TransportLight& light, const MarchSett
     }
     march.sky.peak = has_peak && ((light.sky && outside_of(scene).sky.shines) ||
                                   (light.ground.into_cloud && wants_backdrop(scene, view)));
-    if (march.sky.peak)
-        march.sky.through_peak = behind_through_peak(
-            scene, view, width, height, light.ground, march.peak, light.sky,
-            light.ground.into_cloud, threads, around.hills ? &*around.hills : nullptr);
+    if (!march.sky.peak) return;
+    march.sky.through_peak = settings.through_peak;
+    if (march.sky.through_peak != nullptr) return;
+    around.through_peak =
+        behind_through_peak(scene, view, width, height, ground, march.peak, light.sky,
+                            ground.into_cloud, threads, around.hills ? &*around.hills : nullptr);
+    march.sky.through_peak = &around.through_peak;
 }
 
 bool march_blocks(const MarchScene& scene, int threads, const Deadline& deadline, Image& image,

@@ -26,6 +26,7 @@ struct MarchBehind {
     std::optional<Air> air;
     std::optional<ReliefLight> hills;
     Backdrop backdrop;
+    BehindPeak through_peak;
 };
 
 // Puts sky, ground, hills and haze behind what is marched, in a picture of that many pixels. `behind` must stay where

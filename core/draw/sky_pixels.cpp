@@ -9,6 +9,7 @@
 
 #include "core/base/catmull_rom.h"
 #include "core/base/parallel.h"
+#include "core/draw/march_bins.h"
 
 namespace awan {
 namespace {
@@ -23,6 +24,9 @@ constexpr std::array<Weights, SkyPixels::kBlock> make_weights() {
 }
 
 constexpr std::array<Weights, SkyPixels::kBlock> kWeights = make_weights();
+
+// One of its blocks is wanted whole, or not at all.
+static_assert(kBlockSide % SkyPixels::kBlock == 0);
 
 // Pixels of a block that are looked at.
 constexpr std::array<glm::ivec2, 4> kChecks{{{4, 4}, {2, 6}, {6, 3}, {4, 1}}};
@@ -42,12 +46,13 @@ int blocks_along(int pixels) {
 }  // namespace
 
 SkyPixels::SkyPixels(const SkyDome& sky, const View& view, int width, int height, bool below,
-                     int threads)
+                     int threads, std::span<const std::uint8_t> wanted)
     : sky_(sky),
       view_(view),
       width_(width),
       height_(height),
       below_(below),
+      wanted_(wanted),
       blocks_x_(blocks_along(width)),
       blocks_y_(blocks_along(height)),
       rays_x_(blocks_x_ + 3) {
@@ -57,14 +62,28 @@ SkyPixels::SkyPixels(const SkyDome& sky, const View& view, int width, int height
     parallel_for(threads, static_cast<std::size_t>(rays_y), [&](std::size_t row) {
         const int y = (static_cast<int>(row) - 1) * kBlock;
         for (int i = 0; i < rays_x_; ++i)
-            rays_[row * static_cast<std::size_t>(rays_x_) + static_cast<std::size_t>(i)] =
-                ray((i - 1) * kBlock, y);
+            if (wants_ray(i, static_cast<int>(row)))
+                rays_[row * static_cast<std::size_t>(rays_x_) + static_cast<std::size_t>(i)] =
+                    ray((i - 1) * kBlock, y);
     });
     parallel_for(threads, static_cast<std::size_t>(blocks_y_), [&](std::size_t row) {
         for (int i = 0; i < blocks_x_; ++i)
             smooth_[row * static_cast<std::size_t>(blocks_x_) + static_cast<std::size_t>(i)] =
-                is_smooth(i, static_cast<int>(row)) ? 1 : 0;
+                wants(i, static_cast<int>(row)) && is_smooth(i, static_cast<int>(row)) ? 1 : 0;
     });
+}
+
+bool SkyPixels::wants(int block_x, int block_y) const {
+    return is_wanted(wanted_, width_, static_cast<std::size_t>(block_x * kBlock),
+                     static_cast<std::size_t>(block_y * kBlock));
+}
+
+// The i-th ray of a row of rays, the j-th one, is about the blocks from three before it to itself.
+bool SkyPixels::wants_ray(int i, int j) const {
+    for (int y = std::max(j - 3, 0); y <= std::min(j, blocks_y_ - 1); ++y)
+        for (int x = std::max(i - 3, 0); x <= std::min(i, blocks_x_ - 1); ++x)
+            if (wants(x, y)) return true;
+    return false;
 }
 
 glm::dvec3 SkyPixels::direction(int x, int y) const {
@@ -120,6 +139,7 @@ bool SkyPixels::is_smooth(int block_x, int block_y) const {
 void SkyPixels::row(int y, std::span<glm::vec3> to) const {
     const Weights& down = kWeights[static_cast<std::size_t>(y % kBlock)];
     for (int i = 0; i < blocks_x_; ++i) {
+        if (!wants(i, y / kBlock)) continue;
         const int left = i * kBlock, right = std::min(left + kBlock, width_);
         const auto block =
             static_cast<std::size_t>(y / kBlock) * static_cast<std::size_t>(blocks_x_) +

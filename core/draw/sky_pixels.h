@@ -21,10 +21,12 @@ class SkyPixels {
     static constexpr double kAgreement = 1e-4;
 
     // Of a picture of so many pixels, each > 0. below: whether rays below the horizon are wanted; radiance of pixels
-    // there means nothing else. The same for every number of threads.
-    SkyPixels(const SkyDome& sky, const View& view, int width, int height, bool below, int threads);
+    // there means nothing else. wanted: as of is_wanted (march_bins.h), and must stay where it is; only such pixels are
+    // found out. The same for every number of threads.
+    SkyPixels(const SkyDome& sky, const View& view, int width, int height, bool below, int threads,
+              std::span<const std::uint8_t> wanted = {});
 
-    // Radiance through the middles of a row's pixels. to: one for each of them.
+    // Radiance through the middles of a row's pixels. to: one for each of them; those that are not wanted stay.
     void row(int y, std::span<glm::vec3> to) const;
 
     // The share of blocks that are interpolated.
@@ -37,11 +39,14 @@ class SkyPixels {
     glm::vec3 between(int x, int y) const;
     bool agrees(int x, int y) const;
     bool is_smooth(int block_x, int block_y) const;
+    bool wants(int block_x, int block_y) const;
+    bool wants_ray(int i, int j) const;
 
     SkyDome sky_;
     View view_;
     int width_, height_;
     bool below_;
+    std::span<const std::uint8_t> wanted_;
     // Blocks, and rays across: one before the first block, two behind the last one's beginning.
     int blocks_x_, blocks_y_, rays_x_;
     std::vector<glm::vec3> rays_;

@@ -24,6 +24,12 @@ Result<const gl::Program*> compiled(std::optional<gl::Program>& kept, const Comp
 
 }  // namespace
 
+Result<const gl::Program*> Device::Programs::plain(bool interior) {
+    return compiled(plain_splats[interior ? 1 : 0], [&] {
+        return gl::Program::compute("splat.glsl", interior ? "#define INTERIOR\n" : "");
+    });
+}
+
 Result<const gl::Program*> Device::Programs::painted(bool interior, bool tinted) {
     return compiled(painted_splats[interior ? 1 : 0][tinted ? 1 : 0], [&] {
         std::string defines = "#define PAINTED\n";
@@ -97,15 +103,10 @@ Result<Device> Device::open(DeviceChoice choice) {
     if (!sums.ok()) return sums.error();
     auto samples = gl::Program::compute("light_samples.glsl");
     if (!samples.ok()) return samples.error();
-    auto splat = gl::Program::compute("splat.glsl");
-    if (!splat.ok()) return splat.error();
-    auto interior = gl::Program::compute("splat.glsl", "#define INTERIOR\n");
-    if (!interior.ok()) return interior.error();
     return Device(std::unique_ptr<State>(
         new State{*std::move(context),
                   std::move(info),
-                  {*std::move(columns), *std::move(sums), *std::move(samples), *std::move(splat),
-                   *std::move(interior)}}));
+                  {*std::move(columns), *std::move(sums), *std::move(samples)}}));
 }
 
 }  // namespace awan

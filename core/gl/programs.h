@@ -15,24 +15,21 @@ struct Device::Programs {
     gl::Program light_sums;
     // Pass 1: the light that each particle gets, read from those sums.
     gl::Program light_samples;
-    // Pass 2: particles blended per pixel, with the eye outside all of them.
-    gl::Program splat;
-    // Pass 2: the same where the eye may be inside a particle.
-    gl::Program splat_interior;
 
     // Those that not all pictures need, compiled when they are first asked for. They fail as Program does.
 
-    // Pass 2 with textures on the billboards of some particles; the eye may be inside a particle or not. tinted: some
-    // of the textures have colours.
+    // Pass 2: particles blended per pixel. interior: the eye may be inside a particle.
+    Result<const gl::Program*> plain(bool interior);
+    // Pass 2 with textures on the billboards of some particles. tinted: some of the textures have colours.
     Result<const gl::Program*> painted(bool interior, bool tinted);
-    // Pass 2 with detail; as painted().
+    // Pass 2 with detail.
     Result<const gl::Program*> detailed(bool interior);
     // Triangles, for what is displayed instead of lit.
     Result<const gl::Program*> display();
 
     using Late = std::optional<gl::Program>;
     // [interior][tinted], [interior].
-    Late painted_splats[2][2]{}, detailed_splats[2]{};
+    Late painted_splats[2][2]{}, plain_splats[2]{}, detailed_splats[2]{};
     Late display_triangles{};
 };
 

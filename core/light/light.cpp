@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 
 #include "core/base/exact_math.h"
 #include "core/generate/gaussian.h"
@@ -204,14 +205,35 @@ std::vector<glm::vec4> sample_at_particles(const PlacedParticles& placed, const 
     return samples;
 }
 
+// What each cell of a grid takes, and then what reaches it. One for all lights: new memory costs as much as setting it
+// to zero twice.
+class Volume {
+  public:
+    // All zero, for so many cells.
+    const gl::Buffer& of(const glm::ivec3& cells) {
+        const std::size_t bytes = static_cast<std::size_t>(cells.x) *
+                                  static_cast<std::size_t>(cells.y) *
+                                  static_cast<std::size_t>(cells.z) * 2 * sizeof(float);
+        if (!buffer_ || bytes > bytes_) {
+            buffer_.emplace(bytes);
+            bytes_ = bytes;
+        }
+        buffer_->clear();
+        return *buffer_;
+    }
+
+  private:
+    std::optional<gl::Buffer> buffer_;
+    std::size_t bytes_ = 0;
+};
+
 // All three steps for one light.
 Result<std::vector<glm::vec4>> one_light(const ParticleSet& particles, const OneLight& light,
-                                         Device& device, const Deadline& deadline) {
+                                         Volume& volumes, Device& device,
+                                         const Deadline& deadline) {
     const PlacedParticles placed = place_particles(particles, light);
     const glm::ivec3 cells = placed.grid.cells;
-    gl::Buffer volume(static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
-                      static_cast<std::size_t>(cells.z) * 2 * sizeof(float));
-    volume.clear();
+    const gl::Buffer& volume = volumes.of(cells);
     if (Status failed = fill_columns(placed, device, deadline, volume)) return *failed;
     sum_columns(cells, device, volume);
     std::vector<glm::vec4> samples = sample_at_particles(placed, light, device, volume);
@@ -246,12 +268,13 @@ Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const P
     };
     const glm::vec3 about = about_in(scene->medium, plan);
     const glm::vec4 full(0, 0, 0, 1), none(0);
+    Volume volumes;
     lighting.particles.assign(particles.size(), {full, none, none, full, full});
     if (outside_of(scene).sun != glm::dvec3(0)) {
         auto sun = timed_for(lighting.took, Effect::kSelfShadow, [&] {
             return one_light(particles,
-                             {sun_direction(scene->sun), gain(kSunGathering), false, about}, device,
-                             deadline);
+                             {sun_direction(scene->sun), gain(kSunGathering), false, about},
+                             volumes, device, deadline);
         });
         if (!sun.ok()) return sun.error();
         for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -263,8 +286,8 @@ Result<Lighting> light(const Scene& scene, const ParticleSet& particles, const P
     if (plan.on(Effect::kSkyLight) || lighting.ground.into_cloud) {
         const Effect from = plan.on(Effect::kSkyLight) ? Effect::kSkyLight : Effect::kGroundLight;
         auto sky = timed_for(lighting.took, from, [&] {
-            return one_light(particles, {{0, 1, 0}, gain(kSkyGathering), true, about}, device,
-                             deadline);
+            return one_light(particles, {{0, 1, 0}, gain(kSkyGathering), true, about}, volumes,
+                             device, deadline);
         });
         if (!sky.ok()) return sky.error();
         for (std::size_t i = 0; i < particles.size(); ++i) {

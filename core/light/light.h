@@ -14,7 +14,7 @@
 namespace awan {
 
 // So many particles cover each other's edges: passes take less care of each.
-inline constexpr std::size_t kManySplats = 16384;
+inline constexpr std::size_t kManySplats = 4096;
 
 // Fractions 0..1 of a light's full strength near one particle: the value at its centre (w) and its gradient per scene
 // unit (x y z), so that every fragment of the particle can have its own light.
