@@ -323,7 +323,8 @@ Result<double> difference_to_picture(const Climb& climb, const Image& picture,
         draft.image.background = climb.scene->image.background;
         const auto over_it = validate(std::move(draft));
         if (!over_it.ok()) return over_it.error();
-        if (climb.scene->haze) {
+        // What hills send comes through the haze before them.
+        if (climb.scene->haze && light.ground.relief) {
             auto drawn = picture_of(climb, *over_it, light, pictures);
             if (!drawn.ok()) return drawn.error();
             with_behind = *std::move(drawn);
