@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/morton.h"
+#include "core/draw/backdrop.h"
 #include "core/draw/march_bins.h"
 #include "core/draw/picture_difference.h"
 #include "tests/march_lights.h"
@@ -93,6 +94,46 @@ TEST(MarchSample, IsSpreadOverAllThatThereIs) {
 TEST(MarchSample, OfNothingIsNothing) {
     const std::vector<std::uint8_t> none = sample_blocks({}, 40, 20, 8);
     EXPECT_EQ(none, std::vector<std::uint8_t>(6, 0));
+}
+
+// A picture over nothing lacks what stands behind it, and nothing else: in haze, above a ground, too.
+TEST(MarchSample, OverNothingWithWhatStandsBehindIsTheWhole) {
+    std::vector<Ball> list;
+    for (int i = 0; i < 20; ++i) list.push_back({{0.3 * i - 3, 1 + 0.1 * (i % 5), 0}, 0.7, 1});
+    SceneDraft draft = test::balls(list);
+    draft.sky = {};
+    draft.ground.emplace().height = -1;
+    draft.image.width = 120;
+    draft.image.height = 80;
+    draft.camera.eye = {0, 1, 9};
+    draft.camera.target = {0, 0.8, 0};
+    for (const double extinction : {0.0, 0.02, 0.3}) {
+        draft.haze.emplace().extinction = extinction;
+        MarchSettings settings;
+        settings.one_ray = true;
+        settings.eye_effects.aerial_perspective = settings.eye_effects.light_shafts =
+            extinction > 0;
+        draft.image.background = Background::kSky;
+        const test::Stage over_sky = test::stage(draft);
+        TransportLight light = test::grid_light(over_sky.scene, over_sky.particles, 8, 1,
+                                                [](glm::dvec3) { return 2; });
+        light.sun = test::exact_sun(over_sky.scene, over_sky.particles, 9, 2);
+        light.ground = bare_ground(*over_sky.scene);
+        const Image whole = test::marched(over_sky, light, 2, settings);
+        draft.image.background = Background::kTransparent;
+        Image laid = test::marched(test::stage(draft), light, 2, settings);
+        double clear = 0, cloud = 0;
+        for (std::size_t i = 0; i < laid.pixel_count(); ++i) {
+            clear = std::max(clear, 1.0 - static_cast<double>(laid.pixels[4 * i + 3]));
+            cloud = std::max(cloud, static_cast<double>(laid.pixels[4 * i + 3]));
+        }
+        EXPECT_GT(clear, 0.01) << extinction;
+        EXPECT_GT(cloud, 0.5) << extinction;
+        lay_under(laid, make_backdrop(over_sky.scene, over_sky.view, 120, 80, light.ground, 1));
+        for (std::size_t i = 0; i < laid.pixels.size(); ++i)
+            ASSERT_NEAR(laid.pixels[i], whole.pixels[i], 1e-5F + 1e-5F * whole.pixels[i])
+                << extinction << ' ' << i;
+    }
 }
 
 // What the sample says of two lights is what the whole picture says.

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "core/draw/march_bins.h"
 #include "core/scene/validate.h"
 
 namespace awan {
@@ -78,6 +79,29 @@ TEST(SkyPixels, IsInterpolatedNearlyEverywhereInALargePicture) {
     const Sight sight{30, 0.4, 40, 800, 600};
     const SkyPixels behind(sky_of(sight.sun), view_of(sight), sight.width, sight.height, true, 2);
     EXPECT_GT(behind.smooth_share(), 0.9);
+}
+
+// Of some blocks it finds what it finds of all, and leaves the others alone.
+TEST(SkyPixels, OfWantedBlocksIsTheSame) {
+    const Sight sight{8, 0.1, 60, 150, 90};
+    const SkyDome sky = sky_of(sight.sun);
+    const View view = view_of(sight);
+    std::vector<std::uint8_t> wanted(
+        static_cast<std::size_t>(blocks_in(sight.width) * blocks_in(sight.height)));
+    for (const std::size_t one : {0U, 7U, 23U, 24U, 40U, 59U}) wanted[one] = 1;
+    const SkyPixels all(sky, view, sight.width, sight.height, true, 2);
+    const SkyPixels some(sky, view, sight.width, sight.height, true, 2, wanted);
+    const glm::vec3 untouched(-1);
+    for (int y = 0; y < sight.height; ++y) {
+        std::vector<glm::vec3> a(150), b(150, untouched);
+        all.row(y, a);
+        some.row(y, b);
+        for (std::size_t x = 0; x < a.size(); ++x)
+            ASSERT_EQ(b[x], is_wanted(wanted, sight.width, x, static_cast<std::size_t>(y))
+                                ? a[x]
+                                : untouched)
+                << x << ' ' << y;
+    }
 }
 
 TEST(SkyPixels, IsTheSameForEveryNumberOfThreads) {
