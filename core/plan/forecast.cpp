@@ -81,23 +81,11 @@ double stretch(int threads, double serial) {
     return time(threads) / time(kCalibratedThreads);
 }
 
-// A ray a pixel, of what a picture takes that has more where it is uneven.
-constexpr double kOneRay = 0.6;
-// Pictures of a sample of blocks; of a rung without a grid, after solving the coarsest for them.
 double measuring_ms(const Rung& rung, const Scene& scene, const Survey& survey, int threads) {
     if (rung.method == Method::kPaths || rung.method == Method::kLook) return 0;
-    const Rung& grid = rung.cells > 0 ? rung : rung_of(RungId::kTransport16);
-    TimeFigures times = time_figures(grid, scene, survey, 0);
-    double ms = rung.cells > 0 ? 0 : predicted_ms(kMarchLightTime, times);
-    const double blocks = rung.cells > 0 ? kMeasuredBlocks : kMeasuredBlocksWithoutGrid;
-    const double covered = times[1], pixels = times[4];
-    const double sampled = kOneRay * std::min(1.0, 256 * blocks / std::max(covered, 1.0));
-    const double looked_up = std::min(covered, kMostLookedUp);
-    for (const std::size_t of_rays : {1, 3, 8, 9}) times[of_rays] *= sampled;
-    times[4] *= std::min(1.0, kMostMeasuredPixels / std::max(pixels, 1.0));
-    if (looked_up > 0) times[11] *= std::min(times[1], looked_up) / looked_up;
-    ms += kMeasuringPictures * predicted_ms(kMarchDrawTime, times);
-    return ms * stretch(threads, kMarchSerial);
+    const TimeModel& model = rung.cells > 0 ? kMeasureGridTime : kMeasureOtherTime;
+    return predicted_ms(model, measuring_figures(rung, scene, survey)) *
+           stretch(threads, kMarchSerial);
 }
 
 // What hills add, ms, with two threads on the machine of the calibration. Their height map and its light, which are the

@@ -9,6 +9,7 @@
 
 #include "core/base/exact_math.h"
 #include "core/plan/criteria.h"
+#include "core/plan/forecast.h"
 #include "core/plan/island_settings.h"
 #include "core/plan/transport_settings.h"
 #include "core/scene/outside.h"
@@ -256,6 +257,22 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
         constexpr double kBeginning = 4;
         figures[7] = covered * samples * (kBeginning + orders);
     }
+    return figures;
+}
+
+// Of one of the sampled blocks.
+constexpr double kBlockPixels = 16 * 16;
+
+TimeFigures measuring_figures(const Rung& rung, const Scene& scene, const Survey& survey) {
+    const Rung& grid = rung.cells > 0 ? rung : rung_of(RungId::kTransport16);
+    TimeFigures figures = time_figures(grid, scene, survey, 0);
+    const double blocks = rung.cells > 0 ? kMeasuredBlocks : kMeasuredBlocksWithoutGrid;
+    const double covered = figures[1], pixels = figures[4];
+    const double sampled = std::min(1.0, kBlockPixels * blocks / std::max(covered, 1.0));
+    const double looked_up = std::min(covered, kMostLookedUp);
+    for (const std::size_t of_rays : {1, 3, 8, 9}) figures[of_rays] *= sampled;
+    figures[4] *= std::min(1.0, kMostMeasuredPixels / std::max(pixels, 1.0));
+    if (looked_up > 0) figures[11] *= std::min(figures[1], looked_up) / looked_up;
     return figures;
 }
 

@@ -12,12 +12,15 @@ struct TimeModel {
     TimeFigures coefficient;
 };
 // Generate, survey and plan.
-inline constexpr TimeModel kPrepareTime = {{3.60712, 0, 0.0018534, 2.81182e-08, 0, 0, 0, 0, 0, 0, 71.0839, 0, 0, 0}};
-inline constexpr TimeModel kAdditiveTime = {{0.598091, 0, 0.00456869, 1.6139e-06, 6.67814e-05, 0, 0, 0, 0, 6.8738e-05, 0, 0, 0, 0}};
-inline constexpr TimeModel kHarrisLightTime = {{2.57761, 0, 0.00568982, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}};
-inline constexpr TimeModel kHarrisDrawTime = {{0.203591, 0, 0.00431405, 8.99397e-07, 4.0901e-05, 0, 0, 0, 0, 2.41709e-05, 0, 0, 0, 0}};
-inline constexpr TimeModel kMarchLightTime = {{1.22376, 0, 0.000678895, 0, 0, 0.000564842, 1.04652e-07, 0, 0, 0, 0, 0, 0.000508753, 0.0503716}};
-inline constexpr TimeModel kMarchDrawTime = {{0.783154, 0.000112313, 0.00444618, 4.17954e-07, 7.36477e-05, 0, 0, 0, 6.83242e-05, 0.000118425, 0, 3.40664e-05, 0, 0.0156401}};
-inline constexpr TimeModel kPathTime = {{0, 0, 0.839193, 0, 0.0041085, 0, 0, 0.000944044, 0, 0.00936433, 0, 0, 0, 0}};
+inline constexpr TimeModel kPrepareTime = {{2.02339, 0, 0.00205756, 7.59236e-08, 0, 0, 0, 0, 0, 0, 64.8617, 0, 0, 0}};
+inline constexpr TimeModel kAdditiveTime = {{1.21498, 0, 0.00302986, 1.16932e-06, 2.16378e-05, 0, 0, 0, 0, 7.3778e-05, 0, 0, 0, 0}};
+inline constexpr TimeModel kHarrisLightTime = {{2.29904, 0, 0.00411478, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}};
+inline constexpr TimeModel kHarrisDrawTime = {{0.884061, 0, 0.00288725, 1.18039e-06, 2.47639e-05, 0, 0, 0, 0, 2.4587e-05, 0, 0, 0, 0}};
+inline constexpr TimeModel kMarchLightTime = {{0.856333, 0, 0.000862366, 0, 0, 0.000401721, 1.01929e-07, 0, 0, 0, 0, 0, 0.000530615, 0.0451603}};
+inline constexpr TimeModel kMarchDrawTime = {{1.3933, 0.00017019, 0.00555529, 1.34242e-07, 5.08886e-05, 0, 0, 0, 7.33291e-05, 0.00012291, 0, 3.0882e-05, 0, 0.0165453}};
+// Measuring the error (measuring_figures): of grids; of others, with the light of the coarsest grid.
+inline constexpr TimeModel kMeasureGridTime = {{13.0879, 0, 0.00604803, 0, 0, 0, 0, 0, 6.76296e-05, 0.000507325, 0, 2.90965e-05, 0, 0.0177897}};
+inline constexpr TimeModel kMeasureOtherTime = {{9.84521, 0, 0.002081, 0, 0, 0.00111635, 1.98698e-08, 0, 7.17617e-05, 0, 0, 9.58414e-06, 0.000161295, 0}};
+inline constexpr TimeModel kPathTime = {{0, 0, 1.34779, 0, 0.0045052, 0, 0, 0.0011253, 0, 0.0086587, 0, 0, 0, 0}};
 
 }  // namespace awan

@@ -198,6 +198,8 @@ void write_row(const Options& options, int index, const std::string& name, const
         std::fprintf(out, ",%.6g", figure);
     for (const double figure : time_figures(rung, scene, survey, 0))
         std::fprintf(out, ",%.6g", figure);
+    for (const double figure : measuring_figures(rung, scene, survey))
+        std::fprintf(out, ",%.6g", figure);
     std::fputc('\n', out);
 }
 
@@ -263,6 +265,7 @@ void measure(const Options& options, int index, Device& device, std::FILE* out) 
         std::fprintf(out, ",%.6g", figure);
     for (const double figure : time_figures(truth, scene, planned.survey, reference.samples))
         std::fprintf(out, ",%.6g", figure);
+    for (std::size_t i = 0; i < kTimeFigureCount; ++i) std::fputs(",0", out);  // is not measured
     std::fputc('\n', out);
     std::fflush(out);
 }
@@ -306,6 +309,7 @@ int main(int argc, char** argv) {
         out);
     for (const char* name : kErrorFigureNames) std::fprintf(out, ",e_%s", name);
     for (const char* name : kTimeFigureNames) std::fprintf(out, ",t_%s", name);
+    for (const char* name : kTimeFigureNames) std::fprintf(out, ",m_%s", name);
     std::fputc('\n', out);
     for (int i = 0; i < options.count; ++i) {
         measure(options, options.first + i, device, out);

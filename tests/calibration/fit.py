@@ -165,6 +165,14 @@ struct TimeModel {
     table("kHarrisDrawTime", "TimeModel", timed(("harris",), field("draw_ms"), (0, 2, 3, 4, 9)))
     table("kMarchLightTime", "TimeModel", timed(("transport", "single"), field("light_ms"), (0, 2, 5, 6, 12, 13)))
     table("kMarchDrawTime", "TimeModel", timed(("transport", "single"), field("draw_ms"), (0, 1, 2, 3, 4, 8, 9, 11, 13)))
+    def measured(rungs, keep):
+        rows = [r for r in times if r["rung"].startswith(rungs) and float(r["measure_ms"]) > 0.1]
+        kept = [[f if i in keep else 0.0 for i, f in enumerate(figures(r, "m_"))] for r in rows]
+        return nonnegative(kept, [float(r["measure_ms"]) for r in rows])
+    print("// Measuring the error (measuring_figures): of grids; of others, with the light of the coarsest grid.")
+    table("kMeasureGridTime", "TimeModel", measured(("transport",), (0, 1, 2, 3, 4, 8, 9, 11, 13)))
+    table("kMeasureOtherTime", "TimeModel",
+          measured(("additive", "harris", "single"), (0, 1, 2, 3, 4, 5, 6, 8, 9, 11, 12, 13)))
     table("kPathTime", "TimeModel", timed(("truth",), field("draw_ms"), (0, 2, 4, 7, 9)))
     print(END)
 
