@@ -72,9 +72,8 @@ using TimeFigures = std::array<double, kTimeFigureCount>;
 TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& survey,
                          std::uint32_t samples);
 
-// Of measuring the error of a rung's picture (core/climb.h), which is not rung truth: of one of the pictures of a sample
-// of blocks that are made for it, and of its light; of a rung without a grid that of the coarsest, which is solved for
-// it.
+// Of measuring the error of a picture (core/climb.h) of any rung but truth: of one of the pictures of a sample of
+// blocks that are made for it, and of its light; of a rung without a grid that of the coarsest, which is solved for it.
 TimeFigures measuring_figures(const Rung& rung, const Scene& scene, const Survey& survey);
 
 }  // namespace awan
