@@ -30,6 +30,15 @@ assert there == [70, 35, 15, 4750, 9203, 22116], there
 PY
 size=$(oiiotool --info bench.png 2>&1)
 contains "bench.png" "1120 x" "$size"
+# Ebert's chapter prints no times: ours stand alone, and a plot of nothing but them is a picture, too.
+run 0 bench --sources implicit -o bench.json -o bench.png
+contains "the table" "the chapter prints no times" "$(cat out)"
+python3 - <<'PY' || fail "bench.json of implicit clouds"
+import json
+figures = json.load(open("bench.json"))["figures"]
+assert len(figures) == 6 and all(f["here"] > 0 and "there" not in f for f in figures), figures
+PY
+contains "bench.png of implicit clouds" " x " "$(oiiotool --info bench.png 2>&1)"
 # Alone on standard output, where a program reads it.
 run 0 bench --sources spheres -o -
 same "JSON on standard output" "{" "$(head -c 1 out)"

@@ -217,7 +217,8 @@ Run add_bench(CLI::App& app) {
     CLI::App* bench = app.add_subcommand(
         "bench", "the figures of time that the source documents print, and this machine's");
     std::vector<std::string> words(std::begin(kBenchSourceWords), std::end(kBenchSourceWords));
-    add(*bench, "--sources", command->sources, "cubes, automaton, spheres, with commas; all")
+    add(*bench, "--sources", command->sources,
+        "cubes, automaton, spheres, implicit, with commas; all")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->check(CLI::IsMember(words));

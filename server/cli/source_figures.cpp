@@ -12,6 +12,7 @@
 #include "core/generate/generate.h"
 #include "core/light/machine_speed.h"
 #include "core/pipeline.h"
+#include "core/scene/implicit.h"
 #include "core/scene/spheres.h"
 #include "core/scene/validate.h"
 #include "core/sequence.h"
@@ -348,6 +349,54 @@ Status spheres(Bench& bench) {
     return std::nullopt;
 }
 
+// --- implicit clouds: particles, and a whole frame with its light and its stated error
+
+Status implicit_clouds(Bench& bench) {
+    struct Row {
+        ImplicitPreset preset;
+        const char* name;
+    };
+    for (const Row& row :
+         {Row{ImplicitPreset::kCumulus, "a cumulus"}, Row{ImplicitPreset::kCreature, "a creature"},
+          Row{ImplicitPreset::kCirrus, "cirrus"}}) {
+        SceneDraft draft;
+        draft.top_level_cubes = false;
+        Cloud& one = draft.clouds.emplace_back();
+        one.model = CloudModel::kImplicit;
+        auto cloud = std::make_shared<ImplicitCloud>();
+        cloud->preset = row.preset;
+        one.implicit = std::move(cloud);
+        draft.accuracy.rung = kFlightRung;
+        draft.image.width = 640;
+        draft.image.height = 480;
+        const auto scene = validate(std::move(draft));
+        if (!scene.ok()) return scene.error();
+        const auto take = [&](const std::string& what, const auto& run) -> Status {
+            bench.begin(what);
+            const auto ms = median_ms([&]() -> Status {
+                const auto made = run();
+                if (!made.ok()) return made.error();
+                return std::nullopt;
+            });
+            if (!ms.ok()) return ms.error();
+            bench.take(
+                {BenchSource::kImplicit, "", what, BenchUnit::kMilliseconds, std::nullopt, *ms});
+            return std::nullopt;
+        };
+        const std::string name = row.name;
+        if (Status failed = take(name + ", its particles", [&] {
+                return generate(*scene, bench.wish.threads, bench.deadline);
+            }))
+            return failed;
+        if (Status failed = take(name + ", 640 x 480, " + kFlightRung, [&] {
+                return render_scene(*scene, {nullptr, bench.wish.threads, nullptr, {}, bench.speed},
+                                    bench.deadline);
+            }))
+            return failed;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 const BenchDocument& document_of(BenchSource source) {
@@ -357,8 +406,9 @@ const BenchDocument& document_of(BenchSource source) {
          "1152 x 864 Athlon 1.4 GHz, GeForce MX"},
         {"Cellular automaton, texture splatting (Upchurch 2009)",
          "Core 2 Duo 2.4 GHz, GeForce GTX 260"},
-        {"Hierarchy of spheres, ray traced (Ostroushko et al. 2010)",
-         "Core 2 Duo E6600, one core"}};
+        {"Hierarchy of spheres, ray traced (Ostroushko et al. 2010)", "Core 2 Duo E6600, one core"},
+        {"Implicit functions and noise (Ebert et al. 2003, chapter 9)",
+         "the chapter prints no times"}};
     return kDocuments[static_cast<std::size_t>(source)];
 }
 
@@ -379,6 +429,9 @@ Status measure_figures(const BenchWish& wish, const std::function<void(const std
                 break;
             case BenchSource::kSpheres:
                 failed = spheres(bench);
+                break;
+            case BenchSource::kImplicit:
+                failed = implicit_clouds(bench);
                 break;
         }
         if (failed) return failed;
