@@ -319,18 +319,18 @@ Result<double> difference_to_picture(const Climb& climb, const Image& picture,
     // What stands behind is the same in both: with it, they differ by the cloud alone.
     Image with_behind = measured;
     if (climb.scene->image.background != Background::kTransparent) {
-        SceneDraft draft = *climb.measured;
-        draft.image.background = climb.scene->image.background;
-        const auto over_it = validate(std::move(draft));
-        if (!over_it.ok()) return over_it.error();
         // What hills send comes through the haze before them.
         if (climb.scene->haze && light.ground.relief) {
+            SceneDraft draft = *climb.measured;
+            draft.image.background = climb.scene->image.background;
+            const auto over_it = validate(std::move(draft));
+            if (!over_it.ok()) return over_it.error();
             auto drawn = picture_of(climb, *over_it, light, pictures);
             if (!drawn.ok()) return drawn.error();
             with_behind = *std::move(drawn);
         } else {
             lay_under(with_behind,
-                      make_backdrop(*over_it, climb.planned.survey.view, measured.width,
+                      make_backdrop(climb.measured, climb.planned.survey.view, measured.width,
                                     measured.height, light.ground, climb.tools.threads, nullptr,
                                     nullptr, blocks_with_alpha(measured)));
         }

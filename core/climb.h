@@ -50,8 +50,8 @@ Planned planned_for_grids(const Scene& scene, Planned planned, int threads);
 Result<Climbed> climb(const Scene& scene, const Planned& planned, const ClimbTools& tools,
                       const Deadline& deadline);
 
-// The error of a picture that was made without a grid: by how much it differs from that of the first grid that is much
-// nearer to the truth, the coarsest rung's at the latest, and how far off that one is.
+// The error of a picture that was made without a grid: by how much it differs from that of the first grid that is
+// expected to be much nearer to the truth, the coarsest rung's at the latest, and how far off that one is.
 // Errors: kOverDeadline, kCancelled.
 Result<double> error_of_picture(const Scene& scene, const Planned& planned, const Image& picture,
                                 const ClimbTools& tools, const Deadline& deadline);
