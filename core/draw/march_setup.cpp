@@ -177,12 +177,13 @@ void set_behind(const Scene& scene, const TransportLight& light, const MarchSett
     around.air = air_of(scene, view, light, settings, threads, took);
     if (around.air) march.air = &*around.air;
     const GroundLight& ground = light.ground;
-    // How hills are lit matters where they are seen; and where haze ends at them, how far away they are.
+    // How hills are lit matters where they are seen.
     if (ground.relief && (behind || has_peak) && wants_backdrop(scene, view)) {
         const auto start = Deadline::Clock::now();
         around.hills = relief_light(scene, ground, threads);
         took.of(Effect::kTerrain) += ms_since(start);
     }
+    // Where haze ends at hills, their distance matters, too.
     const bool ends_haze = ground.relief && march.air != nullptr;
     if ((behind || march.cut || ends_haze) && wants_backdrop(scene, view)) {
         const auto start = Deadline::Clock::now();

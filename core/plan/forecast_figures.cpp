@@ -260,7 +260,7 @@ TimeFigures time_figures(const Rung& rung, const Scene& scene, const Survey& sur
     return figures;
 }
 
-// Of one of the sampled blocks.
+// Of one of the sampled blocks (kBlockSide of draw/march_bins.h).
 constexpr double kBlockPixels = 16 * 16;
 
 TimeFigures measuring_figures(const Rung& rung, const Scene& scene, const Survey& survey) {
