@@ -1,6 +1,7 @@
 # Builds for 64-bit ARM on another machine:
 #   cmake --preset aarch64 -DAWAN_SYSROOT=FOLDER
-# FOLDER is a Debian of that architecture with the libraries of server/packages.txt; nothing in it is run while building.
+# FOLDER is a Debian of that architecture with the libraries of server/packages.txt. While building, qemu-aarch64 runs one small
+# program of ours that makes a table.
 # tests/farm/aarch64.sh makes one and says which packages.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)

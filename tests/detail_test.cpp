@@ -111,10 +111,30 @@ TEST(Detail, DependsOnTheSeedAndNotOnThreads) {
     EXPECT_EQ(*one.tile, *many.tile);
     EXPECT_NE(*one.tile, *other.tile);
     DetailTiles tiles;
-    EXPECT_EQ(*tiles.of(1, 1), *make_detail_tile(1, 1));
-    const DetailTile kept = tiles.of(1, 1);
-    for (std::uint64_t seed = 2; seed < 12; ++seed) EXPECT_NE(*tiles.of(seed, 2), *kept);
-    EXPECT_EQ(*tiles.of(1, 2), *kept);  // made again
+    EXPECT_EQ(*tiles.of(2, 1), *make_detail_tile(2, 1));
+    const DetailTile kept = tiles.of(2, 1);
+    for (std::uint64_t seed = 3; seed < 13; ++seed) EXPECT_NE(*tiles.of(seed, 2), *kept);
+    EXPECT_EQ(*tiles.of(2, 2), *kept);  // made again
+}
+
+TEST(Detail, TheShippedTileIsWhatWouldBeMade) {
+    EXPECT_EQ(kShippedTileSeed, SceneDraft().seed);
+    const std::vector<std::uint8_t> made = detail_tile_bytes(kShippedTileSeed, 2);
+    const std::span<const std::uint8_t> shipped = shipped_tile_bytes();
+    EXPECT_TRUE(std::equal(made.begin(), made.end(), shipped.begin(), shipped.end()));
+    // A word has the bytes of its neighbours, over the tile's ends too.
+    constexpr auto n = static_cast<std::size_t>(kDetailSide);
+    const DetailTile tile = make_detail_tile(kShippedTileSeed, 1);
+    ASSERT_EQ(tile->size(), n * n * (n + 1));
+    for (const std::size_t x : {std::size_t{0}, std::size_t{40}, n - 1})
+        for (const std::size_t y : {std::size_t{0}, std::size_t{41}, n - 1})
+            for (const std::size_t z : {std::size_t{0}, std::size_t{42}, n}) {
+                const auto byte = [&](std::size_t dx, std::size_t dy) {
+                    return std::uint32_t{made[(z % n * n + (y + dy) % n) * n + (x + dx) % n]};
+                };
+                EXPECT_EQ((*tile)[(z * n + y) * n + x],
+                          byte(0, 0) | byte(1, 0) << 8 | byte(0, 1) << 16 | byte(1, 1) << 24);
+            }
 }
 
 // Table 4.4 with detail.

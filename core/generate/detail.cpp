@@ -184,21 +184,6 @@ std::vector<std::uint8_t> ranks(const std::vector<float>& values) {
     return bytes;
 }
 
-std::vector<std::uint32_t> packed(const std::vector<std::uint8_t>& bytes) {
-    std::vector<std::uint32_t> words(kSide * kSide * (kSide + 1));
-    for (std::size_t z = 0; z <= kSide; ++z)
-        for (std::size_t y = 0; y < kSide; ++y)
-            for (std::size_t x = 0; x < kSide; ++x) {
-                const auto byte = [&](std::size_t dx, std::size_t dy) -> std::uint32_t {
-                    return bytes[((z % kSide) * kSide + (y + dy) % kSide) * kSide +
-                                 (x + dx) % kSide];
-                };
-                words[(z * kSide + y) * kSide + x] =
-                    byte(0, 0) | byte(1, 0) << 8 | byte(0, 1) << 16 | byte(1, 1) << 24;
-            }
-    return words;
-}
-
 // A rotation that lays no axis of the tile along one of the scene, since its repetition would show on flat bases.
 glm::dmat3 turned() {
     const glm::dvec3 x = glm::normalize(glm::dvec3(0.78, 0.41, -0.47));
@@ -230,7 +215,7 @@ float gathered_share(float v) {
     return 1 - (a + w) * (a + w) / (2 * w);
 }
 
-DetailTile make_detail_tile(std::uint64_t seed, int threads) {
+std::vector<std::uint8_t> detail_tile_bytes(std::uint64_t seed, int threads) {
     const std::uint64_t key = keyed(seed, 0xde7a11);
     const Warp warp(keyed(key, 100));
     std::vector<Bumps> octaves;
@@ -250,25 +235,7 @@ DetailTile make_detail_tile(std::uint64_t seed, int threads) {
             }
         }
     });
-    return std::make_shared<const std::vector<std::uint32_t>>(packed(ranks(values)));
-}
-
-DetailTile DetailTiles::of(std::uint64_t seed, int threads) {
-    {
-        const std::lock_guard lock(mutex_);
-        const auto at = std::find_if(entries_.begin(), entries_.end(),
-                                     [&](const Entry& entry) { return entry.seed == seed; });
-        if (at != entries_.end()) {
-            entries_.splice(entries_.begin(), entries_, at);
-            return at->tile;
-        }
-    }
-    // Outside the lock: two threads may make the same tile at once, and it is the same.
-    DetailTile tile = make_detail_tile(seed, threads);
-    const std::lock_guard lock(mutex_);
-    entries_.push_front({seed, tile});
-    if (entries_.size() > kKept) entries_.pop_back();
-    return tile;
+    return ranks(values);
 }
 
 DetailField make_detail(const DetailFigures& figures, double amount, double size, DetailTile tile) {

@@ -17,6 +17,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 namespace awan {
@@ -59,7 +60,16 @@ struct DetailFigures {
     glm::dvec3 origin{0};
 };
 
-// The tile of a seed, of nothing else. Takes about 200 ms of one core.
+// Whose tile is made when the program is built and kept in it (cmake/write_detail_tile.cpp): that of scenes without a
+// seed. Making one takes longer than all else of a small picture.
+inline constexpr std::uint64_t kShippedTileSeed = 1;
+
+// The bytes of a seed's tile, of nothing else: kDetailSide^3, x fastest. Takes about 50 ms of one core.
+std::vector<std::uint8_t> detail_tile_bytes(std::uint64_t seed, int threads);
+// Those of kShippedTileSeed, without making them.
+std::span<const std::uint8_t> shipped_tile_bytes();
+
+// The tile of a seed: the shipped one, or made.
 DetailTile make_detail_tile(std::uint64_t seed, int threads);
 
 // Keeps the tiles of the last few seeds, for other times and cameras of the same clouds. Thread-safe.
