@@ -74,6 +74,8 @@ run 2 render scene.json
 run 2 render -o a.png
 run 2 render scene.json -o a.png --colour red
 run 2 render scene.json -o a.png --width 0
+run 2 render scene.json -o a.png --size 64
+run 2 render scene.json -o a.png --size 64x48 --width 64
 contains "bad value" "width" "$(cat err)"
 run 2 render scene.json -o a.png --width many
 contains "bad value" "width" "$(cat err)"
@@ -256,6 +258,8 @@ same "PNG" "$(printf '\211PNG')" "$(head -c 4 a.png)"
 run 0 render scene.json -o b.PNG --threads 1 --software
 cmp -s a.png b.PNG || fail "a picture depends on the number of threads"
 run 0 render scene.json -o a.exr --width 20 --height 10
+run 0 render scene.json -o sized.exr --size 20x10
+cmp -s a.exr sized.exr || fail "--size is not --width with --height"
 contains "size" "20 x   10" "$(oiiotool --info a.exr)"
 for note in 'awan:rung: "harris"' "awan:error: 0." "awan:error_forecast: "; do
     contains "note in the EXR" "$note" "$(oiiotool --info -v a.exr)"

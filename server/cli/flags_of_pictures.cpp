@@ -23,16 +23,27 @@ void add_json(CLI::App& command, bool& json, const char* says) {
 }
 
 // "800x600".
-std::string take_size(const std::string& text, FlyCommand& command) {
+std::string take_size(const std::string& text, std::optional<int>& to_width,
+                      std::optional<int>& to_height) {
     int width = 0, height = 0, end = 0;
     const bool whole = std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &end) == 2 &&
                        static_cast<std::size_t>(end) == text.size();
     if (!whole || width < 1 || height < 1 || std::max(width, height) > limits::kMaxImageSide)
         return text + " is not WIDTHxHEIGHT, each from 1 to " +
                std::to_string(limits::kMaxImageSide);
-    command.width = width;
-    command.height = height;
+    to_width = width;
+    to_height = height;
     return {};
+}
+
+// Of a command with a picture's `width` and `height`. The check keeps the text that it is read to.
+template <typename Command>
+CLI::Option* add_size(CLI::App& app, const std::shared_ptr<Command>& command) {
+    auto text = std::make_shared<std::string>();
+    return add(app, "--size", *text, "WIDTHxHEIGHT in pixels, instead of the document's")
+        ->check([command, text](const std::string& given) {
+            return take_size(given, command->width, command->height);
+        });
 }
 
 }  // namespace
@@ -69,10 +80,12 @@ Run add_render(CLI::App& app) {
         ->envname("AWAN_PREVIEW");
     add(*render, "--fps", command->frames_per_second, "frames a second that an animation shows")
         ->check(CLI::Range(0.1, 1000.0));
-    add(*render, "--width", command->width, "pixels, instead of the document's")
-        ->check(CLI::Range(1, limits::kMaxImageSide));
-    add(*render, "--height", command->height, "pixels, instead of the document's")
-        ->check(CLI::Range(1, limits::kMaxImageSide));
+    CLI::Option* const size = add_size(*render, command);
+    for (const auto& [name, side] :
+         {std::pair{"--width", &command->width}, std::pair{"--height", &command->height}})
+        add(*render, name, *side, "pixels, instead of the document's")
+            ->check(CLI::Range(1, limits::kMaxImageSide))
+            ->excludes(size);
     add(*render, "--format", command->format,
         "png, png16 (16 bits a channel) or exr, instead of the document's; webp or apng for "
         "standard output")
@@ -111,7 +124,6 @@ Run add_render(CLI::App& app) {
 Run add_fly(CLI::App& app) {
     auto command = std::make_shared<FlyCommand>();
     command->threads = processors();
-    auto size = std::make_shared<std::string>();
     CLI::App* fly = app.add_subcommand(
         "fly", "a flight around clouds or through them: pictures, and a report of how it went");
     fly->add_option("scene", command->scenes,
@@ -129,8 +141,7 @@ Run add_fly(CLI::App& app) {
         ->check(CLI::IsMember({"thin", "medium", "thick"}));
     add(*fly, "--frames", command->frames, "how many; those of the document's sequence, else 48")
         ->check(CLI::Range(std::uint64_t{1}, limits::kMaxCameraKeys));
-    add(*fly, "--size", *size, "WIDTHxHEIGHT in pixels, instead of the document's")
-        ->check([command](const std::string& text) { return take_size(text, *command); });
+    add_size(*fly, command);
     add(*fly, "--fps", command->frames_per_second, "frames a second that an animation shows")
         ->check(CLI::Range(0.1, 1000.0));
     add(*fly, "--rung", command->rung,
@@ -166,7 +177,7 @@ Run add_fly(CLI::App& app) {
         "      --timeout 60 --report report.json -o frames/%04d.png\n"
         "  awan fly cumulus.json --path keys.json -o flight.json           to render later\n"
         "Camera keys are a list of {\"time\", \"eye\", \"target\", \"fov\"}, as sequence.camera.");
-    return [command, size] { return run_fly(*command); };
+    return [command] { return run_fly(*command); };
 }
 
 Run add_accuracy(CLI::App& app) {
