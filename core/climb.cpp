@@ -4,20 +4,15 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <list>
 #include <optional>
 #include <utility>
 
 #include "core/base/exact_math.h"
-#include "core/draw/backdrop.h"
-#include "core/draw/behind_peak.h"
-#include "core/draw/march_bins.h"
-#include "core/draw/picture_difference.h"
 #include "core/light/transport.h"
+#include "core/measured_pictures.h"
 #include "core/plan/island_settings.h"
 #include "core/plan/known_error.h"
 #include "core/plan/step_times.h"
-#include "core/scene/outside.h"
 #include "core/scene/validate.h"
 
 namespace awan {
@@ -63,15 +58,11 @@ struct Climb {
     const Planned& planned;
     const ClimbTools& tools;
     const Deadline& deadline;
-    Scene measured;                // as pictures that measure show it
-    TransportSettings settings;    // of the finest grid that may be reached
-    int blocks = kMeasuredBlocks;  // of pictures that measure
+    TransportSettings settings;  // of the finest grid that may be reached
 };
 
-Result<Climb> climb_to(int cells, const Scene& scene, const Planned& planned,
-                       const ClimbTools& tools, const Deadline& deadline) {
-    auto measured = for_measuring(scene);
-    if (!measured.ok()) return measured.error();
+Climb climb_to(int cells, const Scene& scene, const Planned& planned, const ClimbTools& tools,
+               const Deadline& deadline) {
     TransportSettings settings = planned.plan.transport;
     const Rung* const rung = rung_with(cells);
     if (settings.cells != cells && rung != nullptr) {
@@ -81,7 +72,7 @@ Result<Climb> climb_to(int cells, const Scene& scene, const Planned& planned,
         settings.last = own.last;
         settings.islands = island_cells(settings, planned.survey);
     }
-    return Climb{scene, planned, tools, deadline, *std::move(measured), std::move(settings)};
+    return {scene, planned, tools, deadline, std::move(settings)};
 }
 
 std::string key_of(const Climb& climb, const TransportSettings& settings) {
@@ -146,47 +137,6 @@ Status step(const Climb& climb, int cells, const Deadline& deadline, Climbed& re
     return std::nullopt;
 }
 
-// Pictures of lights that measure, each made once, and what all of them see.
-struct Pictures {
-    std::vector<SeenParticle> seen;
-    // Of the sky alone: a ground is lit by each light in its own way.
-    std::optional<BehindPeak> through_peak;
-    std::list<std::pair<const TransportLight*, Image>> made;
-};
-
-// A sample of the picture's blocks, the same ones of every light.
-Result<Image> picture_of(const Climb& climb, const Scene& scene, const TransportLight& light,
-                         Pictures& pictures) {
-    const ParticleSet& particles = climb.planned.particles;
-    const View& view = climb.planned.survey.view;
-    if (pictures.seen.empty())
-        pictures.seen = see_particles(particles, view, scene->image.width, scene->image.height,
-                                      climb.tools.threads);
-    MarchSettings settings;
-    settings.seen = &pictures.seen;
-    if (!scene->ground && light.sky && light.peak_share > 0 && outside_of(scene).sky.shines) {
-        if (!pictures.through_peak)
-            pictures.through_peak = behind_through_peak(
-                scene, view, scene->image.width, scene->image.height, light.ground,
-                {light.peak_from, light.peak_share}, true, false, climb.tools.threads);
-        settings.through_peak = &*pictures.through_peak;
-    }
-    settings.eye_effects = climb.planned.plan.eye_effects();
-    settings.one_ray = true;
-    settings.sampled_blocks = climb.blocks;
-    return march(scene, particles, view, light, settings, climb.tools.threads, climb.deadline);
-}
-
-Result<const Image*> measured_picture(const Climb& climb, const TransportLight& light,
-                                      Pictures& pictures) {
-    for (const auto& [of, picture] : pictures.made)
-        if (of == &light) return &picture;
-    auto made = picture_of(climb, climb.measured, light, pictures);
-    if (!made.ok()) return made.error();
-    pictures.made.emplace_back(&light, *std::move(made));
-    return &pictures.made.back().second;
-}
-
 // difference: of a transport rung's picture to the next coarser grid's.
 double stated_error(double difference, const Climb& climb, int cells) {
     const Planned& planned = climb.planned;
@@ -196,27 +146,21 @@ double stated_error(double difference, const Climb& climb, int cells) {
         planned.survey.model_error);
 }
 
-// Between the pictures of a light and of the next coarser grid's, which is there.
-Result<double> difference_to_coarser(const Climb& climb, const TransportLight& light,
-                                     Pictures& pictures) {
-    const auto own = measured_picture(climb, light, pictures);
-    if (!own.ok()) return own.error();
-    const auto before = measured_picture(climb, *light.coarser, pictures);
-    if (!before.ok()) return before.error();
-    return picture_difference(**before, **own);
+Result<MeasuredPictures> measured_pictures(const Climb& climb, int blocks) {
+    return MeasuredPictures::of(climb.scene, climb.planned, blocks, climb.tools.threads,
+                                climb.deadline);
 }
 
 // By how much grids differ, as far as it tells how far off the finest is: two can be near to each other by luck. Then
 // what the two before differ by says more, as errors fall about with the cells' side; but not of grids that are only
 // on the way to the coarsest rung, whose cells are too large for that. cells: of the finest.
-Result<double> difference_of(const Climb& climb, const TransportLight& light, int cells,
-                             Pictures& pictures) {
+Result<double> difference_of(const TransportLight& light, int cells, MeasuredPictures& pictures) {
     const std::vector<int> grids = nested_cells(cells);
     const TransportLight* finer = &light;
     double difference = 0, shrinks = 1;
     for (std::size_t i = grids.size(); i-- > 1 && i + 3 > grids.size() && finer->coarser;) {
         if (i + 1 < grids.size() && rung_with(grids[i]) == nullptr) break;
-        const auto one = difference_to_coarser(climb, *finer, pictures);
+        const auto one = pictures.difference(*finer->coarser, *finer);
         if (!one.ok()) return one.error();
         difference = std::max(difference, shrinks * *one);
         shrinks *= exact::pow(static_cast<double>(grids[i - 1]) / grids[i], kOrder);
@@ -248,9 +192,9 @@ const RungForecast* forecast_of(const Plan& plan, const Rung& rung) {
 }
 
 // States the error of the light that was reached, of a grid with so many cells.
-Status measure(const Climb& climb, int cells, Pictures& pictures, Climbed& reached) {
+Status measure(const Climb& climb, int cells, MeasuredPictures& pictures, Climbed& reached) {
     const auto start = Clock::now();
-    const auto difference = difference_of(climb, *reached.light, cells, pictures);
+    const auto difference = difference_of(*reached.light, cells, pictures);
     if (!difference.ok()) return difference.error();
     reached.stated = stated_error(*difference, climb, cells);
     const RungForecast* const expected =
@@ -269,73 +213,12 @@ double draw_ratio(const Climb& climb, const Rung& rung) {
     return expected.draw_ms * kMeasuringPictures / std::max(expected.measure_ms, 1e-3);
 }
 
-// `measured` plus what the pixels of `picture` that are nearest to its own have more than `with_behind`, a picture of
-// its size; of those in which it has something, as only these are compared.
-Image moved_by(const Image& measured, const Image& with_behind, const Image& picture) {
-    Image moved = measured;
-    const auto nearest = [](int at, int of, int from) {
-        return static_cast<std::size_t>(
-            std::min(static_cast<int>((at + 0.5) * from / of), from - 1));
-    };
-    std::size_t to = 0;
-    for (int y = 0; y < measured.height; ++y)
-        for (int x = 0; x < measured.width; ++x, ++to) {
-            if (!(measured.pixels[4 * to + 3] > 0)) continue;
-            const std::size_t from = nearest(y, measured.height, picture.height) *
-                                         static_cast<std::size_t>(picture.width) +
-                                     nearest(x, measured.width, picture.width);
-            for (std::size_t c = 0; c < 3; ++c)
-                moved.pixels[4 * to + c] +=
-                    picture.pixels[4 * from + c] - with_behind.pixels[4 * to + c];
-        }
-    return moved;
-}
-
 // So many milliseconds from now, or the end of time.
 Clock::time_point in_ms(double ms) {
     constexpr double kLong = 1e9;
     if (!(ms < kLong)) return Clock::time_point::max();
     return Clock::now() + std::chrono::duration_cast<Clock::duration>(
                               std::chrono::duration<double, std::milli>(ms));
-}
-
-// Blocks in which there is something to see: 1 for each, row by row.
-std::vector<std::uint8_t> blocks_with_alpha(const Image& image) {
-    const auto across = static_cast<std::size_t>(blocks_in(image.width));
-    std::vector<std::uint8_t> blocks(across * static_cast<std::size_t>(blocks_in(image.height)));
-    const auto width = static_cast<std::size_t>(image.width);
-    for (std::size_t i = 0; i < image.pixel_count(); ++i)
-        if (image.pixels[4 * i + 3] > 0)
-            blocks[i / width / kBlockSide * across + i % width / kBlockSide] = 1;
-    return blocks;
-}
-
-// By how much a picture that was made without a grid differs from that of a grid's light.
-Result<double> difference_to_picture(const Climb& climb, const Image& picture,
-                                     const TransportLight& light, Pictures& pictures) {
-    const auto own = measured_picture(climb, light, pictures);
-    if (!own.ok()) return own.error();
-    const Image& measured = **own;
-    // What stands behind is the same in both: with it, they differ by the cloud alone.
-    Image with_behind = measured;
-    if (climb.scene->image.background != Background::kTransparent) {
-        // What hills send comes through the haze before them.
-        if (climb.scene->haze && light.ground.relief) {
-            SceneDraft draft = *climb.measured;
-            draft.image.background = climb.scene->image.background;
-            const auto over_it = validate(std::move(draft));
-            if (!over_it.ok()) return over_it.error();
-            auto drawn = picture_of(climb, *over_it, light, pictures);
-            if (!drawn.ok()) return drawn.error();
-            with_behind = *std::move(drawn);
-        } else {
-            lay_under(with_behind,
-                      make_backdrop(climb.measured, climb.planned.survey.view, measured.width,
-                                    measured.height, light.ground, climb.tools.threads, nullptr,
-                                    nullptr, blocks_with_alpha(measured)));
-        }
-    }
-    return picture_difference(moved_by(measured, with_behind, picture), measured);
 }
 
 // As many of the grids as there is time for; the coarsest rung in any case. The error is measured if that fits too.
@@ -345,7 +228,8 @@ Status climb_in_time(const Climb& climb, const std::vector<int>& grids, Climbed&
     const double planned_ms = climb.planned.times.generate_ms + climb.planned.times.survey_ms;
     StepTimes steps(plan.forecasts);
     TimeSpent time{*climb.scene->accuracy.time_ms, 0, plan.predicted.draw_ms, 0};
-    Pictures pictures;
+    auto pictures = measured_pictures(climb, kMeasuredBlocks);
+    if (!pictures.ok()) return pictures.error();
     SharedLight first;  // of the coarsest rung
     int reached_cells = 0;
     reached.stated = std::numeric_limits<double>::quiet_NaN();
@@ -380,16 +264,16 @@ Status climb_in_time(const Climb& climb, const std::vector<int>& grids, Climbed&
         if (climb.planned.is_preview || !time.is_left_to_measure()) return std::nullopt;
         // Its pictures tell what drawing will take, and measuring again.
         const auto measuring = Clock::now();
-        if (Status wrong = measure(climb, cells, pictures, reached)) return wrong;
+        if (Status wrong = measure(climb, cells, *pictures, reached)) return wrong;
         time.measure = ms_since(measuring);
-        time.draw = time.measure / static_cast<double>(pictures.made.size()) *
-                    draw_ratio(climb, *reached.rung);
+        time.draw =
+            time.measure / static_cast<double>(pictures->made()) * draw_ratio(climb, *reached.rung);
     }
     if (reached.light == first) return std::nullopt;
     reached.stated = std::numeric_limits<double>::quiet_NaN();
     time.spent = planned_ms + ms_since(begun);
     if (!time.is_left_to_measure()) return std::nullopt;
-    return measure(climb, reached_cells, pictures, reached);
+    return measure(climb, reached_cells, *pictures, reached);
 }
 
 }  // namespace
@@ -434,56 +318,55 @@ Result<Climbed> climb(const Scene& scene, const Planned& planned, const ClimbToo
     const bool by_name = planned.rung_is_settled;
     const int planned_cells = planned.plan.transport.cells;
     const int most = by_name || planned_cells == 0 ? planned_cells : grids_of_ladder().finest;
-    auto begun = climb_to(most, scene, planned, tools, deadline);
-    if (!begun.ok()) return begun.error();
+    const Climb begun = climb_to(most, scene, planned, tools, deadline);
     Climbed reached;
     if (!by_name && scene->accuracy.time_ms && most > 0) {
-        if (Status failed = climb_in_time(*begun, nested_cells(most), reached)) return *failed;
+        if (Status failed = climb_in_time(begun, nested_cells(most), reached)) return *failed;
         return reached;
     }
-    Pictures pictures;
+    auto pictures = measured_pictures(begun, kMeasuredBlocks);
+    if (!pictures.ok()) return pictures.error();
     if (by_name && planned.is_unmeasured) {
         reached.stated = std::numeric_limits<double>::quiet_NaN();
         // What is kept needs none of the grids on the way, which may not all have had room beside it.
-        if (SharedLight light = kept_light(*begun, most)) {
+        if (SharedLight light = kept_light(begun, most)) {
             reached.light = std::move(light);
             reached.rung = rung_with(most);
             return reached;
         }
     }
     for (const int cells : nested_cells(most)) {
-        if (Status failed = step(*begun, cells, deadline, reached)) return *failed;
+        if (Status failed = step(begun, cells, deadline, reached)) return *failed;
         // Grids that are only on the way are too coarse to show.
         if (reached.rung == nullptr || (by_name && (cells != most || planned.is_unmeasured)))
             continue;
-        if (Status failed = measure(*begun, cells, pictures, reached)) return *failed;
+        if (Status failed = measure(begun, cells, *pictures, reached)) return *failed;
         if (holds(reached.stated, scene)) break;
     }
-    if (by_name && planned.is_unmeasured) keep_alone(*begun, most, reached.light);
+    if (by_name && planned.is_unmeasured) keep_alone(begun, most, reached.light);
     return reached;
 }
 
 Result<double> error_of_picture(const Scene& scene, const Planned& planned, const Image& picture,
                                 const ClimbTools& tools, const Deadline& deadline) {
     const int coarsest = grids_of_ladder().coarsest;
-    auto begun = climb_to(coarsest, scene, planned, tools, deadline);
-    if (!begun.ok()) return begun.error();
-    begun->blocks = kMeasuredBlocksWithoutGrid;
+    const Climb begun = climb_to(coarsest, scene, planned, tools, deadline);
     const RungForecast* const forecast = forecast_of(planned.plan, *rung_with(coarsest));
     const double of_coarsest = forecast != nullptr && forecast->error > 0
                                    ? forecast->error
                                    : std::numeric_limits<double>::infinity();
-    Pictures pictures;
+    auto pictures = measured_pictures(begun, kMeasuredBlocksWithoutGrid);
+    if (!pictures.ok()) return pictures.error();
     Climbed reached;
     for (const int cells : nested_cells(coarsest)) {
-        if (Status failed = step(*begun, cells, deadline, reached)) return *failed;
+        if (Status failed = step(begun, cells, deadline, reached)) return *failed;
         const TransportLight& light = *reached.light;
         const bool is_last = cells == coarsest;
         const double expected =
             of_coarsest * exact::pow(static_cast<double>(coarsest) / cells, kOrder);
         // Where the picture is far off, how far off the grid is matters little.
         if (!is_last && expected > kMuchLess * planned.plan.predicted.error) continue;
-        const auto difference = difference_to_picture(*begun, picture, light, pictures);
+        const auto difference = pictures->difference(picture, light);
         if (!difference.ok()) return difference.error();
         const auto stated = [&](double grid_and_model) {
             return kErrorOfPicture * exact::hypot(*difference, grid_and_model);
@@ -492,7 +375,7 @@ Result<double> error_of_picture(const Scene& scene, const Planned& planned, cons
         if (expected < (is_last ? kForecastWillDo : kMuchLess) * *difference)
             return stated(expected);
         if (!is_last) continue;
-        if (Status failed = measure(*begun, cells, pictures, reached)) return *failed;
+        if (Status failed = measure(begun, cells, *pictures, reached)) return *failed;
         return stated(reached.stated);
     }
     return std::numeric_limits<double>::quiet_NaN();  // never: the coarsest rung is among the grids

@@ -25,6 +25,7 @@ ORDER = [
     ["core/truth"],
     ["core/formats"],
     ["core/planning"],
+    ["core/measured_pictures"],
     ["core/climb"],
     ["core/sequence"],
     ["core/flight_impostors", "core/flight_path", "core/impostor", "core/lit_particles"],
