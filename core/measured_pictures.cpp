@@ -68,6 +68,7 @@ Result<Image> MeasuredPictures::draw(const Scene& scene, const TransportLight& l
     }
     settings.eye_effects = planned_->plan.eye_effects();
     settings.one_ray = true;
+    settings.same_fineness = &fineness_;
     settings.sampled_blocks = blocks_;
     return march(scene, particles, view, light, settings, threads_, *deadline_);
 }

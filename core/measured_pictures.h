@@ -8,6 +8,7 @@
 
 #include "core/base/image.h"
 #include "core/draw/behind_peak.h"
+#include "core/draw/march.h"
 #include "core/draw/march_bins.h"
 #include "core/planning.h"
 
@@ -51,6 +52,7 @@ class MeasuredPictures {
     const Deadline* deadline_;
     int blocks_, threads_;
     std::vector<SeenParticle> seen_;
+    MarchFinenesses fineness_;  // of all of them
     // Of the sky alone: a ground is lit by each light in its own way.
     std::optional<BehindPeak> through_peak_;
     std::list<std::pair<const TransportLight*, Image>> made_;

@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "core/base/morton.h"
 #include "core/draw/backdrop.h"
 #include "core/draw/march_bins.h"
 #include "core/draw/picture_difference.h"
+#include "core/generate/detail.h"
 #include "tests/march_lights.h"
 
 namespace awan {
@@ -68,6 +70,33 @@ TEST(MarchSample, HasThePicturesOwnBlocks) {
             ASSERT_EQ(is.a, is_wanted ? all.a : 0) << x << ' ' << y;
         }
     EXPECT_GT(seen, 1000);
+}
+
+// Light that is the same everywhere, on other grids: other steps meet other places in the matter.
+TEST(MarchSample, PicturesThatShareTheirFinenessDifferByTheirLightAlone) {
+    test::Stage stage = two_clouds();
+    stage.particles.detail = std::make_shared<const DetailField>(
+        make_detail({2, 1, {0, 0, 0}}, 1, 4, make_detail_tile(1, 1)));
+    const auto constant = [](glm::dvec3) { return 2.0; };
+    const TransportLight coarse = test::grid_light(stage.scene, stage.particles, 14, 1, constant),
+                         fine = test::grid_light(stage.scene, stage.particles, 24, 1, constant);
+    MarchFinenesses shared;
+    MarchSettings settings;
+    settings.one_ray = true;
+    const Image own_of_coarse = test::marched(stage, coarse, 2, settings),
+                own_of_fine = test::marched(stage, fine, 2, settings);
+    settings.same_fineness = &shared;
+    const Image of_coarse = test::marched(stage, coarse, 2, settings);
+    EXPECT_EQ(of_coarse.pixels, own_of_coarse.pixels);
+    ASSERT_EQ(shared.size(), 1u);  // there are no islands
+    const double step = shared.front().step;
+    const Image of_fine = test::marched(stage, fine, 2, settings);
+    EXPECT_EQ(shared.front().step, step);
+    const double by_light = picture_difference(of_coarse, of_fine),
+                 by_steps = picture_difference(own_of_coarse, own_of_fine);
+    EXPECT_LT(by_light, 1e-5);
+    EXPECT_GT(by_steps, 20 * by_light);
+    EXPECT_GT(by_steps, 0.002);
 }
 
 TEST(MarchSample, IsSpreadOverAllThatThereIs) {

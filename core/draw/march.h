@@ -14,6 +14,13 @@ namespace awan {
 struct BehindPeak;    // behind_peak.h
 struct SeenParticle;  // march_bins.h
 
+// How finely a picture is marched: its longest step and the widest gap between rays along which light is looked up,
+// scene units; outside of islands first, then in each lit one. EMPTY: not settled.
+struct MarchFineness {
+    double step, apart;
+};
+using MarchFinenesses = std::vector<MarchFineness>;
+
 struct MarchSettings {
     // About how much the steps may cost, as a share of a pixel's radiance.
     double step_error = 0.01;
@@ -27,6 +34,9 @@ struct MarchSettings {
     const std::vector<SeenParticle>* seen = nullptr;
     // What behind_through_peak (behind_peak.h) finds there; null: it is found out.
     const BehindPeak* through_peak = nullptr;
+    // Of pictures of different lights that are compared: where it is empty it takes what this picture has, else this
+    // one has that. Other steps meet other places in lumps, by which pictures differ more than by their lights.
+    MarchFinenesses* same_fineness = nullptr;
 };
 
 // The sun's light and the sky's, each as the matter scatters it exactly once (core/light/once_scattered.h).

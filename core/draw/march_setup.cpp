@@ -167,6 +167,20 @@ MarchScene march_scene(const Scene& scene, const View& view, const TransportLigh
     return march;
 }
 
+void share_fineness(MarchFinenesses& shared, MarchScene& march) {
+    if (shared.empty()) {
+        shared.push_back({march.step, march.apart});
+        for (const SeenIsland& island : march.islands)
+            shared.push_back({island.step, island.apart});
+    }
+    march.step = shared.front().step;
+    march.apart = shared.front().apart;
+    for (std::size_t i = 0; i < march.islands.size() && i + 1 < shared.size(); ++i) {
+        march.islands[i].step = shared[i + 1].step;
+        march.islands[i].apart = shared[i + 1].apart;
+    }
+}
+
 void set_behind(const Scene& scene, const TransportLight& light, const MarchSettings& settings,
                 int width, int height, int threads, EffectTimes& took, MarchBehind& around,
                 MarchScene& march) {

@@ -21,6 +21,9 @@ MarchScene march_scene(const Scene& scene, const View& view, const TransportLigh
                        double step_error, int threads, std::span<const std::uint8_t> islands = {},
                        int width = 0, int height = 0);
 
+// As MarchSettings::same_fineness.
+void share_fineness(MarchFinenesses& shared, MarchScene& march);
+
 // What a MarchScene refers to beside light and matter.
 struct MarchBehind {
     std::optional<Air> air;

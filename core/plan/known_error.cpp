@@ -27,7 +27,7 @@ constexpr double kTurn = 0.47, kMostLeaving = 5;
 // more of it in deep matter, where a cell of the sun's lattice is several mean free paths, in proportion to the square
 // of depths up to kDeep, and where the sun shines through their edges, times the cosine squared between it and the
 // view.
-constexpr double kDetailError = 0.028, kDeepDetailError = 0.26, kDeep = 800,
+constexpr double kDetailError = 0.021, kDeepDetailError = 0.26, kDeep = 800,
                  kBacklitDetailError = 0.03;
 // Of what is far below a pixel, times its share of the matter (Survey::sub_pixel).
 constexpr double kSubPixelError = 0.01;
