@@ -34,8 +34,9 @@ export function createFigures(store) {
     // Effects are parts of the stages.
     const ofEffects = new Map(timing.filter(({ name }) => effects?.includes(name)).map(({ name, ms }) => [name, ms]));
     const ofStages = timing.filter(({ name }) => !ofEffects.has(name));
-    const effect = (name) => words(name) + (ofEffects.has(name) ? ` (${milliseconds(ofEffects.get(name))})` : "");
-    if (effects !== null) byId("effects").textContent = effects.map(effect).join(", ") || "none";
+    if (effects !== null) byId("effects").textContent = effects.map(words).join(", ") || "none";
+    byId("timing-effects").textContent = ofEffects.size === 0 ? ""
+      : `For effects, of that: ${[...ofEffects].map(([name, ms]) => `${words(name)} ${milliseconds(ms)}`).join(", ")}`;
     byId("pixels").textContent = `${width} × ${height}`;
     byId("total").textContent = milliseconds(roundTripMs);
     const expected = errorForecast === null ? "" : ` (${percent(Number(errorForecast))} expected)`;

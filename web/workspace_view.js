@@ -139,6 +139,8 @@ export function createView(canvas, told) {
   let grid = null;
   let items = [];
   let detail = 1; // share of the screen's pixels along a side that sprites are drawn with
+  const isSoftware = drawsInSoftware(renderer.getContext());
+  let flying = false;
   let home = { center: [0, 0, 0], radius: 5 }; // what is looked at: the grid lies under it, the dome stands around it
   const handle = new Object3D();
   const gizmo = new TransformControls(camera, canvas);
@@ -148,10 +150,18 @@ export function createView(canvas, told) {
   let asked = 0;
   function render() {
     asked = 0;
-    sprites.draw(renderer, camera, detail);
+    sprites.draw(renderer, camera, isWholeSmall() ? 1 : detail);
     renderer.render(scene, camera);
   }
   const draw = () => { asked ||= requestAnimationFrame(render); };
+  // In a flight there is nothing but sprites: without a GPU, all of the canvas has as few pixels as these, for every pixel of
+  // it is work, and again when the browser puts the page together.
+  const isWholeSmall = () => flying && isSoftware;
+  function resize() {
+    renderer.setPixelRatio(isWholeSmall() ? detail : Math.min(2, window.devicePixelRatio));
+    renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
+    draw();
+  }
 
   // --- the gizmo ---
 
@@ -253,11 +263,7 @@ export function createView(canvas, told) {
   }
 
   return {
-    resize() {
-      renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
-      renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
-      draw();
-    },
+    resize,
     camera({ eye, target, up, fov, aspect }) {
       Object.assign(camera, { fov, aspect });
       camera.position.set(...eye);
@@ -295,7 +301,8 @@ export function createView(canvas, told) {
     // Nobody takes hold of anything in a flight.
     flies(yes) {
       for (const one of [wires.object, axes, dome.group, gizmo.getHelper(), ...(grid ? [grid] : [])]) one.visible = !yes;
-      draw();
+      flying = yes;
+      resize();
     },
     items(list) {
       items = list;
@@ -355,11 +362,12 @@ export function createView(canvas, told) {
       sprites.gain(value);
       draw();
     },
-    isSoftware: drawsInSoftware(renderer.getContext()),
+    isSoftware,
     detail(share) {
       if (share === detail) return;
       detail = share;
-      draw();
+      if (isWholeSmall()) resize();
+      else draw();
     },
     spritesAt(opacity) {
       sprites.setOpacity(opacity);
