@@ -25,6 +25,12 @@ const tests = {
     assert.match(await page.textContent("#rung"), /\w/);
     assert.match(await page.textContent("#effects"), /self shadow/);
     assert.match(await page.textContent("#timing"), /light .* ms/);
+    // What a person cares for first; figures for those who ask.
+    assert.match(await page.textContent("#in-short"), /^[\d,]+ particles, (made in [\d.]+ m?s|kept from before), about [\d.]+ % from the truth$/);
+    assert.equal(await page.isVisible("#rung"), false);
+    await page.click("#engineering summary");
+    assert.equal(await page.isVisible("#rung"), true);
+    await page.click("#engineering summary");
     await choose(page, "cumulus"); // 615 particles in 23 cubes; what follows counts them
     assert.equal(await particles(page), 615);
     await group(page, "Picture").locator("summary").click();
@@ -331,6 +337,8 @@ const tests = {
     const shown = () => panel.locator(".field").evaluateAll((fields) => fields.filter((f) => !f.hidden).map((f) => f.dataset.pointer));
     assert.deepEqual(await shown(), ["/accuracy", "/accuracy/error"]);
     await page.waitForFunction(() => /predicted: error .* %, time/.test(document.querySelector("#predicted").textContent));
+    assert.match(await page.textContent("#expected"), /^Expected: about [\d.]+ % from the truth, in [\d.]+ m?s\.$/);
+    assert.equal(await page.isVisible("#predicted"), false);
     const scene = async (change) => { // small: this is about the controls
       const json = group(page, "JSON");
       if (!(await json.evaluate((details) => details.open))) await json.locator("summary").click();

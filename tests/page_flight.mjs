@@ -195,6 +195,28 @@ const tests = {
     assert.equal(skiesAsked, 2);
   },
 
+  async "shows nothing to take hold of on the way"(page) {
+    const middle = async () => {
+      await settled(page);
+      await page.waitForFunction(() => !document.querySelector("#stage.sprites") && document.querySelector("#mark").textContent === "");
+      await page.waitForTimeout(600); // notes and marks fade
+      const { x, y, width, height } = await page.locator("#stage").boundingBox();
+      const clip = { x: x + width / 4, y: y + height / 4, width: width / 2, height: height / 2 };
+      return (await look(page, (await page.screenshot({ clip })).toString("base64"))).hash;
+    };
+    const outline = page.locator("#shape select[multiple]");
+    await outline.selectOption([]);
+    const without = await middle();
+    await outline.selectOption({ index: 1 });
+    assert.equal(await middle(), without);
+    await button(page, "Leave").click();
+    assert.notEqual(await middle(), without, "it is there again");
+    await takeOff(page);
+    assert.equal(await middle(), without);
+    await outline.selectOption([]);
+    await page.locator("#stage").focus();
+  },
+
   async "turns, looks, changes speed and goes around, by keys, pointer and wheel"(page) {
     let { camera } = await json(page);
     await hold(page, "ArrowRight", 200);

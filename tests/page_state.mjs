@@ -64,16 +64,30 @@ const tests = {
     await settled(page);
   },
 
-  async "opens the last draft in a new tab, and forgets one that is dropped"(page) {
+  async "opens the last draft in a new tab, forgets one that is dropped, and takes it back"(page) {
     const other = await context.newPage();
     await other.goto(origin);
     await settled(other);
     assert.equal(await elevation(other).inputValue(), "13");
     await button(other, "Drafts").click();
     await other.locator(".drafts .delete").first().waitFor();
-    const before = await other.locator(".drafts li").count();
-    await other.locator(".drafts .delete").first().click();
-    await other.waitForFunction((n) => document.querySelectorAll(".drafts li").length < n, before);
+    const names = () => other.$$eval(".drafts li:has(.delete) strong", (all) => all.map((one) => one.textContent));
+    const left = (n) => other.waitForFunction((count) => document.querySelectorAll(".drafts .delete").length === count, n);
+    const before = await names();
+    const forget = async () => {
+      await other.locator(".drafts .delete").first().click();
+      await left(before.length - 1);
+    };
+    await forget();
+    await other.getByRole("button", { name: /^Take it back/ }).click();
+    await left(before.length);
+    assert.deepEqual(await names(), before);
+    assert.equal(await other.getByRole("button", { name: /^Take it back/ }).count(), 0);
+    await forget();
+    await button(other, "Close").click();
+    await button(other, "Drafts").click();
+    await left(before.length - 1);
+    assert.equal(await other.getByRole("button", { name: /^Take it back/ }).count(), 0, "for as long as the list is open");
     await other.close();
     await page.bringToFront();
   },

@@ -383,6 +383,134 @@ const tests = {
     assert.equal(await page.textContent("#alert"), "");
   },
 
+  async "finds the angles of every rotation, in every order of the axes"(page) {
+    const worst = await page.evaluate(async () => {
+      const { anglesOf, ofAngles } = await import("/rotation.js");
+      const orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+      let [state, found] = [7, 0];
+      const next = () => {
+        state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+        return 360 * (state / 2 ** 32) - 180;
+      };
+      for (const order of orders) {
+        for (let i = 0; i < 60; i += 1) {
+          const given = i % 3 ? [next(), next(), next()] : [next(), next(), next()].map((degrees) => 90 * Math.round(degrees / 90)); // two axes in one
+          const [one, other] = [ofAngles(given, order), ofAngles(anglesOf(ofAngles(given, order), order), order)];
+          found = Math.max(found, ...one.flatMap((row, r) => row.map((x, c) => Math.abs(x - other[r][c]))));
+        }
+      }
+      return found;
+    });
+    assert.ok(worst < 1e-9, `${worst} apart`);
+  },
+
+  async "turns ellipsoids and primitives about each of their axes, by the gizmo and by numbers"(page) {
+    const text = page.locator("#json");
+    const shape = page.locator("#shape");
+    // What the contract says of the angles, by code of its own: a direction of the shape's, in the scene.
+    const swung = (v, axis, degrees) => {
+      const [a, b] = [(axis + 1) % 3, (axis + 2) % 3];
+      const [c, s] = [Math.cos((degrees * Math.PI) / 180), Math.sin((degrees * Math.PI) / 180)];
+      const next = [...v];
+      [next[a], next[b]] = [c * v[a] - s * v[b], s * v[a] + c * v[b]];
+      return next;
+    };
+    const kHalf = 180; // the cloud's own turn
+    const ways = {
+      ellipsoids: {
+        list: "ellipsoids/ellipsoids", of: (scene) => scene.clouds[0].ellipsoids.ellipsoids[0],
+        axis: (part, v) => swung(swung(swung(swung(v, 2, part.rotate_z ?? 0), 0, part.rotate_x ?? 0), 1, part.rotate_y ?? 0), 1, kHalf),
+        cloud: { resolution: 32, ellipsoids: [{ center: [-3, 0, 0], radii: [2.4, 1, 0.6], rotate_z: 25 }] },
+      },
+      implicit: {
+        list: "implicit/primitives", of: (scene) => scene.clouds[0].implicit.primitives[0],
+        axis: (part, v) => swung([0, 1, 2].reduce((now, axis) => swung(now, axis, (part.rotate ?? [0, 0, 0])[axis]), v), 1, kHalf),
+        cloud: { resolution: 32, primitives: [{ shape: "ellipsoid", center: [-3, 0, 0], radius: 2, radii: [1.2, 0.5, 0.3], rotate: [0, 0, 25] }] },
+      },
+    };
+    const X = [1, 0, 0], Z = [0, 0, 1];
+    const kRing = 0.0692 * kDistance; // the gizmo's, as three.js draws it
+    for (const [model, { list, of, axis, cloud }] of Object.entries(ways)) {
+      await text.fill(JSON.stringify({ ...SCENE, cubes: undefined, clouds: [{ model, [model]: cloud, rotate_y: kHalf }] }));
+      await text.blur();
+      await clickAt(page, [3, 0, 0]);
+      assert.deepEqual(await selected(page), [`/clouds/0/${list}/0`]);
+      const before = of(await json(page));
+      await page.locator("#stage").focus();
+      await page.keyboard.press("e");
+      const at = 3 + kRing * Math.SQRT1_2;
+      await drag(page, await pixel(page, [at, kRing * Math.SQRT1_2, 0]), await pixel(page, [at - 1, kRing * Math.SQRT1_2 + 1, 0]));
+      const turned = of(await json(page));
+      near(axis(turned, Z), axis(before, Z), 1e-4, `${model}: about its z axis`);
+      const cosine = axis(turned, X).reduce((sum, x, i) => sum + x * axis(before, X)[i], 0);
+      assert.ok(cosine < 0.98, `${model}: turned, by ${cosine}`);
+      near(turned.center, before.center, 1e-5, `${model}: about its middle`);
+      assert.deepEqual([turned.radii, turned.radius], [before.radii, before.radius]);
+      assert.equal((await json(page)).clouds[0].rotate_y, kHalf, "the cloud stays");
+      await page.keyboard.press("Control+z");
+      assert.deepEqual(of(await json(page)), before);
+      for (const [i, degrees] of [[0, 40], [1, -30], [2, 10]]) await shape.getByLabel(`Turned, °, ${"xyz"[i]}`, { exact: true }).fill(String(degrees));
+      const said = of(await json(page));
+      assert.deepEqual(model === "implicit" ? said.rotate : [said.rotate_x, said.rotate_y, said.rotate_z], [40, -30, 10]);
+      await page.locator("#stage").focus();
+      await page.keyboard.press("w");
+    }
+    await text.fill(JSON.stringify(SCENE));
+    await text.blur();
+    await clickAt(page, [0, 0, 1]);
+    assert.equal(await shape.getByLabel("Turned, °, y", { exact: true }).isVisible(), false, "a cube stands along its cloud's axes");
+    await page.locator("#shape select[multiple]").selectOption("/clouds/0");
+    await shape.getByLabel("Turned, °, y", { exact: true }).fill("30");
+    assert.equal((await json(page)).clouds[0].rotate_y, 30);
+    assert.equal(await shape.getByLabel("Turned, °, x", { exact: true }).isDisabled(), true);
+    assert.equal(await page.textContent("#alert"), "");
+  },
+
+  async "has wires along the axes that a shape has"(page) {
+    const found = await page.evaluate(async () => {
+      const { itemsOf } = await import("/workspace_items.js");
+      const scene = { clouds: [
+        { model: "ellipsoids", rotate_y: 90, ellipsoids: { ellipsoids: [{ center: [1, 2, 3], radii: [4, 1, 1], rotate_z: 90 }], formations: [{ heading: 40 }] } },
+        { model: "implicit", implicit: { primitives: [{ shape: "cylinder", radius: 1, points: [[0, 0, -3], [0, 0, 3]], rotate: [90, 0, 0], keys: [{ time: 1, center: [0, 0, 0], rotate: [0, 90, 0] }] },
+          { shape: "sphere", radius: 1, rotate: [9, 9, 9] }] } },
+      ] };
+      return itemsOf(scene).map(({ label, half, axes, angles, whole }) => [label, whole ? [] : half.map((h, i) => axes.map((row) => Math.round(1e6 * row[i] * h) / 1e6 + 0)), angles]);
+    });
+    assert.deepEqual(found, [
+      ["cloud 1: ellipsoids", [], [null, 90, null]],
+      ["ellipsoid 1", [[0, 4, 0], [0, 0, 1], [1, 0, 0]], [0, 0, 90]],
+      ["formation 1", [[0, 0, -3], [0, 2, 0], [3, 0, 0]], [null, 40, null]],
+      ["cloud 2: implicit functions", [], [null, 0, null]],
+      ["primitive 1", [[1, 0, 0], [0, 0, 1], [0, -4, 0]], [90, 0, 0]],
+      ["primitive 2", [[1, 0, 0], [0, 1, 0], [0, 0, 1]], null],
+      ["primitive 1, key 1", [[0, 0, -1], [0, 1, 0], [4, 0, 0]], [0, 90, 0]],
+    ]);
+  },
+
+  async "lists the clouds of a sky, and the parts of the one at hand"(page) {
+    const text = page.locator("#json");
+    const scene = { ...SCENE, cubes: undefined, clouds: Array.from({ length: 60 }, (_unused, i) => ({
+      model: "cubes", translate: [3 * (i % 10), 0, 3 * Math.floor(i / 10)], cubes: Array.from({ length: 10 }, () => SCENE.cubes[1]),
+    })) };
+    await text.fill(JSON.stringify(scene));
+    await text.blur();
+    const outline = page.locator("#shape select[multiple]");
+    const lines = () => outline.locator("option").evaluateAll((all) => all.map((one) => one.value));
+    await outline.selectOption("/clouds/58");
+    const all = await lines();
+    assert.equal(all.length, 70);
+    assert.deepEqual(all.slice(57, 61), ["/clouds/57", "/clouds/58", "/clouds/58/cubes/0", "/clouds/58/cubes/1"]);
+    assert.match(await page.textContent("#shape"), /590 more/);
+    await outline.focus();
+    await page.keyboard.press("ArrowDown");
+    assert.deepEqual(await selected(page), ["/clouds/58/cubes/0"]);
+    for (let i = 0; i < 10; i += 1) await page.keyboard.press("ArrowDown");
+    assert.deepEqual(await selected(page), ["/clouds/59"], "by keyboard, past the end of its parts");
+    assert.equal((await lines())[60], "/clouds/59/cubes/0");
+    await text.fill(JSON.stringify(SCENE));
+    await text.blur();
+  },
+
   async "takes hold of parcels, which are in cells, and of keys"(page) {
     const text = page.locator("#json");
     const shape = page.locator("#shape");

@@ -46,6 +46,7 @@ export function createAccuracyPanel(store, { failed, open }) {
   });
   const ladder = createLadder((name, options) => choose("rung", name, options));
   const rungs = fields.rung.element.querySelector("select");
+  const expects = el("p", { id: "expected" });
   const predicted = el("p", { class: "why", id: "predicted" });
   const simulates = el("p", { class: "why" });
   let planned = ""; // the rung of the last plan
@@ -66,7 +67,7 @@ export function createAccuracyPanel(store, { failed, open }) {
 
   return {
     element: group("Accuracy", "/accuracy", open, ladder.element, by.element, fields.error.element, fields.time_ms.element,
-      fields.rung.element, predicted, simulates, ask),
+      fields.rung.element, expects, el("details", { class: "how" }, el("summary", {}, "How"), predicted, simulates), ask),
     refresh() {
       offer(known);
       by.refresh();
@@ -80,7 +81,7 @@ export function createAccuracyPanel(store, { failed, open }) {
     },
     // The document is another one: what was said of the last is not of it.
     forget() {
-      predicted.textContent = simulates.textContent = "";
+      expects.textContent = predicted.textContent = simulates.textContent = "";
       ladder.offer([], "");
       sweep.forget();
     },
@@ -93,6 +94,7 @@ export function createAccuracyPanel(store, { failed, open }) {
       if (typeof expected?.error === "number") said.push(`error ${percent(expected.error)}`);
       if (typeof expected?.time_ms === "number") said.push(`time ${duration(expected.time_ms)}`);
       predicted.textContent = said.length ? `${rung}, predicted: ${said.join(", ")}.` : "";
+      expects.textContent = said.length < 2 ? "" : `Expected: about ${percent(expected.error)} from the truth, in ${duration(expected.time_ms)}.`;
       const what = (all ?? []).find((one) => one.rung === rung)?.simulates ?? "";
       simulates.textContent = [what, reason].filter(Boolean).map((text) => text[0].toUpperCase() + text.slice(1)).join(". ") + (what || reason ? "." : "");
       offer(known);

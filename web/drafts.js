@@ -35,7 +35,24 @@ export function createDrafts(store, keeping, { open, note, failed }) {
     none, list);
   document.body.append(dialog);
 
-  function entry({ id, title, time, scene, written }) {
+  let forgotten = []; // while the list is open, each can be had back
+  function lost(draft) {
+    const back = el("button", {
+      type: "button", class: "draft", onclick: async () => {
+        try {
+          await keeping.restore(draft);
+          forgotten = forgotten.filter((one) => one !== draft);
+          await fill();
+          list.querySelector(".draft").focus();
+        } catch (error) {
+          failed(error);
+        }
+      },
+    }, el("strong", {}, "Take it back"), el("span", { class: "why" }, `${draft.title || "Without a name"}, forgotten`));
+    return el("li", {}, back);
+  }
+  function entry(draft) {
+    const { id, title, time, scene, written } = draft;
     const name = title || "Without a name";
     const current = id === store.work.id;
     const take = el("button", {
@@ -50,6 +67,7 @@ export function createDrafts(store, keeping, { open, note, failed }) {
       onclick: async () => {
         try {
           await keeping.forget(id);
+          forgotten.push(draft);
           await fill();
           (list.querySelector(".draft") ?? dialog.querySelector("button")).focus();
         } catch (error) {
@@ -61,11 +79,12 @@ export function createDrafts(store, keeping, { open, note, failed }) {
   }
   async function fill() {
     const drafts = await keeping.drafts();
-    none.hidden = drafts.length > 0;
-    list.replaceChildren(...drafts.map(entry));
+    none.hidden = drafts.length + forgotten.length > 0;
+    list.replaceChildren(...drafts.map(entry), ...forgotten.map(lost));
   }
   byId("open-drafts").addEventListener("click", async () => {
     await keeping.save();
+    forgotten = [];
     await fill();
     dialog.showModal();
   });

@@ -1,6 +1,6 @@
 // What the service says about the picture: how many particles, what ran and why, where time went.
 
-import { percent } from "./accuracy.js";
+import { duration, percent } from "./accuracy.js";
 import { at } from "./document.js";
 import { byId, el, plain } from "./dom.js";
 
@@ -15,25 +15,37 @@ function* figuresOf(survey, path = "") {
   }
 }
 
+// What a person cares for first: how long it took, and how far it is from the truth.
+function inShort({ particles, error }, took, isKept) {
+  const count = particles === null ? [] : [`${Number(particles).toLocaleString("en")} particles`];
+  const made = isKept ? "kept from before" : `made in ${duration(took)}`;
+  return [...count, made, ...(error === null ? [] : [`about ${percent(Number(error))} from the truth`])].join(", ");
+}
+
 export function createFigures(store) {
   const body = byId("plan-body");
   let choices = []; // [{ name, input }]
 
   // After every picture, small ones too.
-  function picture({ particles, rung, error, errorForecast, timeMs, effects, timing, roundTripMs }, width, height) {
+  function picture(said, width, height, isKept) {
+    const { particles, rung, error, errorForecast, timeMs, effects, timing, roundTripMs } = said;
     if (particles !== null) byId("particles").textContent = Number(particles).toLocaleString("en");
     if (rung !== null) byId("rung").textContent = rung;
     // Effects are parts of the stages.
     const ofEffects = new Map(timing.filter(({ name }) => effects?.includes(name)).map(({ name, ms }) => [name, ms]));
     const ofStages = timing.filter(({ name }) => !ofEffects.has(name));
-    const effect = (name) => words(name) + (ofEffects.has(name) ? ` (${milliseconds(ofEffects.get(name))})` : "");
-    if (effects !== null) byId("effects").textContent = effects.map(effect).join(", ") || "none";
+    if (effects !== null) byId("effects").textContent = effects.map(words).join(", ") || "none";
+    byId("timing-effects").textContent = ofEffects.size === 0 ? ""
+      : `For effects, of that: ${[...ofEffects].map(([name, ms]) => `${words(name)} ${milliseconds(ms)}`).join(", ")}`;
     byId("pixels").textContent = `${width} × ${height}`;
     byId("total").textContent = milliseconds(roundTripMs);
     const expected = errorForecast === null ? "" : ` (${percent(Number(errorForecast))} expected)`;
     byId("error").textContent = error === null ? "–" : percent(Number(error)) + expected;
     const took = timing.filter(({ name }) => ["generate", "survey", "light", "draw", "measure"].includes(name)).reduce((sum, { ms }) => sum + ms, 0);
     byId("time").textContent = timeMs === null ? milliseconds(took) : `${milliseconds(took)} of ${milliseconds(Number(timeMs))}`;
+
+    const text = inShort(said, took, isKept);
+    byId("in-short").textContent = text[0].toUpperCase() + text.slice(1);
 
     const inside = ofStages.reduce((sum, { ms }) => sum + ms, 0);
     // What the service did not account for: the way there and back.
@@ -87,7 +99,7 @@ export function createFigures(store) {
   function forget() {
     choices = [];
     body.replaceChildren();
-    for (const id of ["particles", "rung", "error", "time", "pixels", "total", "effects"]) byId(id).textContent = "–";
+    for (const id of ["particles", "rung", "error", "time", "pixels", "total", "effects", "in-short"]) byId(id).textContent = "–";
   }
   return { picture, plan, refresh, forget };
 }

@@ -107,6 +107,10 @@ export function createKeeping(store, { failed = () => {} } = {}) {
     async forget(id) {
       await wait((await storeOf("drafts", "readwrite")).delete(id));
     },
+    // A draft that was forgotten, as it was.
+    async restore(draft) {
+      await put("drafts", draft, kDrafts, "id");
+    },
     // What this tab had on the page before it was loaded again; null where it was at another address, or never here.
     async session() {
       try {

@@ -111,13 +111,13 @@ export const implicit = {
     { kind: "section", title: "Shapes", fields: [
       { make: copyButton, when: (own) => !shapesOfItsOwn(own) },
       { kind: "table", member: "primitives", title: "Primitives", noun: "primitive", one: "a primitive",
-        why: "With none of its own the cloud has the preset’s. Points, rotation and keys: as JSON below.",
+        why: "With none of its own the cloud has the preset’s. Points and keys: as JSON below.",
         fresh: { shape: "sphere", center: [0, 0, 0], radius: 30 },
         columns: [
           { title: "shape", member: "shape", change: reshaped },
           ...triple("centre", "center"), { title: "radius", member: "radius" },
           { title: "weight", member: "weight", step: 0.1 }, { title: "core", member: "core" },
-          ...triple("× radius", "radii", 0.05),
+          ...triple("× radius", "radii", 0.05), ...triple("turn, °", "rotate", 5),
         ] },
       { kind: "number", member: "base", label: "Flat base", empty: "the preset’s" },
     ] },

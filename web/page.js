@@ -190,11 +190,11 @@ const loop = createRenderLoop({
     const picture = await api.render(textFor(how), { preview: how.quick, signal });
     return { ...picture, isLit: /^transport-/.test(picture.figures.rung), width, height, reduction, transparent, isOwn };
   },
-  async shown({ blob, figures: said, width, height, reduction, transparent, isOwn }, { whole }) {
+  async shown({ blob, figures: said, isKept, width, height, reduction, transparent, isOwn }, { whole }) {
     stage.shape(width, height, transparent);
     const count = said.particles === null ? "" : ` of ${said.particles} particles`;
     await stage.show(blob, `Cloud${count}, ${width} by ${height} pixels`);
-    figures.picture(said, Math.round(width / reduction), Math.round(height / reduction));
+    figures.picture(said, Math.round(width / reduction), Math.round(height / reduction), isKept);
     problem = null;
     showProblem();
     tokenField.done();

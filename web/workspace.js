@@ -6,8 +6,9 @@ import { cameraOf, kSteepest, orbitOf } from "./camera.js";
 import { at } from "./document.js";
 import { byId, el } from "./dom.js";
 import { createFlight } from "./flight.js";
+import { NONE } from "./rotation.js";
 import { atOrDefault } from "./schema.js";
-import { added, cleared, duplicated, removed, transformed } from "./workspace_edit.js";
+import { added, cleared, duplicated, removed, transformed, turnedTo } from "./workspace_edit.js";
 import { around, isTriple, itemsOf } from "./workspace_items.js";
 import { createPanel } from "./workspace_panel.js";
 import { createSky } from "./workspace_sky.js";
@@ -125,8 +126,9 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, seen, fa
     selectAll: () => select(items.filter((item) => !item.whole || item.bare).map(({ id }) => id)),
     // By numbers. `key` keeps what belongs together in one step of undo.
     transform(spec, key) {
-      store.update((scene) => transformed(scene, ids(), { pivot: pivotOf(), frame: active()?.turn ?? 0, ...spec }), { key });
+      store.update((scene) => transformed(scene, ids(), { pivot: pivotOf(), frame: active()?.axes ?? NONE, ...spec }), { key });
     },
+    turnTo: (axis, degrees) => store.update((scene) => turnedTo(scene, active().id, axis, degrees), { key: `workspace-turn-${axis}` }),
     change,
   };
   const orbit = () => orbitOf(store.scene, bounds());
@@ -144,7 +146,7 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, seen, fa
   }
   const told = {
     gizmo(spec) {
-      gesture ??= { key: Symbol("gizmo"), scene: store.scene, ids: mode === "rotate" ? turnedIds() : ids() };
+      gesture ??= { key: Symbol("gizmo"), scene: store.scene, ids: mode === "rotate" ? turning().ids : ids() };
       if (!pendingChange) requestAnimationFrame(applyGesture);
       pendingChange = spec;
     },
@@ -154,8 +156,18 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, seen, fa
       end();
     },
   };
-  // Only clouds can be turned: boxes of a document stand along their cloud's axes.
-  const turnedIds = () => [...new Set(chosenItems().map(({ cloud }) => cloud))].map((k) => `/clouds/${k}`);
+  // What a turn takes along, about where, and whether about every axis. What stands along its cloud's axes, as cubes do, takes
+  // all of the cloud with it, and that turns about y.
+  function turning() {
+    const chosenOnes = chosenItems();
+    if (chosenOnes.every(({ angles }) => angles)) {
+      return { ids: ids(), center: pivotOf(), freely: chosenOnes.every(({ angles }) => !angles.includes(null)) };
+    }
+    const clouds = new Set(chosenOnes.map(({ cloud }) => cloud));
+    return {
+      ids: [...clouds].map((k) => `/clouds/${k}`), center: items.find((one) => one.whole && one.cloud === active().cloud).center, freely: false,
+    };
+  }
   function end() {
     sprites.letGo();
     letGo();
@@ -300,7 +312,7 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, seen, fa
     refresh();
   }
   const toolbar = createToolbar({ actions, setMode, toggleBox, setStep, toggle, fly });
-  const panel = createPanel(store, { actions, select, ids, items: () => items, selection: () => selection, active, failed, note });
+  const panel = createPanel(store, { actions, select, ids, items: () => items, selection: () => selection, active, cloud: () => choice.index, failed, note });
   stage.after(toolbar.element, flight.bar.element);
 
   const sprites = createSpriteLoop({
@@ -396,8 +408,8 @@ export function createWorkspace(store, choice, { bounds, letGo, chosen, seen, fa
     view.items(drawn);
     view.sun(sunAngles());
     const item = active();
-    const inCloud = mode === "rotate" && item ? items.find((one) => one.whole && one.cloud === item.cloud) : null;
-    view.gizmo(item ? { mode, center: inCloud?.center ?? pivotOf(), turn: item.turn, snap: step } : null);
+    const grip = item && mode === "rotate" ? turning() : { center: item && pivotOf(), freely: true };
+    view.gizmo(item && !flight.on ? { mode, center: grip.center, axes: grip.freely ? item.axes : NONE, freely: grip.freely, snap: step } : null);
     const sunNow = JSON.stringify(sunAngles());
     if (sunNow !== litBy && !gesture) sprites.lit();
     litBy = sunNow;

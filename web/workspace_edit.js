@@ -1,7 +1,8 @@
 // Edits of a scene by its items (workspace_items.js). Each takes a scene and gives another.
 
 import { at, cloudsOf, modelOf, withAt, withCloudList } from "./document.js";
-import { PARCELS, inward, isTriple, outward, partsAt, placeOf, turned } from "./workspace_items.js";
+import { NONE, about, anglesOf, applied, ofAngles, product, transposed } from "./rotation.js";
+import { PARCELS, inward, isTriple, outward, ownerOf, partsAt, placeOf, turned, turnsOf } from "./workspace_items.js";
 
 const short = (x) => Number(x.toPrecision(7)) + 0; // + 0: no "-0" in documents
 const LIST = /^(.*?)\/(cubes|implicit\/primitives\/\d+\/keys|implicit\/primitives|ellipsoids\/ellipsoids|ellipsoids\/formations|automaton\/ellipsoids)\/(\d+)$/;
@@ -14,7 +15,7 @@ function partOf(id) {
 }
 const cloudOf = (id) => Number(/^\/clouds\/(\d+)/.exec(id)?.[1] ?? 0);
 
-// A change of several lists: change(list, indices, place) -> list, for each list that holds some of the ids.
+// A change of several lists: change(list, indices, place, turns, owner) -> list, for each list that holds some of the ids.
 function withLists(scene, ids, change) {
   const lists = new Map();
   for (const id of ids) {
@@ -31,7 +32,8 @@ function withLists(scene, ids, change) {
     if (!own && member === "implicit/primitives") next = withOwnShapes(next, base);
     const list = partsAt(next, base, member);
     const { cloud, pointer } = cloudsOf(scene)[cloudOf(base)];
-    next = withAt(next, `${base}/${member}`, change([...list], new Set(indices), placeOf(scene, cloud, pointer, member)));
+    next = withAt(next, `${base}/${member}`, change(
+      [...list], new Set(indices), placeOf(scene, cloud, pointer, member), turnsOf(member), ownerOf(next, base, member)));
   }
   return next;
 }
@@ -42,20 +44,36 @@ function withOwnShapes(scene, base) {
 }
 const clouds = (ids) => new Set([...ids].filter((id) => !partOf(id)).map(cloudOf));
 
-// { move: [x, y, z], scale: [x, y, z], turn: degrees about y }, about `pivot`, along axes turned by `frame` degrees.
-// What has to be uniform (the radius of particles, a cloud's scale) takes the mean of the factors, by volume.
-export function transformed(scene, ids, { move = [0, 0, 0], scale = [1, 1, 1], turn = 0, pivot, frame = 0 }) {
+const kUp = 1; // the axis
+const angleAbout = (turn) => anglesOf(turn, [kUp, 0, 2])[kUp];
+const within180 = (degrees) => short((((degrees % 360) + 540) % 360) - 180);
+
+// A part turned by a rotation of its cloud's coordinates, as far as it can be.
+function turnedPart(part, turn, turns, owner) {
+  const angles = turns?.get(part, owner);
+  if (!angles) return part;
+  const next = turns.order ? anglesOf(product(turn, ofAngles(angles, turns.order)), turns.order)
+    : angles.map((degrees, axis) => (axis === kUp ? degrees + angleAbout(turn) : degrees));
+  return turns.set(part, next.map((degrees) => (degrees === null ? null : within180(degrees))));
+}
+
+// { move: [x, y, z], scale: [x, y, z], turn: a rotation or null }, about `pivot`; scale: along the axes of the rotation `frame`.
+// What has to be uniform (the radius of particles, a cloud's scale) takes the mean of the factors, by volume; clouds turn
+// about y only, and what stands along its cloud's axes goes round and stays as it is.
+export function transformed(scene, ids, { move = [0, 0, 0], scale = [1, 1, 1], turn = null, pivot, frame = NONE }) {
   const isEven = scale.every((factor) => Math.abs(factor - scale[0]) < 1e-9);
   const mean = Math.cbrt(scale[0] * scale[1] * scale[2]);
+  const [into, outOf] = [transposed(frame), turn ? product(turn, frame) : frame];
   const carried = (point) => {
-    const inFrame = turned(point.map((x, axis) => x - pivot[axis]), -frame).map((x, axis) => x * scale[axis]);
-    return turned(inFrame, frame + turn).map((x, axis) => x + pivot[axis] + move[axis]);
+    const inFrame = applied(into, point.map((x, axis) => x - pivot[axis])).map((x, axis) => x * scale[axis]);
+    return applied(outOf, inFrame).map((x, axis) => x + pivot[axis] + move[axis]);
   };
-  let next = withLists(scene, ids, (list, indices, place) => (
+  let next = withLists(scene, ids, (list, indices, place, turns, owner) => (
     list.map((part, i) => {
       if (!indices.has(i)) return part;
       const center = inward(place, carried(outward(place, part.center ?? [0, 0, 0]))).map(short);
       const grown = { ...part, center };
+      if (turn) return turnedPart(grown, product(about(kUp, -place.turn), turn, about(kUp, place.turn)), turns, owner);
       if (scale.every((factor) => factor === 1)) return grown;
       if (isTriple(part.size)) {
         grown.size = part.size.map((side, axis) => short(side * scale[axis]));
@@ -78,11 +96,21 @@ export function transformed(scene, ids, { move = [0, 0, 0], scale = [1, 1, 1], t
       const before = isTriple(cloud.translate) ? cloud.translate : [0, 0, 0];
       const changed = { ...cloud, translate: before.map((t, axis) => short(t + there[axis] - place.translate[axis])) };
       if (mean !== 1) changed.scale = short(place.scale * mean);
-      if (turn !== 0) changed.rotate_y = short((((place.turn + turn) % 360) + 540) % 360 - 180);
+      if (turn) changed.rotate_y = within180(place.turn + angleAbout(turn));
       return changed;
     }) };
   }
   return next;
+}
+
+// One of the angles of an item, as the document says them.
+export function turnedTo(scene, id, axis, degrees) {
+  if (!partOf(id)) {
+    const next = withCloudList(scene);
+    return { ...next, clouds: next.clouds.map((cloud, k) => (k === cloudOf(id) ? { ...cloud, rotate_y: degrees } : cloud)) };
+  }
+  return withLists(scene, [id], (list, indices, _place, turns, owner) => list.map((part, i) => (
+    indices.has(i) ? turns.set(part, turns.get(part, owner).map((angle, other) => (other === axis ? degrees : angle))) : part)));
 }
 
 // Twins of items, behind the last of their list. [scene, ids of the twins].

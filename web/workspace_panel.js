@@ -9,11 +9,12 @@ import { fieldAt } from "./schema.js";
 import { around } from "./workspace_items.js";
 import { STARTERS, THICKNESS, cloudsFrom, scattered, started, thickened, withClouds, withStarter } from "./workspace_shapes.js";
 
-const kListed = 500; // lines of the outline; the picture and the table have the rest
+const kListed = 500; // lines of the outline; of more items, it has the clouds, and the parts of those at hand
+const kMostListed = 2000; // the picture and the table have the rest
 const kMostTwins = 200;
 
-// ids() -> those to change, a cloud instead of its parts; the rest: what there is and what is selected.
-export function createPanel(store, { actions, select, ids, items, selection, active, failed, note }) {
+// ids() -> those to change, a cloud instead of its parts; the rest: what there is, what is selected, and the cloud at hand.
+export function createPanel(store, { actions, select, ids, items, selection, active, cloud, failed, note }) {
   // --- the outline ---
 
   const outlineId = freshId("outline");
@@ -31,22 +32,26 @@ export function createPanel(store, { actions, select, ids, items, selection, act
   const more = el("p", { class: "why", hidden: true });
   let listed = "";
   function refreshOutline() {
-    const shown = items().slice(0, kListed);
+    // Of many items, the clouds, and the parts of those at hand.
+    const all = items();
+    const chosenOnes = new Set(selection());
+    const near = new Set(all.filter(({ id }) => chosenOnes.has(id)).map((item) => item.cloud)).add(cloud());
+    const shown = (all.length <= kListed ? all : all.filter((item) => item.whole || near.has(item.cloud))).slice(0, kMostListed);
     const now = shown.map(({ id, label }) => `${id} ${label}`).join();
     if (now !== listed) {
       listed = now;
       outline.replaceChildren(...shown.map(({ id, label, whole }) => el("option", { value: id }, whole ? label : `\u2003${label}`)));
     }
-    const chosen = new Set(selection());
-    for (const option of outline.options) if (option.selected !== chosen.has(option.value)) option.selected = chosen.has(option.value);
-    more.hidden = items().length <= kListed;
-    more.textContent = `${items().length - kListed} more: in the picture and the table.`;
+    for (const option of outline.options) if (option.selected !== chosenOnes.has(option.value)) option.selected = chosenOnes.has(option.value);
+    more.hidden = shown.length === all.length;
+    more.textContent = `${(all.length - shown.length).toLocaleString("en")} more: choose their cloud, or click in the picture.`;
   }
 
   // --- numbers ---
 
   const length = { above: true, least: 0 };
-  function axes(label, field, get, set) {
+  // isFor(axis): whether what is selected has such a number.
+  function axes(label, field, get, set, isFor = () => true) {
     const inputs = ["x", "y", "z"].map((axis, i) => {
       const one = numberInput({
         pointer: "", field, "aria-label": `${label}, ${axis}`, title: axis, digits: 5, get: () => get()?.[i],
@@ -58,8 +63,8 @@ export function createPanel(store, { actions, select, ids, items, selection, act
     return {
       element: el("div", { class: "field vector", role: "group", "aria-label": label }, el("span", { class: "name" }, label),
         el("span", { class: "axes" }, ...inputs.map(({ input }, i) => el("span", { "data-axis": "xyz"[i] }, input)))),
-      refresh: () => inputs.forEach((one) => {
-        one.input.disabled = active() === null;
+      refresh: () => inputs.forEach((one, i) => {
+        one.input.disabled = active() === null || !isFor(i);
         one.refresh();
       }),
     };
@@ -74,6 +79,8 @@ export function createPanel(store, { actions, select, ids, items, selection, act
     scale[axis] = value / (2 * active().half[axis]);
     actions.transform({ scale, pivot: active().center }, `workspace-size-${axis}`);
   });
+  const turn = axes("Turned, °", null, () => active()?.angles?.map((degrees) => degrees ?? undefined),
+    (axis, value) => actions.turnTo(axis, value), (axis) => typeof active().angles?.[axis] === "number");
   // What the selected cubes are painted with.
   const cubes = () => selection().filter((id) => /\/cubes\/\d+$/.test(id));
   const paint = (member, value) => store.update((scene) => cubes().reduce((next, id) => withAt(next, `${id}/${member}`, value), scene), { key: `workspace-${member}` });
@@ -157,7 +164,7 @@ export function createPanel(store, { actions, select, ids, items, selection, act
   });
 
   const element = group("Shape", "", window.matchMedia("(min-width: 60rem)").matches,
-    el("label", { for: outlineId, class: "unseen" }, "Outline"), outline, more, what, centre.element, size.element,
+    el("label", { for: outlineId, class: "unseen" }, "Outline"), outline, more, what, centre.element, size.element, turn.element,
     field("Factor", factorId, factor, scaleAll), painted,
     field("Start with", starterId, starter,
       button("New", () => actions.change(started(store.scene, starter.value), [])),
@@ -177,6 +184,8 @@ export function createPanel(store, { actions, select, ids, items, selection, act
     scaleAll.setAttribute("aria-disabled", String(one === null));
     centre.refresh();
     size.refresh();
+    turn.element.hidden = !one?.angles;
+    turn.refresh();
     refreshPaint();
   }
   element.addEventListener("toggle", refresh);

@@ -88,6 +88,7 @@ export function createSpriteLoop({ view, scene, seen, sun, tone }) {
   async function askLight() {
     const document = seen();
     if (!known?.set || !view() || document === litScene || lightFlight || known.whole > kMostLit) return;
+    if ((document.look ?? "physical") !== "physical") return; // a look has no light
     const controller = new AbortController();
     lightFlight = controller;
     litScene = document;

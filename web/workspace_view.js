@@ -3,10 +3,11 @@
 // plain values come in, and what is done with the pointer goes out.
 
 import {
-  BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, GridHelper, Group, LineBasicMaterial, LineSegments, Mesh,
-  MeshBasicMaterial, Object3D, PerspectiveCamera, Scene, SphereGeometry, Vector3, WebGLRenderer,
+  BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, GridHelper, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh,
+  MeshBasicMaterial, Object3D, PerspectiveCamera, Quaternion, Scene, SphereGeometry, Vector3, WebGLRenderer,
 } from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
+import { applied, transposed } from "./rotation.js";
 import { createSprites } from "./workspace_sprites.js";
 
 const kRing = 40; // pieces of a ring
@@ -40,13 +41,15 @@ for (const axis of [0, 1, 2]) {
 
 const radians = (degrees) => (degrees * Math.PI) / 180;
 
-function put(item, [x, y, z], to, at) {
-  const [c, s] = [Math.cos(radians(item.turn)), Math.sin(radians(item.turn))];
-  const [a, b, d] = [x * item.half[0], y * item.half[1], z * item.half[2]];
-  to[at] = item.center[0] + a * c + d * s;
-  to[at + 1] = item.center[1] + b;
-  to[at + 2] = item.center[2] + d * c - a * s;
+function put({ center, half, axes }, [x, y, z], to, at) {
+  const [a, b, c] = [x * half[0], y * half[1], z * half[2]];
+  for (let axis = 0; axis < 3; axis += 1) to[at + axis] = center[axis] + axes[axis][0] * a + axes[axis][1] * b + axes[axis][2] * c;
 }
+const matrixOf = (quaternion) => {
+  const e = new Matrix4().makeRotationFromQuaternion(quaternion).elements;
+  return [0, 1, 2].map((row) => [e[row], e[4 + row], e[8 + row]]);
+};
+const quaternionOf = ([x, y, z]) => new Quaternion().setFromRotationMatrix(new Matrix4().set(...x, 0, ...y, 0, ...z, 0, 0, 0, 0, 1));
 
 // All items as one set of lines.
 function createWires() {
@@ -136,6 +139,8 @@ export function createView(canvas, told) {
   let grid = null;
   let items = [];
   let detail = 1; // share of the screen's pixels along a side that sprites are drawn with
+  const isSoftware = drawsInSoftware(renderer.getContext());
+  let flying = false;
   let home = { center: [0, 0, 0], radius: 5 }; // what is looked at: the grid lies under it, the dome stands around it
   const handle = new Object3D();
   const gizmo = new TransformControls(camera, canvas);
@@ -145,23 +150,32 @@ export function createView(canvas, told) {
   let asked = 0;
   function render() {
     asked = 0;
-    sprites.draw(renderer, camera, detail);
+    sprites.draw(renderer, camera, isWholeSmall() ? 1 : detail);
     renderer.render(scene, camera);
   }
   const draw = () => { asked ||= requestAnimationFrame(render); };
+  // In a flight there is nothing but sprites: without a GPU, all of the canvas has as few pixels as these, for every pixel of
+  // it is work, and again when the browser puts the page together.
+  const isWholeSmall = () => flying && isSoftware;
+  function resize() {
+    renderer.setPixelRatio(isWholeSmall() ? detail : Math.min(2, window.devicePixelRatio));
+    renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
+    draw();
+  }
 
   // --- the gizmo ---
 
-  const start = { position: new Vector3(), turn: 0 };
+  const start = { position: new Vector3(), turn: new Quaternion() };
   gizmo.addEventListener("mouseDown", () => {
     start.position.copy(handle.position);
-    start.turn = handle.rotation.y;
+    start.turn.copy(handle.quaternion);
     handle.scale.set(1, 1, 1);
   });
   gizmo.addEventListener("objectChange", () => {
     told.gizmo({
       move: handle.position.clone().sub(start.position).toArray(), scale: handle.scale.toArray().map((factor) => Math.max(0.01, Math.abs(factor))),
-      turn: ((handle.rotation.y - start.turn) * 180) / Math.PI, pivot: start.position.toArray(), frame: (start.turn * 180) / Math.PI,
+      turn: gizmo.mode === "rotate" ? matrixOf(handle.quaternion.clone().multiply(start.turn.clone().invert())) : null,
+      pivot: start.position.toArray(), frame: matrixOf(start.turn),
     });
   });
   gizmo.addEventListener("mouseUp", () => {
@@ -189,8 +203,8 @@ export function createView(canvas, told) {
   }
   // How far along the ray an item is met; Infinity where it is not.
   function distanceTo(item, { from, along }) {
-    const [c, s] = [Math.cos(radians(-item.turn)), Math.sin(radians(-item.turn))];
-    const inside = ([x, y, z]) => [x * c + z * s, y, z * c - x * s].map((value, axis) => value / item.half[axis]);
+    const inward = transposed(item.axes);
+    const inside = (vector) => applied(inward, vector).map((value, axis) => value / item.half[axis]);
     const origin = inside(from.map((x, axis) => x - item.center[axis]));
     const direction = inside(along);
     if (item.round) {
@@ -249,11 +263,7 @@ export function createView(canvas, told) {
   }
 
   return {
-    resize() {
-      renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
-      renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
-      draw();
-    },
+    resize,
     camera({ eye, target, up, fov, aspect }) {
       Object.assign(camera, { fov, aspect });
       camera.position.set(...eye);
@@ -291,14 +301,16 @@ export function createView(canvas, told) {
     // Nobody takes hold of anything in a flight.
     flies(yes) {
       for (const one of [wires.object, axes, dome.group, gizmo.getHelper(), ...(grid ? [grid] : [])]) one.visible = !yes;
-      draw();
+      flying = yes;
+      resize();
     },
     items(list) {
       items = list;
       wires.show(list);
       draw();
     },
-    // { mode: "translate" | "rotate" | "scale", center, turn, snap: length or 0 }, or null.
+    // { mode: "translate" | "rotate" | "scale", center, axes, freely, snap: length or 0 }, or null. axes: a rotation; freely: it
+    // may be turned about each of them, not about y only.
     gizmo(spec) {
       if (gizmo.dragging) return;
       if (!spec) {
@@ -307,11 +319,11 @@ export function createView(canvas, told) {
         return;
       }
       handle.position.set(...spec.center);
-      handle.rotation.set(0, radians(spec.turn), 0);
+      handle.quaternion.copy(quaternionOf(spec.axes));
       handle.scale.set(1, 1, 1);
       gizmo.setMode(spec.mode);
       gizmo.setSpace(spec.mode === "translate" ? "world" : "local");
-      [gizmo.showX, gizmo.showZ] = [spec.mode !== "rotate", spec.mode !== "rotate"];
+      gizmo.showX = gizmo.showZ = spec.mode !== "rotate" || spec.freely;
       gizmo.setTranslationSnap(spec.snap || null);
       gizmo.setScaleSnap(spec.snap ? 0.1 : null);
       gizmo.setRotationSnap(spec.snap ? radians(15) : null);
@@ -350,11 +362,12 @@ export function createView(canvas, told) {
       sprites.gain(value);
       draw();
     },
-    isSoftware: drawsInSoftware(renderer.getContext()),
+    isSoftware,
     detail(share) {
       if (share === detail) return;
       detail = share;
-      draw();
+      if (isWholeSmall()) resize();
+      else draw();
     },
     spritesAt(opacity) {
       sprites.setOpacity(opacity);
