@@ -169,6 +169,17 @@ Result<double> difference_of(const TransportLight& light, int cells, MeasuredPic
     return difference;
 }
 
+// The light of the coarsest rung's grid on the way to `light`, of so many cells. Whatever is asked for goes by it, so
+// pictures that are marched like it tell the same of a rung.
+const TransportLight& of_coarsest_rung(const TransportLight& light, int cells) {
+    const std::vector<int> grids = nested_cells(cells);
+    const TransportLight* found = &light;
+    for (std::size_t i = grids.size();
+         i-- > 1 && rung_with(grids[i - 1]) != nullptr && found->coarser;)
+        found = found->coarser.get();
+    return *found;
+}
+
 // Whether an island in the picture has no finer grid than it had on the next coarser step: by how much these differ
 // says nothing of it.
 bool has_islands_as_before(const Climb& climb, int cells) {
@@ -194,6 +205,7 @@ const RungForecast* forecast_of(const Plan& plan, const Rung& rung) {
 // States the error of the light that was reached, of a grid with so many cells.
 Status measure(const Climb& climb, int cells, MeasuredPictures& pictures, Climbed& reached) {
     const auto start = Clock::now();
+    pictures.march_like(of_coarsest_rung(*reached.light, cells));
     const auto difference = difference_of(*reached.light, cells, pictures);
     if (!difference.ok()) return difference.error();
     reached.stated = stated_error(*difference, climb, cells);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/draw/backdrop.h"
+#include "core/draw/march_setup.h"
 #include "core/draw/picture_difference.h"
 #include "core/scene/outside.h"
 #include "core/scene/validate.h"
@@ -52,13 +53,25 @@ Result<MeasuredPictures> MeasuredPictures::of(const Scene& scene, const Planned&
     return MeasuredPictures(scene, *std::move(measured), planned, blocks, threads, deadline);
 }
 
+const std::vector<SeenParticle>& MeasuredPictures::seen() {
+    if (seen_.empty())
+        seen_ = see_particles(planned_->particles, planned_->survey.view, measured_->image.width,
+                              measured_->image.height, threads_);
+    return seen_;
+}
+
+void MeasuredPictures::march_like(const TransportLight& light) {
+    if (fineness_.empty())
+        fineness_ = fineness_of(planned_->survey.view, light, planned_->particles, seen());
+}
+
 Result<Image> MeasuredPictures::draw(const Scene& scene, const TransportLight& light) {
     const ParticleSet& particles = planned_->particles;
     const View& view = planned_->survey.view;
-    if (seen_.empty())
-        seen_ = see_particles(particles, view, scene->image.width, scene->image.height, threads_);
+    march_like(light);
     MarchSettings settings;
-    settings.seen = &seen_;
+    settings.seen = &seen();
+    settings.fineness = fineness_;
     if (!scene->ground && light.sky && light.peak_share > 0 && outside_of(scene).sky.shines) {
         if (!through_peak_)
             through_peak_ = behind_through_peak(
@@ -68,7 +81,6 @@ Result<Image> MeasuredPictures::draw(const Scene& scene, const TransportLight& l
     }
     settings.eye_effects = planned_->plan.eye_effects();
     settings.one_ray = true;
-    settings.same_fineness = &fineness_;
     settings.sampled_blocks = blocks_;
     return march(scene, particles, view, light, settings, threads_, *deadline_);
 }

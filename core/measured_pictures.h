@@ -22,6 +22,10 @@ class MeasuredPictures {
     static Result<MeasuredPictures> of(const Scene& scene, const Planned& planned, int blocks,
                                        int threads, const Deadline& deadline);
 
+    // All pictures are marched as finely as that light's would be; the first call counts. Without one they are as the
+    // first light of them asks for.
+    void march_like(const TransportLight& light);
+
     // By how much the picture of `coarser` is off where that of `finer` is the truth (picture_difference()). Errors:
     // kOverDeadline, kCancelled.
     Result<double> difference(const TransportLight& coarser, const TransportLight& finer);
@@ -42,6 +46,7 @@ class MeasuredPictures {
           blocks_(blocks),
           threads_(threads) {}
 
+    const std::vector<SeenParticle>& seen();
     Result<Image> draw(const Scene& scene, const TransportLight& light);
     Result<const Image*> of(const TransportLight& light);
     Result<Image> with_behind(const Image& measured, const TransportLight& light);

@@ -8,6 +8,7 @@
 #include "core/base/morton.h"
 #include "core/draw/backdrop.h"
 #include "core/draw/march_bins.h"
+#include "core/draw/march_setup.h"
 #include "core/draw/picture_difference.h"
 #include "core/generate/detail.h"
 #include "tests/march_lights.h"
@@ -80,18 +81,16 @@ TEST(MarchSample, PicturesThatShareTheirFinenessDifferByTheirLightAlone) {
     const auto constant = [](glm::dvec3) { return 2.0; };
     const TransportLight coarse = test::grid_light(stage.scene, stage.particles, 14, 1, constant),
                          fine = test::grid_light(stage.scene, stage.particles, 24, 1, constant);
-    MarchFinenesses shared;
     MarchSettings settings;
     settings.one_ray = true;
     const Image own_of_coarse = test::marched(stage, coarse, 2, settings),
                 own_of_fine = test::marched(stage, fine, 2, settings);
-    settings.same_fineness = &shared;
+    settings.fineness = fineness_of(stage.view, coarse, stage.particles,
+                                    see_particles(stage.particles, stage.view, kWidth, kHeight, 1));
+    ASSERT_EQ(settings.fineness.size(), 1u);  // there are no islands
     const Image of_coarse = test::marched(stage, coarse, 2, settings);
     EXPECT_EQ(of_coarse.pixels, own_of_coarse.pixels);
-    ASSERT_EQ(shared.size(), 1u);  // there are no islands
-    const double step = shared.front().step;
     const Image of_fine = test::marched(stage, fine, 2, settings);
-    EXPECT_EQ(shared.front().step, step);
     const double by_light = picture_difference(of_coarse, of_fine),
                  by_steps = picture_difference(own_of_coarse, own_of_fine);
     EXPECT_LT(by_light, 1e-5);

@@ -96,7 +96,7 @@ Result<Image> march(const Scene& scene, const ParticleSet& particles, const View
     MarchScene march =
         march_scene(scene, view, light, particles, seen, settings.step_error, threads);
     march.one_ray = settings.one_ray;
-    if (settings.same_fineness != nullptr) share_fineness(*settings.same_fineness, march);
+    if (!settings.fineness.empty()) set_fineness(settings.fineness, march);
     if (settings.sampled_blocks > 0)
         march.wanted = sample_blocks(seen, image.width, image.height, settings.sampled_blocks);
     MarchBehind around;

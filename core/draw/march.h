@@ -34,9 +34,9 @@ struct MarchSettings {
     const std::vector<SeenParticle>* seen = nullptr;
     // What behind_through_peak (behind_peak.h) finds there; null: it is found out.
     const BehindPeak* through_peak = nullptr;
-    // Of pictures of different lights that are compared: where it is empty it takes what this picture has, else this
-    // one has that. Other steps meet other places in lumps, by which pictures differ more than by their lights.
-    MarchFinenesses* same_fineness = nullptr;
+    // Instead of what the light's own grid asks for; EMPTY: that. Of pictures of different lights that are compared:
+    // other steps meet other places in lumps, by which pictures differ more than by their lights.
+    MarchFinenesses fineness;
 };
 
 // The sun's light and the sky's, each as the matter scatters it exactly once (core/light/once_scattered.h).

@@ -40,8 +40,8 @@ class Rooms {
 };
 
 // Sets the lengths of steps and the gaps between looked up rays. `longer`: factor of the usual lengths.
-void set_fineness(const TransportLight& light, const std::vector<SeenParticle>& seen, double longer,
-                  MarchScene& march) {
+void find_fineness(const TransportLight& light, const std::vector<SeenParticle>& seen,
+                   double longer, MarchScene& march) {
     double sum = 0;
     float least = seen.front().s;
     for (const SeenParticle& one : seen) {
@@ -161,23 +161,30 @@ MarchScene march_scene(const Scene& scene, const View& view, const TransportLigh
     const double finer = std::sqrt(std::clamp(step_error, 1e-5, 0.1) / 0.01);
     march.step_depth = static_cast<float>(kStepDepth * finer);
     if (seen.empty()) return march;
-    set_fineness(light, seen, std::min(finer, 1.5), march);
+    find_fineness(light, seen, std::min(finer, 1.5), march);
     const ChordRange chords = chords_of(march);
     march.table = peak_table(march.medium, march.peak, chords.least, chords.most);
     return march;
 }
 
-void share_fineness(MarchFinenesses& shared, MarchScene& march) {
-    if (shared.empty()) {
-        shared.push_back({march.step, march.apart});
-        for (const SeenIsland& island : march.islands)
-            shared.push_back({island.step, island.apart});
-    }
-    march.step = shared.front().step;
-    march.apart = shared.front().apart;
-    for (std::size_t i = 0; i < march.islands.size() && i + 1 < shared.size(); ++i) {
-        march.islands[i].step = shared[i + 1].step;
-        march.islands[i].apart = shared[i + 1].apart;
+MarchFinenesses fineness_of(const View& view, const TransportLight& light,
+                            const ParticleSet& particles, const std::vector<SeenParticle>& seen) {
+    if (seen.empty()) return {};
+    MarchScene march;
+    march.view = view;
+    march.detail = particles.detail.get();
+    find_fineness(light, seen, 1, march);
+    MarchFinenesses found{{march.step, march.apart}};
+    for (const SeenIsland& island : march.islands) found.push_back({island.step, island.apart});
+    return found;
+}
+
+void set_fineness(const MarchFinenesses& given, MarchScene& march) {
+    march.step = given.front().step;
+    march.apart = given.front().apart;
+    for (std::size_t i = 0; i < march.islands.size() && i + 1 < given.size(); ++i) {
+        march.islands[i].step = given[i + 1].step;
+        march.islands[i].apart = given[i + 1].apart;
     }
 }
 

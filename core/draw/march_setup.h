@@ -21,8 +21,12 @@ MarchScene march_scene(const Scene& scene, const View& view, const TransportLigh
                        double step_error, int threads, std::span<const std::uint8_t> islands = {},
                        int width = 0, int height = 0);
 
-// As MarchSettings::same_fineness.
-void share_fineness(MarchFinenesses& shared, MarchScene& march);
+// How finely the light's own grid is marched, with the usual step_error; EMPTY where nothing is seen.
+MarchFinenesses fineness_of(const View& view, const TransportLight& light,
+                            const ParticleSet& particles, const std::vector<SeenParticle>& seen);
+
+// As MarchSettings::fineness, not EMPTY.
+void set_fineness(const MarchFinenesses& given, MarchScene& march);
 
 // What a MarchScene refers to beside light and matter.
 struct MarchBehind {
