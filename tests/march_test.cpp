@@ -329,8 +329,11 @@ TEST(March, FinerStepsChangeLessThanTheError) {
             stage.scene, stage.particles, 32, 1,
             [](glm::dvec3 p) { return 1 + 0.5 * std::sin(p.x) * std::sin(1.3 * p.z); });
         light.sun = test::exact_sun(stage.scene, stage.particles, 48);
-        const Image coarse = test::marched(stage, light, 2, {0.01});
-        const Image fine = test::marched(stage, light, 2, {0.001});
+        MarchSettings settings;
+        settings.step_error = 0.01;
+        const Image coarse = test::marched(stage, light, 2, settings);
+        settings.step_error = 0.001;
+        const Image fine = test::marched(stage, light, 2, settings);
         double square = 0, mean = 0;
         for (std::size_t i = 0; i < coarse.pixels.size(); ++i) {
             if (i % 4 == 3) continue;
