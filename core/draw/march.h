@@ -36,7 +36,7 @@ struct MarchSettings {
     const BehindPeak* through_peak = nullptr;
     // Instead of what the light's own grid asks for; EMPTY: that. Of pictures of different lights that are compared:
     // other steps meet other places in lumps, by which pictures differ more than by their lights.
-    MarchFinenesses fineness;
+    MarchFinenesses fineness{};
 };
 
 // The sun's light and the sky's, each as the matter scatters it exactly once (core/light/once_scattered.h).
