@@ -74,9 +74,11 @@ run 2 render scene.json
 run 2 render -o a.png
 run 2 render scene.json -o a.png --colour red
 run 2 render scene.json -o a.png --width 0
-run 2 render scene.json -o a.png --size 64
-run 2 render scene.json -o a.png --size 64x48 --width 64
 contains "bad value" "width" "$(cat err)"
+run 2 render scene.json -o a.png --size 64
+contains "bad value" "64 is not WIDTHxHEIGHT" "$(cat err)"
+run 2 render scene.json -o a.png --size 64x48 --width 64
+contains "one of them" "excludes" "$(cat err)"
 run 2 render scene.json -o a.png --width many
 contains "bad value" "width" "$(cat err)"
 run 2 render scene.json -o a.png --format jpeg
